@@ -1,0 +1,10 @@
+def get_dependencies():
+    return []
+
+
+def get_layer():
+    return 0
+
+
+def get_description():
+    return "Errors, log, properties, module registry, files"

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace gnomon {
+
+/// One shader entry point, compiled at build time. Its name is its path under shaders/.
+struct EmbeddedShader {
+	std::string_view name; // "shadow_map/resolve.comp"
+	std::span<const uint32_t> spirv;
+};
+
+/// Every entry point of the modules in this build, ordered by module and name.
+std::span<const EmbeddedShader> get_embedded_shaders();
+/// The SPIR-V of one entry point. An unknown name is an Error naming it.
+std::span<const uint32_t> find_embedded_shader(std::string_view p_name);
+
+} // namespace gnomon

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "modules/core/text.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace gnomon {
+
+/// Bad input or a failed device: ends the command with exit code 1 and one line on stderr.
+/// The text names the object, the value, the allowed range and the next step.
+class Error : public std::runtime_error {
+public:
+	using std::runtime_error::runtime_error;
+};
+
+/// Wrong usage of the command line: exit code 2.
+class UsageError : public Error {
+public:
+	using Error::Error;
+};
+
+/// Throws Error with the arguments joined by text().
+template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_arguments) {
+	throw Error(text(p_arguments...));
+}
+
+/// Prints the message with its place and aborts. Called by GNOMON_ASSERT only.
+[[noreturn]] void abort_with_message(
+		const char *p_file, int p_line, const char *p_condition, const std::string &p_message);
+
+} // namespace gnomon
+
+/// Our own mistake, never bad input: prints the condition and the values given, then aborts.
+/// On in every build: this program measures errors, so it must not go on with a wrong state.
+#define GNOMON_ASSERT(m_condition, ...)                                                            \
+	do {                                                                                           \
+		if (!(m_condition)) [[unlikely]] {                                                         \
+			::gnomon::abort_with_message(                                                          \
+					__FILE__, __LINE__, #m_condition, ::gnomon::text(__VA_ARGS__));                \
+		}                                                                                          \
+	} while (false)

@@ -1,0 +1,177 @@
+#include "modules/core/files.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
+const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
+
+void write_all(int p_file, std::span<const uint8_t> p_bytes, const fs::path &p_path) {
+	size_t written = 0;
+	while (written < p_bytes.size()) {
+		const ssize_t count = ::write(p_file, p_bytes.data() + written, p_bytes.size() - written);
+		if (count < 0 && errno == EINTR) {
+			continue;
+		}
+		if (count <= 0) {
+			fail("Cannot write ", p_path, ": ", std::strerror(errno), ". Free some space or choose ",
+					"another place.");
+		}
+		written += static_cast<size_t>(count);
+	}
+}
+
+} // namespace
+
+std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
+	std::error_code code;
+	if (!fs::exists(p_path, code)) {
+		fail("File ", p_path, " does not exist. Check the path.");
+	}
+	if (!fs::is_regular_file(p_path, code)) {
+		fail(p_path, " is not a file. Name a file.");
+	}
+	const uint64_t size_bytes = fs::file_size(p_path, code);
+	if (code || size_bytes > p_limit_bytes) {
+		fail("File ", p_path, " has ", size_bytes, " bytes, at most ", p_limit_bytes,
+				" are read. Use a smaller file.");
+	}
+	std::ifstream stream(p_path, std::ios::binary);
+	std::vector<uint8_t> bytes(size_bytes);
+	stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size_bytes));
+	if (!stream) {
+		fail("Cannot read ", p_path, ": ", std::strerror(errno), ". Check its permissions.");
+	}
+	return bytes;
+}
+
+std::string load_text_file(const fs::path &p_path, uint64_t p_limit_bytes) {
+	const std::vector<uint8_t> bytes = load_file(p_path, p_limit_bytes);
+	return std::string(bytes.begin(), bytes.end());
+}
+
+void save_file_atomically(const fs::path &p_path, std::span<const uint8_t> p_bytes) {
+	const fs::path folder = p_path.has_parent_path() ? p_path.parent_path() : fs::path(".");
+	std::string temporary = (folder / ("." + p_path.filename().string() + ".XXXXXX")).string();
+	const int file = ::mkstemp(temporary.data());
+	if (file < 0) {
+		fail("Cannot write ", p_path, ": ", std::strerror(errno),
+				". The folder must exist and be writable.");
+	}
+	try {
+		write_all(file, p_bytes, p_path);
+		::fchmod(file, 0644);
+		if (::fsync(file) != 0) {
+			fail("Cannot write ", p_path, ": ", std::strerror(errno), ".");
+		}
+	} catch (...) {
+		::close(file);
+		::unlink(temporary.c_str());
+		throw;
+	}
+	::close(file);
+	if (::rename(temporary.c_str(), p_path.c_str()) != 0) {
+		const std::string reason = std::strerror(errno);
+		::unlink(temporary.c_str());
+		fail("Cannot write ", p_path, ": ", reason, ". Choose another place.");
+	}
+}
+
+void save_file_atomically(const fs::path &p_path, std::string_view p_text) {
+	save_file_atomically(p_path,
+			std::span(reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size()));
+}
+
+bool is_inside_folder(const fs::path &p_path, const fs::path &p_folder) {
+	std::error_code code;
+	const fs::path path = fs::weakly_canonical(fs::absolute(p_path), code);
+	const fs::path folder = fs::weakly_canonical(fs::absolute(p_folder), code);
+	if (code) {
+		return false;
+	}
+	const fs::path relative = path.lexically_relative(folder);
+	return !relative.empty() && *relative.begin() != "..";
+}
+
+fs::path get_cache_folder() {
+	fs::path folder;
+	if (const char *own = std::getenv("GNOMON_CACHE_DIR"); own && *own) {
+		folder = own;
+	} else if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
+		folder = fs::path(cache) / "gnomon";
+	} else if (const char *home = std::getenv("HOME"); home && *home) {
+		folder = fs::path(home) / ".cache" / "gnomon";
+	} else {
+		folder = fs::temp_directory_path() / "gnomon-cache";
+	}
+	std::error_code code;
+	fs::create_directories(folder, code); // a failure shows when an entry is written: a warning
+	return folder;
+}
+
+uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed) {
+	return XXH3_64bits_withSeed(p_bytes.data(), p_bytes.size(), p_seed);
+}
+
+void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes) {
+	std::vector<uint8_t> entry(CACHE_HEADER_BYTES + p_bytes.size());
+	const uint64_t numbers[2] = { p_bytes.size(), compute_hash(p_bytes) };
+	std::memcpy(entry.data(), CACHE_MAGIC, sizeof(CACHE_MAGIC));
+	std::memcpy(entry.data() + sizeof(CACHE_MAGIC), numbers, sizeof(numbers));
+	if (!p_bytes.empty()) {
+		std::memcpy(entry.data() + CACHE_HEADER_BYTES, p_bytes.data(), p_bytes.size());
+	}
+	try {
+		save_file_atomically(get_cache_folder() / p_name, entry);
+	} catch (const Error &error) {
+		log_warning("Cache entry not kept: ", error.what());
+	}
+}
+
+std::vector<uint8_t> load_cache_entry(const std::string &p_name) {
+	const fs::path path = get_cache_folder() / p_name;
+	std::error_code code;
+	if (!fs::exists(path, code)) {
+		return {};
+	}
+	std::vector<uint8_t> entry;
+	try {
+		entry = load_file(path);
+	} catch (const Error &error) {
+		log_warning("Cache entry not used: ", error.what());
+		return {};
+	}
+	uint64_t numbers[2] = {};
+	const bool has_header = entry.size() >= CACHE_HEADER_BYTES &&
+			std::memcmp(entry.data(), CACHE_MAGIC, sizeof(CACHE_MAGIC)) == 0;
+	if (has_header) {
+		std::memcpy(numbers, entry.data() + sizeof(CACHE_MAGIC), sizeof(numbers));
+		const auto payload = std::span(entry).subspan(CACHE_HEADER_BYTES);
+		if (numbers[0] == payload.size() && numbers[1] == compute_hash(payload)) {
+			entry.erase(entry.begin(), entry.begin() + CACHE_HEADER_BYTES);
+			return entry;
+		}
+	}
+	log_warning("Cache entry ", path, " is damaged; it is removed and made again.");
+	fs::remove(path, code);
+	return {};
+}
+
+} // namespace gnomon

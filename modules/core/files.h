@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+/// The whole file. Missing, unreadable, a folder, or larger than the limit: an Error naming it.
+std::vector<uint8_t> load_file(
+		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
+/// As load_file, as text.
+std::string load_text_file(
+		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
+
+/// Writes beside the target, syncs to disk and renames: the target is the old file or the new one,
+/// never a part. An unwritable folder or a full disk is an Error naming the path.
+void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
+void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
+
+/// True when the path, with `..` and links resolved, lies in the folder or below it.
+bool is_inside_folder(
+		const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
+
+/// Where data that can be made again is kept: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,
+/// else ~/.cache/gnomon, else a folder below the system's temporary one. Created when absent.
+std::filesystem::path get_cache_folder();
+
+/// 64 bits of xxHash3. Not for secrets; names cache entries and finds damaged ones.
+uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
+/// The bytes of a value or an array of values without padding.
+template <typename T> std::span<const uint8_t> bytes_of(std::span<const T> p_values) {
+	return { reinterpret_cast<const uint8_t *>(p_values.data()), p_values.size_bytes() };
+}
+
+/// Stores bytes under a name in the cache folder with a checksum. A failure to write only warns.
+void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes);
+/// The stored bytes, or empty when absent or damaged (a damaged entry is logged and removed).
+std::vector<uint8_t> load_cache_entry(const std::string &p_name);
+
+} // namespace gnomon

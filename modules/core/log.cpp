@@ -1,0 +1,46 @@
+#include "modules/core/log.h"
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+std::mutex log_mutex;
+LogSink log_sink;
+std::atomic<LogLevel> lowest_level = LogLevel::INFO;
+std::atomic<unsigned> line_counts[3];
+
+} // namespace
+
+LogSink set_log_sink(LogSink p_sink) {
+	std::lock_guard lock(log_mutex);
+	return std::exchange(log_sink, std::move(p_sink));
+}
+
+void set_log_level(LogLevel p_level) {
+	lowest_level = p_level;
+}
+
+unsigned get_log_count(LogLevel p_level) {
+	return line_counts[static_cast<int>(p_level)];
+}
+
+void write_log(LogLevel p_level, const std::string &p_line) {
+	++line_counts[static_cast<int>(p_level)];
+	if (p_level < lowest_level) {
+		return;
+	}
+	std::lock_guard lock(log_mutex);
+	if (log_sink) {
+		log_sink(p_level, p_line);
+		return;
+	}
+	static const char *const PREFIXES[] = { "", "WARNING: ", "ERROR: " };
+	std::fprintf(stderr, "%s%s\n", PREFIXES[static_cast<int>(p_level)], p_line.c_str());
+}
+
+} // namespace gnomon

@@ -1,0 +1,207 @@
+#include "modules/core/property.h"
+
+#include "modules/core/error.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace gnomon {
+
+namespace {
+
+struct Range {
+	double minimum = 0;
+	double maximum = 0;
+};
+
+std::vector<std::string> split(const std::string &p_text) {
+	std::vector<std::string> parts;
+	std::stringstream stream(p_text);
+	for (std::string part; std::getline(stream, part, ',');) {
+		parts.push_back(part);
+	}
+	return parts;
+}
+
+std::optional<double> parse_number(std::string_view p_text) {
+	double number = 0;
+	const char *end = p_text.data() + p_text.size();
+	const std::from_chars_result result = std::from_chars(p_text.data(), end, number);
+	if (p_text.empty() || result.ec != std::errc() || result.ptr != end) {
+		return std::nullopt;
+	}
+	return number;
+}
+
+std::optional<Range> find_range(const PropertyInfo &p_info) {
+	const std::vector<std::string> parts = split(p_info.hint);
+	if (parts.size() < 2) {
+		return std::nullopt;
+	}
+	return Range{ *parse_number(parts[0]), *parse_number(parts[1]) };
+}
+
+std::optional<double> get_number(const PropertyValue &p_value) {
+	if (const double *number = std::get_if<double>(&p_value)) {
+		return *number;
+	}
+	if (const int64_t *number = std::get_if<int64_t>(&p_value)) {
+		return static_cast<double>(*number);
+	}
+	return std::nullopt;
+}
+
+std::string refuse(const PropertyInfo &p_info, const PropertyValue &p_value) {
+	return text("is ", format_property(p_value), ", must be ", describe_range(p_info));
+}
+
+} // namespace
+
+void PropertyList::add(PropertyInfo p_info) {
+	GNOMON_ASSERT(!find(p_info.name), "property ", p_info.name, " is declared twice");
+	if (p_info.type == PropertyType::ENUM && p_info.default_value.index() != 3) {
+		p_info.default_value = split(p_info.hint).at(0);
+	}
+	// So that { ..., 3, ... } declares a FLOAT as well: the literal's type is not the property's.
+	const std::string refusal = check_property(p_info, p_info.default_value);
+	GNOMON_ASSERT(refusal.empty(), "default of property ", p_info.name, " ", refusal);
+	p_info.default_value = convert_property(p_info, p_info.default_value);
+	properties.push_back(std::move(p_info));
+}
+
+const PropertyInfo *PropertyList::find(std::string_view p_name) const {
+	for (const PropertyInfo &info : properties) {
+		if (info.name == p_name) {
+			return &info;
+		}
+	}
+	return nullptr;
+}
+
+std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value) {
+	switch (p_info.type) {
+		case PropertyType::BOOL:
+			return std::holds_alternative<bool>(p_value) ? "" : refuse(p_info, p_value);
+		case PropertyType::STRING:
+			return std::holds_alternative<std::string>(p_value) ? "" : refuse(p_info, p_value);
+		case PropertyType::ENUM: {
+			const std::string *chosen = std::get_if<std::string>(&p_value);
+			for (const std::string &name : split(p_info.hint)) {
+				if (chosen && *chosen == name) {
+					return "";
+				}
+			}
+			return refuse(p_info, p_value);
+		}
+		case PropertyType::INT:
+		case PropertyType::FLOAT: {
+			const std::optional<double> number = get_number(p_value);
+			if (!number || !std::isfinite(*number)) {
+				return refuse(p_info, p_value);
+			}
+			if (p_info.type == PropertyType::INT && std::floor(*number) != *number) {
+				return refuse(p_info, p_value);
+			}
+			if (!p_info.special.empty() && *number == *parse_number(p_info.special)) {
+				return "";
+			}
+			const std::optional<Range> range = find_range(p_info);
+			if (range && (*number < range->minimum || *number > range->maximum)) {
+				return refuse(p_info, p_value);
+			}
+			return "";
+		}
+	}
+	return "has an unknown type";
+}
+
+PropertyValue convert_property(const PropertyInfo &p_info, const PropertyValue &p_value) {
+	const std::optional<double> number = get_number(p_value);
+	if (number && p_info.type == PropertyType::INT) {
+		return static_cast<int64_t>(*number);
+	}
+	if (number && p_info.type == PropertyType::FLOAT) {
+		return *number;
+	}
+	return p_value;
+}
+
+PropertyValue parse_property(
+		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object) {
+	PropertyValue value = std::string(p_text);
+	if (p_info.type == PropertyType::BOOL && (p_text == "true" || p_text == "false")) {
+		value = p_text == "true";
+	} else if (p_info.type == PropertyType::INT || p_info.type == PropertyType::FLOAT) {
+		if (const std::optional<double> number = parse_number(p_text)) {
+			value = *number;
+		}
+	}
+	const std::string refusal = check_property(p_info, value);
+	if (!refusal.empty()) {
+		fail(p_object, ": ", p_info.name, " ", refusal, ".");
+	}
+	return convert_property(p_info, value);
+}
+
+std::string format_property(const PropertyValue &p_value) {
+	if (const bool *flag = std::get_if<bool>(&p_value)) {
+		return *flag ? "true" : "false";
+	}
+	return std::visit([](const auto &p_held) { return text(p_held); }, p_value);
+}
+
+std::string describe_range(const PropertyInfo &p_info) {
+	if (p_info.type == PropertyType::BOOL) {
+		return "true or false";
+	}
+	if (p_info.type == PropertyType::STRING) {
+		return "text";
+	}
+	const std::vector<std::string> parts = split(p_info.hint);
+	std::string words;
+	if (p_info.type == PropertyType::ENUM) {
+		for (size_t index = 0; index < parts.size(); ++index) {
+			words += (index == 0 ? "" : index + 1 == parts.size() ? " or " : ", ") + parts[index];
+		}
+		return words;
+	}
+	words = p_info.type == PropertyType::INT ? "a whole number" : "a finite number";
+	if (parts.size() >= 2) {
+		words = parts[0] + ".." + parts[1];
+	}
+	if (!p_info.special.empty()) {
+		words = p_info.special + " or " + words;
+	}
+	return p_info.unit.empty() ? words : words + " " + p_info.unit;
+}
+
+const PropertyValue &get_property(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
+	const PropertyInfo *info = p_list.find(p_name);
+	GNOMON_ASSERT(info, "property ", p_name, " is not declared");
+	const auto found = p_values.find(p_name);
+	return found != p_values.end() ? found->second : info->default_value;
+}
+
+bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
+	return std::get<bool>(get_property(p_list, p_values, p_name));
+}
+
+int64_t get_int(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
+	return std::get<int64_t>(get_property(p_list, p_values, p_name));
+}
+
+double get_float(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
+	return std::get<double>(get_property(p_list, p_values, p_name));
+}
+
+const std::string &get_string(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
+	return std::get<std::string>(get_property(p_list, p_values, p_name));
+}
+
+} // namespace gnomon

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace gnomon {
+
+enum class PropertyType { BOOL, INT, FLOAT, ENUM, STRING };
+
+/// BOOL: bool. INT: int64_t. FLOAT: double. ENUM and STRING: std::string.
+using PropertyValue = std::variant<bool, int64_t, double, std::string>;
+/// Name to value. Holds only what was set; what is absent has its PropertyInfo's default.
+using PropertyValues = std::map<std::string, PropertyValue, std::less<>>;
+
+/// One declaration drives the editor's inspector, the scene file's extras, `--set` on the command
+/// line, the generated docs and the test that every property has a tooltip.
+struct PropertyInfo {
+	std::string name; // snake_case; a technique's properties begin with its id
+	PropertyType type = PropertyType::FLOAT;
+	PropertyValue default_value;
+	/// INT and FLOAT: "minimum,maximum,step". ENUM: "first,second,...". Otherwise empty.
+	std::string hint;
+	std::string tooltip; // one sentence or two: meaning, and what happens at the edges
+	std::string unit; // "m", "px", "deg", or empty
+	std::string group; // heading in the inspector
+	/// A value outside the range that is allowed too and means something else: "-1" for "derived".
+	std::string special;
+};
+
+/// The properties of one kind of object, in the order in which they are shown.
+class PropertyList {
+public:
+	/// A name that is present already, or a default that its own range refuses, is our mistake.
+	void add(PropertyInfo p_info);
+	const PropertyInfo *find(std::string_view p_name) const;
+	const std::vector<PropertyInfo> &get_properties() const { return properties; }
+
+private:
+	std::vector<PropertyInfo> properties;
+};
+
+/// Why the value is refused, or empty when it is allowed: "is 7, must be 1..3". NaN and infinity
+/// are refused, and so is a value of another type (an INT is allowed where a FLOAT is expected,
+/// and a FLOAT without fraction where an INT is).
+std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value);
+/// The value converted to the property's type. Only for values that check_property allows.
+PropertyValue convert_property(const PropertyInfo &p_info, const PropertyValue &p_value);
+/// Reads "0.4", "true", "hard". Text that is no such value, or is refused by check_property, is an
+/// Error that begins with p_object and names the value and the range.
+PropertyValue parse_property(
+		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object);
+/// As parse_property reads it.
+std::string format_property(const PropertyValue &p_value);
+/// The allowed values in words: "1..3", "-1 or 0..10000 m", "hard, 2x2 or 3x3", "true or false".
+std::string describe_range(const PropertyInfo &p_info);
+
+/// The value that is set, else the declared default. A name that the list lacks is our mistake.
+const PropertyValue &get_property(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+int64_t get_int(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+double get_float(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+const std::string &get_string(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+
+} // namespace gnomon

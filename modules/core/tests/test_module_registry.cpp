@@ -1,0 +1,26 @@
+#include "modules/core/module_registry.h"
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+TEST_CASE("[ModuleRegistry] dependencies stand before the modules that need them") {
+	std::vector<std::string> seen;
+	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		for (const std::string &dependency : module.dependencies) {
+			CHECK_MESSAGE(std::find(seen.begin(), seen.end(), dependency) != seen.end(), module.name,
+					" needs ", dependency);
+		}
+		CHECK_FALSE(module.description.empty());
+		seen.push_back(module.name);
+	}
+}
+
+TEST_CASE("[ModuleRegistry] unknown modules and those the engine needs are refused by name") {
+	CHECK_THROWS_AS(ModuleRegistry::set_enabled("no_such_module", false), Error);
+	CHECK_THROWS_AS(ModuleRegistry::set_enabled("core", false), Error);
+	CHECK(ModuleRegistry::is_enabled("core"));
+}

@@ -1,0 +1,64 @@
+#include "modules/core/error.h"
+#include "modules/core/property.h"
+
+#include <doctest/doctest.h>
+#include <limits>
+
+using namespace gnomon;
+
+namespace {
+
+PropertyInfo make_width() {
+	return { "penumbra_outer_width", PropertyType::FLOAT, -1, "0,10000,0.001", "Width.", "m", "Shadow",
+		"-1" };
+}
+
+} // namespace
+
+TEST_CASE("[Property] a value inside the range is allowed, outside it is refused with the range") {
+	const PropertyInfo width = make_width();
+	CHECK(check_property(width, 0.0).empty());
+	CHECK(check_property(width, int64_t(3)).empty());
+	CHECK(check_property(width, 10000.0).empty());
+	CHECK(check_property(width, -1.0).empty());
+	CHECK(check_property(width, -0.5) == "is -0.5, must be -1 or 0..10000 m");
+	CHECK_FALSE(check_property(width, 10001.0).empty());
+}
+
+TEST_CASE("[Property] NaN, infinity and other types are refused") {
+	const PropertyInfo width = make_width();
+	CHECK_FALSE(check_property(width, std::numeric_limits<double>::quiet_NaN()).empty());
+	CHECK_FALSE(check_property(width, std::numeric_limits<double>::infinity()).empty());
+	CHECK_FALSE(check_property(width, true).empty());
+	CHECK_FALSE(check_property(width, std::string("wide")).empty());
+}
+
+TEST_CASE("[Property] text is parsed by type and an error names object, value and range") {
+	const PropertyInfo width = make_width();
+	CHECK(std::get<double>(parse_property(width, "0.25", "Light \"Lamp\"")) == 0.25);
+	const PropertyInfo filter = { "filter", PropertyType::ENUM, std::string("hard"), "hard,2x2,3x3",
+		"Filter." };
+	CHECK(std::get<std::string>(parse_property(filter, "2x2", "")) == "2x2");
+	CHECK_THROWS_WITH_AS(parse_property(filter, "soft", "Light \"Lamp\""),
+			"Light \"Lamp\": filter is soft, must be hard, 2x2 or 3x3.", Error);
+	CHECK_THROWS_AS(parse_property(width, "0.25m", "x"), Error);
+	CHECK_THROWS_AS(parse_property(width, "", "x"), Error);
+	CHECK_THROWS_AS(parse_property(width, "nan", "x"), Error);
+}
+
+TEST_CASE("[Property] an INT takes a FLOAT without fraction, and no other") {
+	const PropertyInfo count = { "layers", PropertyType::INT, 3, "1,3,1", "Layers." };
+	CHECK(std::get<int64_t>(convert_property(count, 2.0)) == 2);
+	CHECK_FALSE(check_property(count, 2.5).empty());
+	CHECK_FALSE(check_property(count, 4.0).empty());
+}
+
+TEST_CASE("[Property] what was not set has its default") {
+	PropertyList list;
+	list.add(make_width());
+	list.add({ "layers", PropertyType::INT, 3, "1,3,1", "Layers." });
+	PropertyValues values;
+	CHECK(get_float(list, values, "penumbra_outer_width") == -1.0);
+	values["layers"] = int64_t(1);
+	CHECK(get_int(list, values, "layers") == 1);
+}

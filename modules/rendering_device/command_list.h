@@ -1,0 +1,72 @@
+#pragma once
+
+#include "modules/rendering_device/resource_types.h"
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace gnomon {
+
+/// Records commands of one submission; got from RenderingDevice::begin_commands and valid until
+/// submit_commands. All mistakes in the order of calls are assertions.
+class CommandList {
+public:
+	struct Impl;
+	explicit CommandList(Impl &p_impl) : impl(p_impl) {}
+
+	/// A named span with timestamps around it; also the breadcrumb that a lost device reports.
+	/// Spans do not nest and lie outside begin_rendering .. end_rendering.
+	void begin_span(const std::string &p_name);
+	void end_span();
+
+	void barriers(std::span<const Barrier> p_barriers);
+
+	/// Viewport and scissor cover the targets. Dynamic state starts as: no culling, counter-clockwise
+	/// front faces as seen in a y-up view.
+	void begin_rendering(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
+	void end_rendering();
+	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
+	void set_cull_mode(CullMode p_mode);
+	/// Mirrored transforms wind their front faces the other way.
+	enum class Winding { NORMAL, MIRRORED };
+	void set_winding(Winding p_winding);
+
+	void bind_pipeline(PipelineRID p_pipeline);
+	/// All bindings that the bound pipeline declares, and no other: a missing or an extra one is an
+	/// assertion that names pipeline and number.
+	void bind_resources(std::span<const Binding> p_bindings);
+	void bind_resources(std::initializer_list<Binding> p_bindings) {
+		bind_resources(std::span<const Binding>(p_bindings.begin(), p_bindings.size()));
+	}
+	/// At most 128 bytes; the size must be what the shader's block has.
+	void push_constants(std::span<const uint8_t> p_bytes);
+	template <typename T> void push_constants(const T &p_block) {
+		push_constants(std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
+	}
+
+	void bind_vertex_buffers(std::span<const BufferRID> p_buffers);
+	void bind_index_buffer(BufferRID p_buffer); // uint32 indices
+	void draw(uint32_t p_vertex_count, uint32_t p_instance_count = 1);
+	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index = 0);
+	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes);
+	void dispatch(glm::uvec3 p_group_count);
+	/// Enough groups of the bound pipeline's local size to cover the items.
+	void dispatch_items(glm::uvec3 p_item_count);
+	void dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes);
+
+	void fill_buffer(BufferRID p_buffer, uint32_t p_value);
+	void copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
+			uint64_t p_source_offset_bytes = 0, uint64_t p_target_offset_bytes = 0);
+	/// Tightly packed rows. Depth textures give their depth.
+	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0);
+	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer = 0);
+	/// Same size and format.
+	void copy_texture(TextureRID p_source, TextureRID p_target);
+	void clear_color(TextureRID p_texture, glm::vec4 p_value);
+
+private:
+	Impl &impl;
+};
+
+} // namespace gnomon

@@ -1,0 +1,183 @@
+#pragma once
+
+#include "modules/rendering_device/resource_types.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class CommandList;
+class Swapchain;
+
+/// What the user may choose of the device.
+struct DeviceOptions {
+	std::string device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
+	bool validation = false; // validation and synchronization layers
+	uint64_t memory_budget_bytes = 0; // 0 = what the device reports, at most 90 % of its heap
+	bool needs_surface = false; // a window will be shown
+	std::vector<std::string> instance_extensions; // what the window system needs
+	bool without_geometry_shader = false; // for tests: pretend that the device lacks it
+};
+
+/// One device as `gnomon info` lists it.
+struct DeviceInfo {
+	uint32_t index = 0;
+	std::string name;
+	std::string driver; // name and version
+	std::string type; // "discrete GPU", "integrated GPU", "CPU", "virtual GPU", "other"
+	std::string api_version; // "1.3.230"
+	uint64_t memory_bytes = 0; // of the largest device-local heap
+	bool is_usable = false;
+	std::string refusal; // why it is not: "Vulkan 1.1, 1.3 is needed"
+};
+
+/// What the device can do beyond the minimum that Gnomon requires (Vulkan 1.3 with dynamic
+/// rendering and synchronization2, compute, 128 bytes of push constants).
+struct DeviceFeatures {
+	bool geometry_shader = false;
+	bool depth_clamp = false;
+	bool conditional_rendering = false;
+	bool precise_occlusion_query = false;
+	bool fragment_stores = false;
+	bool timestamps = false;
+	float timestamp_period_ns = 1.0f;
+	uint64_t max_storage_buffer_bytes = 0;
+	uint32_t max_texture_size_px = 0;
+	uint32_t max_texel_buffer_elements = 0;
+	uint32_t subgroup_size = 0;
+};
+
+struct MemoryUse {
+	uint64_t used_bytes = 0; // by resources
+	uint64_t allocated_bytes = 0; // blocks taken from the driver
+	uint64_t budget_bytes = 0;
+	uint64_t peak_bytes = 0; // highest used_bytes since the device began
+};
+
+/// Time of one span between two timestamps of a finished submission.
+struct GpuSpan {
+	std::string name;
+	double gpu_ms = 0;
+};
+
+/// The Vulkan device and everything that lives on it. One thread uses it. Every failure is an
+/// Error that names the object, the value, the limit and the next step; after a lost device every
+/// call fails with the text of the first report, which names the last pass that had begun.
+///
+/// Resources are handles. free() may be called while the GPU still uses the resource: it is
+/// destroyed when the submission that was recorded last has finished. What is still alive when the
+/// device ends is reported by name, once each, as an error in the log.
+class RenderingDevice {
+public:
+	/// No Vulkan loader or no usable device: an Error with the package to install and the reasons
+	/// per device.
+	static std::unique_ptr<RenderingDevice> create(const DeviceOptions &p_options);
+	/// Never throws: without Vulkan the list is empty.
+	static std::vector<DeviceInfo> list_devices();
+	/// Validation messages (warnings and errors, synchronization included) since the program began.
+	static unsigned get_validation_message_count();
+
+	~RenderingDevice();
+	RenderingDevice(const RenderingDevice &) = delete;
+	RenderingDevice &operator=(const RenderingDevice &) = delete;
+
+	const DeviceInfo &get_info() const;
+	const DeviceFeatures &get_features() const;
+	MemoryUse get_memory_use() const;
+	/// Names of the resources that are alive, "texture 'albedo'", sorted; for the leak tests.
+	std::vector<std::string> get_live_resources() const;
+
+	// Resources. Above the budget or the device's limits: an Error naming resource, size and limit.
+	BufferRID create_buffer(const BufferDesc &p_desc);
+	/// Device-local, filled with the bytes before the next submission's commands.
+	BufferRID create_buffer_with_data(BufferDesc p_desc, std::span<const uint8_t> p_bytes);
+	TextureRID create_texture(const TextureDesc &p_desc);
+	/// Filled with tightly packed texels (layer 0), ready for SAMPLED use.
+	TextureRID create_texture_with_data(TextureDesc p_desc, std::span<const uint8_t> p_bytes);
+	SamplerRID create_sampler(const SamplerDesc &p_desc);
+	/// Made from the embedded SPIR-V, or taken from a cache of equal descriptions. Owned by the device.
+	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc);
+	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc);
+	uint32_t get_pipeline_count() const;
+	void free(BufferRID p_buffer);
+	void free(TextureRID p_texture);
+	void free(SamplerRID p_sampler);
+	void free(MemoryRID p_memory);
+
+	const BufferDesc &get_desc(BufferRID p_buffer) const;
+	const TextureDesc &get_desc(TextureRID p_texture) const;
+	/// Mapped memory of an UPLOAD or READBACK buffer, valid as long as the buffer.
+	uint8_t *get_mapped(BufferRID p_buffer);
+
+	// Aliased memory, for the render graph: textures placed in one block of memory.
+	struct PlacementNeeds {
+		uint64_t size_bytes = 0;
+		uint64_t alignment_bytes = 1;
+	};
+	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc);
+	/// Memory that any texture made with a GPU-only usage can be placed in.
+	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes);
+	TextureRID create_placed_texture(
+			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes);
+
+	// Frames. begin -> record -> submit; at most two submissions are in flight.
+	/// Starts recording. Waits when two submissions are in flight; collects deferred frees.
+	CommandList &begin_commands();
+	/// Submits what was recorded. p_waits: also waits for the end, so that READBACK memory is valid.
+	/// With a swapchain image acquired this frame, the submission waits for it and presents it.
+	enum class SubmitMode { QUEUE, WAIT };
+	void submit_commands(SubmitMode p_mode);
+	void wait_idle();
+	/// Spans of the newest finished submission, in recording order.
+	const std::vector<GpuSpan> &get_gpu_spans() const;
+
+	/// Writes pipelines to the cache folder now (also done at the end). A damaged or foreign file
+	/// is ignored with a log line and replaced.
+	void save_pipeline_cache();
+
+	/// Test hook: the next submission reports a lost device.
+	void inject_device_lost();
+
+	struct Impl; // defined in rendering_device_impl.h, which includes Vulkan
+	Impl &get_impl() { return *impl; }
+
+private:
+	RenderingDevice();
+	std::unique_ptr<Impl> impl;
+};
+
+/// Frees the resource when it goes out of scope.
+template <typename Handle> class Owned {
+public:
+	Owned() = default;
+	Owned(RenderingDevice &p_device, Handle p_handle) : device(&p_device), handle(p_handle) {}
+	Owned(Owned &&p_other) noexcept :
+			device(p_other.device), handle(std::exchange(p_other.handle, Handle())) {}
+	Owned &operator=(Owned &&p_other) noexcept {
+		std::swap(device, p_other.device);
+		std::swap(handle, p_other.handle);
+		return *this;
+	}
+	~Owned() { reset(); }
+	void reset() {
+		if (handle) {
+			device->free(std::exchange(handle, Handle()));
+		}
+	}
+	Handle get() const { return handle; }
+	explicit operator bool() const { return bool(handle); }
+
+private:
+	RenderingDevice *device = nullptr;
+	Handle handle;
+};
+using OwnedBuffer = Owned<BufferRID>;
+using OwnedTexture = Owned<TextureRID>;
+using OwnedSampler = Owned<SamplerRID>;
+using OwnedMemory = Owned<MemoryRID>;
+
+} // namespace gnomon

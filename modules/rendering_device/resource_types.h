@@ -1,0 +1,205 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A handle that names a resource of the RenderingDevice; 0 names nothing. Handles of different
+/// kinds do not mix.
+template <typename Tag> struct RID {
+	uint64_t id = 0;
+	explicit operator bool() const { return id != 0; }
+	bool operator==(const RID &) const = default;
+};
+using BufferRID = RID<struct BufferTag>;
+using TextureRID = RID<struct TextureTag>;
+using SamplerRID = RID<struct SamplerTag>;
+using PipelineRID = RID<struct PipelineTag>;
+using MemoryRID = RID<struct MemoryTag>;
+
+enum class Format {
+	R8_UNORM,
+	R16_SFLOAT,
+	R32_SFLOAT,
+	R32_UINT,
+	RG16_SFLOAT,
+	RG32_UINT,
+	RG32_SFLOAT,
+	RGBA8_UNORM,
+	RGBA8_SRGB,
+	RGBA16_SFLOAT,
+	RGBA32_SFLOAT,
+	D32_SFLOAT,
+};
+uint32_t get_texel_size_bytes(Format p_format);
+const char *get_format_name(Format p_format);
+
+/// What a resource is used for; bits are joined with |.
+enum class TextureUsage : uint32_t {
+	SAMPLED = 1,
+	STORAGE = 2,
+	COLOR_ATTACHMENT = 4,
+	DEPTH_ATTACHMENT = 8,
+	COPY_SOURCE = 16,
+	COPY_TARGET = 32,
+};
+enum class BufferUsage : uint32_t {
+	VERTEX = 1,
+	INDEX = 2,
+	UNIFORM = 4,
+	STORAGE = 8,
+	INDIRECT = 16,
+	COPY_SOURCE = 32,
+	COPY_TARGET = 64,
+	TEXEL = 128, // uniform texel buffer; then BufferDesc::texel_format counts
+};
+template <typename T>
+concept UsageFlags = std::is_same_v<T, TextureUsage> || std::is_same_v<T, BufferUsage>;
+template <UsageFlags T> constexpr T operator|(T p_left, T p_right) {
+	return static_cast<T>(static_cast<uint32_t>(p_left) | static_cast<uint32_t>(p_right));
+}
+template <UsageFlags T> constexpr bool has_usage(T p_flags, T p_flag) {
+	return (static_cast<uint32_t>(p_flags) & static_cast<uint32_t>(p_flag)) != 0;
+}
+
+/// GPU: fastest for the device. UPLOAD: written by the CPU, mapped. READBACK: read by it, mapped.
+enum class MemoryKind { GPU, UPLOAD, READBACK };
+
+struct TextureDesc {
+	std::string name; // shown in errors, leaks and debuggers
+	Format format = Format::RGBA8_UNORM;
+	glm::uvec2 size_px = glm::uvec2(1);
+	uint32_t layer_count = 1; // above 1: bound as a 2D array
+	TextureUsage usage = TextureUsage::SAMPLED;
+	bool operator==(const TextureDesc &) const = default;
+};
+
+struct BufferDesc {
+	std::string name;
+	uint64_t size_bytes = 0;
+	BufferUsage usage = BufferUsage::STORAGE;
+	MemoryKind memory = MemoryKind::GPU;
+	Format texel_format = Format::R32_UINT; // with BufferUsage::TEXEL
+	bool operator==(const BufferDesc &) const = default;
+};
+
+enum class Filter { NEAREST, LINEAR };
+enum class AddressMode { CLAMP_TO_EDGE, REPEAT };
+struct SamplerDesc {
+	std::string name;
+	Filter filter = Filter::NEAREST;
+	AddressMode address = AddressMode::CLAMP_TO_EDGE;
+};
+
+/// One resource at a binding of set 0. Which kind of descriptor it is, is read from the SPIR-V.
+struct Binding {
+	uint32_t binding = 0;
+	BufferRID buffer;
+	TextureRID texture;
+	SamplerRID sampler; // with a texture: combined, when the shader says so
+	uint32_t layer = ALL_LAYERS; // of the texture
+
+	static constexpr uint32_t ALL_LAYERS = ~0u;
+	Binding(uint32_t p_binding, BufferRID p_buffer) : binding(p_binding), buffer(p_buffer) {}
+	Binding(uint32_t p_binding, TextureRID p_texture, SamplerRID p_sampler = {}) :
+			binding(p_binding), texture(p_texture), sampler(p_sampler) {}
+	Binding(uint32_t p_binding, SamplerRID p_sampler) : binding(p_binding), sampler(p_sampler) {}
+};
+
+enum class CompareOp { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS };
+enum class CullMode { NONE, FRONT, BACK };
+enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY, TRIANGLE_STRIP, LINES, POINTS };
+enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
+
+/// A specialization constant. Booleans are 0 and 1; floats by their bits.
+struct SpecializationConstant {
+	uint32_t constant_id = 0;
+	uint32_t value = 0;
+};
+
+struct ComputePipelineDesc {
+	std::string name;
+	std::string shader; // "shadow_map/resolve.comp"
+	std::vector<SpecializationConstant> constants;
+};
+
+struct VertexAttribute {
+	uint32_t location = 0;
+	uint32_t buffer_index = 0; // into RasterPipelineDesc::vertex_strides_bytes and bind_vertex_buffers
+	Format format = Format::R32_SFLOAT;
+	uint32_t component_count = 3; // floats: R32_SFLOAT with 1..4 components
+	uint32_t offset_bytes = 0;
+};
+
+struct RasterPipelineDesc {
+	std::string name;
+	std::string vertex_shader;
+	std::string geometry_shader; // empty = none
+	std::string fragment_shader; // empty = depth only
+	std::vector<SpecializationConstant> constants; // for all stages
+	std::vector<VertexAttribute> attributes;
+	std::vector<uint32_t> vertex_strides_bytes;
+	Topology topology = Topology::TRIANGLES;
+	std::vector<Format> color_formats;
+	BlendMode blend = BlendMode::OFF; // all colour targets alike
+	bool has_depth = true; // a D32_SFLOAT attachment is bound
+	bool writes_depth = true;
+	CompareOp depth_compare = CompareOp::LESS;
+	bool clamps_depth = false; // depth clamp instead of near and far clipping
+	float depth_bias_constant = 0.0f;
+	float depth_bias_slope = 0.0f;
+};
+
+/// Where an attachment's first content comes from.
+enum class LoadOp { CLEAR, KEEP, DISCARD };
+struct ColorTarget {
+	TextureRID texture;
+	LoadOp load = LoadOp::CLEAR;
+	glm::vec4 clear = glm::vec4(0.0f); // of UINT formats: converted
+	uint32_t layer = 0;
+};
+struct DepthTarget {
+	TextureRID texture;
+	LoadOp load = LoadOp::CLEAR;
+	float clear = 1.0f;
+	uint32_t layer = 0;
+};
+
+/// How a pass uses a resource; the render graph derives barriers and layouts from it.
+enum class Access {
+	NONE, // content not needed
+	VERTEX_READ, // vertex, index buffer
+	INDIRECT_READ,
+	SHADER_READ_VERTEX, // vertex and geometry stages
+	SHADER_READ_FRAGMENT,
+	SHADER_READ_COMPUTE,
+	UNIFORM_READ, // any stage
+	SHADER_WRITE_FRAGMENT, // storage, read and write
+	SHADER_WRITE_COMPUTE,
+	COLOR_WRITE,
+	DEPTH_WRITE, // test and write
+	DEPTH_READ, // test only
+	COPY_READ,
+	COPY_WRITE,
+	HOST_READ,
+	HOST_WRITE,
+	PRESENT,
+};
+bool is_write(Access p_access);
+
+/// One barrier on a whole resource. Leave both handles empty for a barrier on all memory.
+struct Barrier {
+	BufferRID buffer;
+	TextureRID texture;
+	Access before = Access::NONE; // NONE on a texture: its content is discarded
+	Access after = Access::NONE;
+	/// With before == NONE on a texture that shares memory: the accesses of the earlier users.
+	std::vector<Access> earlier_users;
+};
+
+} // namespace gnomon

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// An axis-aligned box. Default: empty (minimum above maximum).
+struct Bounds {
+	glm::dvec3 minimum = glm::dvec3(1e300);
+	glm::dvec3 maximum = glm::dvec3(-1e300);
+
+	bool is_empty() const { return minimum.x > maximum.x; }
+	void add(const glm::dvec3 &p_point) {
+		minimum = glm::min(minimum, p_point);
+		maximum = glm::max(maximum, p_point);
+	}
+	void add(const Bounds &p_bounds) {
+		minimum = glm::min(minimum, p_bounds.minimum);
+		maximum = glm::max(maximum, p_bounds.maximum);
+	}
+	/// Length of the diagonal; 0 when empty.
+	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
+};
+
+/// Triangles of one material. Immutable once shared; identified by `id`.
+struct Mesh {
+	std::string name;
+	std::vector<glm::vec3> positions_node; // metres, in the node's space; finite
+	std::vector<glm::vec3> normals_node; // unit, one per position
+	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
+	Bounds bounds_node;
+	uint64_t id = 0; // unique in the process, see make_mesh
+
+	uint32_t get_triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
+};
+
+/// Checks sizes and indices (a mistake is an Error naming the mesh), fills missing or unusable
+/// normals by area-weighted face normals, computes the bounds and gives the mesh its id.
+std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
+		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices);
+
+/// What a surface looks like. Colours are linear.
+struct Material {
+	std::string name;
+	glm::vec3 base_color = glm::vec3(0.8f);
+	glm::vec3 emissive = glm::vec3(0.0f); // cd/m^2
+	float metallic = 0.0f; // 0..1
+	float roughness = 1.0f; // 0..1
+	float scatter = 0.0f; // s in 0..1; 0 = opaque (seeds: Wang, Xiao 2015)
+	float scatter_distance_m = 0.0f; // 0..1e4
+	bool is_double_sided = false;
+};
+
+} // namespace gnomon

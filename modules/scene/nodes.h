@@ -1,0 +1,121 @@
+#pragma once
+
+#include "modules/core/property.h"
+#include "modules/scene/mesh.h"
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A place in the scene tree. Transforms are double, so that a scene far from the origin loses
+/// nothing before it is made relative to the camera.
+class Node3D {
+public:
+	std::string name; // unique in its scene
+	glm::dmat4 parent_from_node = glm::dmat4(1.0);
+	std::vector<std::unique_ptr<Node3D>> children;
+	Node3D *parent = nullptr; // null at the root; set by add_child
+	/// Index of this node in the file it came from, or -1. Saving uses it to keep what the program
+	/// does not understand.
+	int file_index = -1;
+
+	virtual ~Node3D() = default;
+	/// Takes the child and sets its parent. Returns it.
+	Node3D *add_child(std::unique_ptr<Node3D> p_child);
+	glm::dmat4 compute_world_from_node() const;
+};
+
+/// One or more meshes at a place; a mesh has one material.
+class MeshInstance3D : public Node3D {
+public:
+	struct Surface {
+		std::shared_ptr<const Mesh> mesh;
+		std::shared_ptr<const Material> material;
+	};
+	std::vector<Surface> surfaces;
+	bool casts_shadow = true;
+	bool is_planar_receiver = false; // extras.shadow_planar_receiver
+};
+
+enum class LightType { OMNI, SPOT, DIRECTIONAL };
+
+/// A light of KHR_lights_punctual, which shines along -Z of its node, and its shadow.
+class Light3D : public Node3D {
+public:
+	LightType type = LightType::OMNI;
+	glm::vec3 color = glm::vec3(1.0f); // linear
+	float intensity = 1.0f; // cd (omni, spot) or lx (directional)
+	float range_m = 0.0f; // 0 = unlimited
+	float inner_cone_rad = 0.0f; // half angles, 0 <= inner < outer <= pi/2
+	float outer_cone_rad = 0.785398163f;
+	/// Only what was set, whether declared by get_property_list, by a technique, or by nobody in
+	/// this build: unknown properties survive a save untouched.
+	PropertyValues properties;
+	/// Where the properties stand in the file, for errors and for saving: "lights[0]". Empty = none.
+	std::string file_path;
+
+	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
+	/// penumbra_inner_width: what every technique must answer for (DESIGN, scene files).
+	static const PropertyList &get_property_list();
+};
+
+/// A perspective camera, looking along -Z of its node with +Y up.
+class Camera3D : public Node3D {
+public:
+	float vertical_fov_rad = 0.785398163f; // above 0, below pi
+	float near_m = 0.05f; // above 0. The far plane is at infinity (reversed depth)
+};
+
+class SceneDocument; // what a file format keeps for saving; see gltf_scene
+
+/// A tree of nodes and what belongs to the whole of it.
+class Scene {
+public:
+	std::string path; // of the file it came from; empty for a generated one
+	std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
+	/// S in metres (TECHNIQUES, section 0): extras.scene_size. 0 = the diagonal of the casters.
+	double scene_size_m = 0;
+	std::shared_ptr<SceneDocument> document;
+
+	/// Nodes of one class, in tree order.
+	template <typename T> std::vector<T *> find_nodes() const {
+		std::vector<T *> found;
+		visit(*root, [&](Node3D &p_node) {
+			if (T *node = dynamic_cast<T *>(&p_node)) {
+				found.push_back(node);
+			}
+		});
+		return found;
+	}
+	/// The node of that class and name. Absent: an Error that lists the names there are.
+	template <typename T> T &find_node(const std::string &p_name, const char *p_kind) const {
+		std::vector<std::string> names;
+		for (T *node : find_nodes<T>()) {
+			if (node->name == p_name) {
+				return *node;
+			}
+			names.push_back(node->name);
+		}
+		fail_unknown_node(p_kind, p_name, names);
+	}
+
+private:
+	template <typename Visitor> static void visit(Node3D &p_node, const Visitor &p_visitor) {
+		p_visitor(p_node);
+		for (const std::unique_ptr<Node3D> &child : p_node.children) {
+			visit(*child, p_visitor);
+		}
+	}
+	[[noreturn]] void fail_unknown_node(const char *p_kind, const std::string &p_name,
+			const std::vector<std::string> &p_names) const;
+};
+
+class SceneDocument {
+public:
+	virtual ~SceneDocument() = default;
+};
+
+} // namespace gnomon

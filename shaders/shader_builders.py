@@ -1,0 +1,59 @@
+"""GLSL to SPIR-V at build time, and SPIR-V into one C++ file.
+
+An entry point is `<what>.<stage>`; include paths start at shaders/. Errors show the GLSL file and
+line, as glslangValidator prints them.
+"""
+
+import os
+import re
+import struct
+
+STAGES = ("vert", "frag", "geom", "comp")
+_INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
+
+def _scan(node, env, path):
+    """Dependencies of a shader: what it includes, found from shaders/."""
+    if not os.path.exists(node.srcnode().abspath):
+        return []
+    with open(node.srcnode().abspath, encoding="utf-8") as file:
+        return [env.File("#shaders/" + name) for name in _INCLUDE.findall(file.read())]
+
+
+def _embed(target, source, env):
+    """Writes find_embedded_shader's table: name (folder/file) -> SPIR-V words."""
+    lines = ['#include "modules/core/embedded_shaders.h"', "", "namespace gnomon {", "namespace {"]
+    names = []
+    for index, node in enumerate(source):
+        path = str(node)
+        folder, file = os.path.split(path)
+        names.append(os.path.basename(folder) + "/" + file[: -len(".spv")])
+        with open(path, "rb") as binary:
+            data = binary.read()
+        words = struct.unpack("<%dI" % (len(data) // 4), data)
+        lines.append("const uint32_t SHADER_%d[] = {" % index)
+        for start in range(0, len(words), 12):
+            lines.append("\t" + ", ".join("0x%08x" % word for word in words[start : start + 12]) + ",")
+        lines.append("};")
+    lines += ["const EmbeddedShader SHADERS[] = {"]
+    for index, name in enumerate(names):
+        lines.append('\t{ "%s", SHADER_%d },' % (name, index))
+    lines += ["\t{ {}, {} },", "};", "} // namespace", "", "std::span<const EmbeddedShader> get_embedded_shaders() {"]
+    lines += ["\treturn std::span<const EmbeddedShader>(SHADERS, %d);" % len(names), "}", "", "} // namespace gnomon", ""]
+    with open(str(target[0]), "w", encoding="utf-8") as file:
+        file.write("\n".join(lines))
+
+
+def add_builders(env):
+    """Adds the builders `Spirv` and `EmbeddedShaders`."""
+    scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
+    debug = "-g" if env["dev_build"] else "-g0"
+    env["BUILDERS"]["Spirv"] = env.Builder(
+        action=env.Action(
+            "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
+            % (debug, env.Dir("#shaders").abspath),
+            "Compiling shader $SOURCE",
+        ),
+        source_scanner=scanner,
+    )
+    env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=env.Action(_embed, "Embedding shaders in $TARGET"))
