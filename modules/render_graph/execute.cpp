@@ -50,10 +50,11 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 
 void RenderGraph::rest_imported(std::vector<Barrier> &r_barriers) {
 	for (Resource &resource : resources) {
-		if (!resource.is_imported || !resource.is_texture || resource.first_pass == ~0u) {
+		const bool is_unused = resource.first_pass == ~0u;
+		if (!resource.is_imported || !resource.is_texture || is_unused || resource.acquire) {
 			continue;
 		}
-		const Access rest = resource.is_swapchain ? Access::PRESENT : Access::SHADER_READ_COMPUTE;
+		const Access rest = Access::SHADER_READ_COMPUTE;
 		if (resource.last_access != rest) {
 			Barrier barrier;
 			barrier.texture = resource.texture;
@@ -63,6 +64,15 @@ void RenderGraph::rest_imported(std::vector<Barrier> &r_barriers) {
 			resource.last_access = rest;
 		}
 	}
+}
+
+RenderGraph::Resource *RenderGraph::find_window_image(const Pass &p_pass) {
+	for (const Use &use : p_pass.uses) {
+		if (resources[use.resource].acquire) {
+			return &resources[use.resource];
+		}
+	}
+	return nullptr;
 }
 
 void RenderGraph::record_pass(Pass &p_pass, CommandList &p_commands) {
@@ -129,6 +139,14 @@ void RenderGraph::execute(Mode p_mode) {
 			pass_start = Clock::now();
 			commands = &device.begin_commands();
 		}
+		Resource *window_image = find_window_image(pass);
+		if (window_image) {
+			const std::optional<TextureRID> image = window_image->acquire();
+			if (!image) {
+				continue; // minimised
+			}
+			window_image->texture = *image;
+		}
 		commands->begin_span(pass.name);
 		barriers.clear();
 		collect_barriers(index, barriers);
@@ -136,6 +154,13 @@ void RenderGraph::execute(Mode p_mode) {
 			commands->barriers(barriers);
 		}
 		record_pass(pass, *commands);
+		if (window_image) {
+			Barrier barrier;
+			barrier.texture = window_image->texture;
+			barrier.before = window_image->last_access;
+			barrier.after = Access::PRESENT;
+			commands->barriers({ &barrier, 1 });
+		}
 		commands->end_span();
 		if (p_mode == Mode::ONE_BY_ONE) {
 			device.submit_commands(RenderingDevice::SubmitMode::WAIT);

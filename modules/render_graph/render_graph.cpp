@@ -63,9 +63,10 @@ RGBuffer RenderGraph::import_buffer(BufferRID p_buffer) {
 	return handle;
 }
 
-RGTexture RenderGraph::import_swapchain_texture(TextureRID p_texture) {
-	const RGTexture handle = import_texture(p_texture, ImportedContent::NONE);
-	resources.back().is_swapchain = true;
+RGTexture RenderGraph::import_window_image(std::function<std::optional<TextureRID>()> p_acquire) {
+	const RGTexture handle = create_texture({ .name = "window image" });
+	resources.back().is_imported = true;
+	resources.back().acquire = std::move(p_acquire);
 	return handle;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -117,8 +118,9 @@ public:
 	enum class ImportedContent { NONE, KEPT };
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
 	RGBuffer import_buffer(BufferRID p_buffer);
-	/// The window's image; ends the graph as PRESENT.
-	RGTexture import_swapchain_texture(TextureRID p_texture);
+	/// The window's next image, got from p_acquire when its first pass is recorded and shown when
+	/// that pass is submitted; one pass uses it. The pass is left out when p_acquire gives nothing.
+	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
 
 	const TextureDesc &get_desc(RGTexture p_texture) const;
 
@@ -159,6 +161,7 @@ private:
 	void collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &r_barriers);
 	void record_pass(Pass &p_pass, CommandList &p_commands);
 	void rest_imported(std::vector<Barrier> &r_barriers);
+	Resource *find_window_image(const Pass &p_pass);
 	void collect_spans();
 
 	RenderingDevice &device;

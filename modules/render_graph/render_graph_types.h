@@ -12,7 +12,7 @@ struct RenderGraph::Resource {
 	std::string name;
 	bool is_texture = false;
 	bool is_imported = false;
-	bool is_swapchain = false;
+	std::function<std::optional<TextureRID>()> acquire; // of the window's image
 	bool has_content = false; // imported only
 	TextureDesc texture_desc;
 	BufferDesc buffer_desc;

@@ -173,8 +173,8 @@ void Renderer::add_picture(Frame &r_frame) {
 	if (!request.overlay.empty()) {
 		add_overlay(r_frame, picture);
 	}
-	if (request.swapchain_image) {
-		const RGTexture shown = graph.import_swapchain_texture(*request.swapchain_image);
+	if (request.acquire_window_image) {
+		const RGTexture shown = graph.import_window_image(request.acquire_window_image);
 		graph.add_pass("present")
 				.reads(picture, Access::COPY_READ)
 				.writes(shown, Access::COPY_WRITE)
@@ -184,7 +184,7 @@ void Renderer::add_picture(Frame &r_frame) {
 	}
 	if (request.wants_image) {
 		add_readback(r_frame, picture, r_frame.result.image);
-	} else if (!request.swapchain_image) {
+	} else if (!request.acquire_window_image) {
 		graph.add_pass("picture").reads(picture, Access::COPY_READ).keep();
 	}
 }

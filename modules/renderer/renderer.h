@@ -32,7 +32,8 @@ struct RenderRequest {
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
 	std::string mask_light;
 	bool wants_mask = false; // with mask_light: RenderResult::visibility and receiver
-	std::optional<TextureRID> swapchain_image; // shows the picture there
+	/// Gets the window's next image to show the picture in; see RenderGraph::import_window_image.
+	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
 	/// False: runs everything, also what the image does not need (for the test that compares both).

@@ -1,5 +1,6 @@
 #include "modules/shadow_template/shadow_template.h"
 
+#include "modules/core/text.h"
 #include "modules/renderer/mesh_store.h"
 #include "shadow_template/shadow_template_shared.h"
 
