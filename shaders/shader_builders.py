@@ -8,6 +8,8 @@ import os
 import re
 import struct
 
+from SCons.Script import Action
+
 STAGES = ("vert", "frag", "geom", "comp")
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
@@ -49,11 +51,11 @@ def add_builders(env):
     scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
     debug = "-g" if env["dev_build"] else "-g0"
     env["BUILDERS"]["Spirv"] = env.Builder(
-        action=env.Action(
+        action=Action(  # not env.Action: that expands $TARGET at once, to nothing
             "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
             % (debug, env.Dir("#shaders").abspath),
             "Compiling shader $SOURCE",
         ),
         source_scanner=scanner,
     )
-    env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=env.Action(_embed, "Embedding shaders in $TARGET"))
+    env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=Action(_embed, "Embedding shaders in $TARGET"))

@@ -25,6 +25,8 @@ public:
 	/// Viewport and scissor cover the targets. Dynamic state starts as: no culling, counter-clockwise
 	/// front faces as seen in a y-up view.
 	void begin_rendering(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
+	/// For fragment shaders that only store into buffers and textures.
+	void begin_rendering_without_targets(glm::uvec2 p_size_px);
 	void end_rendering();
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
 	void set_cull_mode(CullMode p_mode);
@@ -65,9 +67,18 @@ public:
 	void blit_texture(TextureRID p_source, TextureRID p_target);
 	/// Same size and format.
 	void copy_texture(TextureRID p_source, TextureRID p_target);
+	/// Layer 0 of the source into layer 0 of the target, converted to its format as Vulkan's blit does
+	/// (sRGB formats are decoded and encoded) and scaled to its size: linear when sizes differ. Not
+	/// for depth; integer formats only to integer formats. COPY_READ to COPY_WRITE. The way to bring
+	/// an RGBA8_UNORM texture of encoded values into a swapchain image.
+	void blit_texture(TextureRID p_source, TextureRID p_target);
+	/// The texture has Access::COPY_WRITE; of UINT formats: the value is converted.
 	void clear_color(TextureRID p_texture, glm::vec4 p_value);
 
 private:
+	void begin_rendering_of_size(glm::uvec2 p_size_px, std::span<const ColorTarget> p_colors,
+			const DepthTarget *p_depth);
+
 	Impl &impl;
 };
 

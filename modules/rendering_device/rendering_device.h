@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -131,6 +132,9 @@ public:
 	/// With a swapchain image acquired this frame, the submission waits for it and presents it.
 	enum class SubmitMode { QUEUE, WAIT };
 	void submit_commands(SubmitMode p_mode);
+	/// Drops what was recorded since begin_commands, for when an Error ends a frame half-way. An
+	/// acquired swapchain image stays acquired. Does nothing when no commands are being recorded.
+	void abandon_commands();
 	void wait_idle();
 	/// Spans of the newest finished submission, in recording order.
 	const std::vector<GpuSpan> &get_gpu_spans() const;
@@ -148,6 +152,21 @@ public:
 private:
 	RenderingDevice();
 	std::unique_ptr<Impl> impl;
+};
+
+/// While it lives, validation messages are collected here and neither counted nor logged. Only for
+/// tests that make a mistake on purpose, to see that the layers notice it. The innermost one collects.
+class ExpectedValidationMessages {
+public:
+	ExpectedValidationMessages();
+	~ExpectedValidationMessages();
+	ExpectedValidationMessages(const ExpectedValidationMessages &) = delete;
+	ExpectedValidationMessages &operator=(const ExpectedValidationMessages &) = delete;
+	std::vector<std::string> get_messages() const;
+
+private:
+	std::vector<std::string> messages;
+	std::vector<std::string> *before = nullptr;
 };
 
 /// Frees the resource when it goes out of scope.

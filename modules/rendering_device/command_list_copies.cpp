@@ -1,0 +1,115 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device/formats.h"
+#include "modules/rendering_device/rendering_device_impl.h"
+
+namespace gnomon {
+
+namespace {
+
+uint64_t get_layer_bytes(const TextureDesc &p_desc) {
+	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
+}
+
+VkImageSubresourceLayers make_layers(
+		const TextureDesc &p_desc, uint32_t p_layer, uint32_t p_layer_count) {
+	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name,
+			"' has ", p_desc.layer_count, " layers, ", p_layer, " was asked for");
+	return { get_aspect(p_desc.format), 0, p_layer, p_layer_count };
+}
+
+VkBufferImageCopy make_layer_copy(
+		const BufferDesc &p_buffer, const TextureDesc &p_texture, uint32_t p_layer) {
+	GNOMON_ASSERT(p_buffer.size_bytes >= get_layer_bytes(p_texture), "buffer '", p_buffer.name,
+			"' has ", p_buffer.size_bytes, " bytes, a layer of '", p_texture.name, "' ",
+			get_layer_bytes(p_texture));
+	return { .imageSubresource = make_layers(p_texture, p_layer, 1),
+		.imageExtent = { p_texture.size_px.x, p_texture.size_px.y, 1 } };
+}
+
+} // namespace
+
+void CommandList::Impl::check_copy(const char *p_call) const {
+	check_recording(p_call);
+	GNOMON_ASSERT(!is_rendering, p_call, " inside begin_rendering .. end_rendering");
+}
+
+void CommandList::fill_buffer(BufferRID p_buffer, uint32_t p_value) {
+	impl.check_copy("fill_buffer");
+	vkCmdFillBuffer(impl.commands, impl.device->buffers.get(p_buffer).buffer, 0, VK_WHOLE_SIZE,
+			p_value);
+}
+
+void CommandList::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
+		uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) {
+	impl.check_copy("copy_buffer");
+	const BufferResource &source = impl.device->buffers.get(p_source);
+	const BufferResource &target = impl.device->buffers.get(p_target);
+	GNOMON_ASSERT(p_source_offset_bytes + p_size_bytes <= source.desc.size_bytes &&
+					p_target_offset_bytes + p_size_bytes <= target.desc.size_bytes,
+			"copy of ", p_size_bytes, " bytes from '", source.desc.name, "' at ",
+			p_source_offset_bytes, " of ", source.desc.size_bytes, " to '", target.desc.name,
+			"' at ", p_target_offset_bytes, " of ", target.desc.size_bytes);
+	const VkBufferCopy region = { p_source_offset_bytes, p_target_offset_bytes, p_size_bytes };
+	vkCmdCopyBuffer(impl.commands, source.buffer, target.buffer, 1, &region);
+}
+
+void CommandList::copy_texture_to_buffer(
+		TextureRID p_source, BufferRID p_target, uint32_t p_layer) {
+	impl.check_copy("copy_texture_to_buffer");
+	const TextureResource &source = impl.device->textures.get(p_source);
+	const BufferResource &target = impl.device->buffers.get(p_target);
+	const VkBufferImageCopy region = make_layer_copy(target.desc, source.desc, p_layer);
+	vkCmdCopyImageToBuffer(impl.commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+			target.buffer, 1, &region);
+}
+
+void CommandList::copy_buffer_to_texture(
+		BufferRID p_source, TextureRID p_target, uint32_t p_layer) {
+	impl.check_copy("copy_buffer_to_texture");
+	const BufferResource &source = impl.device->buffers.get(p_source);
+	const TextureResource &target = impl.device->textures.get(p_target);
+	const VkBufferImageCopy region = make_layer_copy(source.desc, target.desc, p_layer);
+	vkCmdCopyBufferToImage(impl.commands, source.buffer, target.image,
+			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void CommandList::copy_texture(TextureRID p_source, TextureRID p_target) {
+	impl.check_copy("copy_texture");
+	const TextureResource &source = impl.device->textures.get(p_source);
+	const TextureResource &target = impl.device->textures.get(p_target);
+	const uint32_t layer_count = source.desc.layer_count;
+	GNOMON_ASSERT(source.format == target.format && source.desc.size_px == target.desc.size_px &&
+					layer_count == target.desc.layer_count,
+			"copy_texture of '", source.desc.name, "' to '", target.desc.name,
+			"', which differ in format, size or layer count; use blit_texture");
+	const VkImageCopy region = { .srcSubresource = make_layers(source.desc, 0, layer_count),
+		.dstSubresource = make_layers(target.desc, 0, layer_count),
+		.extent = { source.desc.size_px.x, source.desc.size_px.y, 1 } };
+	vkCmdCopyImage(impl.commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
+			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void CommandList::blit_texture(TextureRID p_source, TextureRID p_target) {
+	impl.check_copy("blit_texture");
+	const TextureResource &source = impl.device->textures.get(p_source);
+	const TextureResource &target = impl.device->textures.get(p_target);
+	GNOMON_ASSERT(!is_depth_format(source.desc.format) && !is_depth_format(target.desc.format) &&
+					is_uint_format(source.desc.format) == is_uint_format(target.desc.format),
+			"blit_texture of '", source.desc.name, "' to '", target.desc.name,
+			"' cannot convert depth, nor between integers and floats");
+	const auto get_end = [](const TextureDesc &p_desc) {
+		return VkOffset3D{ static_cast<int32_t>(p_desc.size_px.x),
+			static_cast<int32_t>(p_desc.size_px.y), 1 };
+	};
+	const VkImageBlit region = { .srcSubresource = make_layers(source.desc, 0, 1),
+		.srcOffsets = { {}, get_end(source.desc) },
+		.dstSubresource = make_layers(target.desc, 0, 1),
+		.dstOffsets = { {}, get_end(target.desc) } };
+	const bool is_scaled = source.desc.size_px != target.desc.size_px;
+	const bool is_linear = is_scaled && !is_uint_format(source.desc.format);
+	vkCmdBlitImage(impl.commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
+			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+			is_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+}
+
+} // namespace gnomon

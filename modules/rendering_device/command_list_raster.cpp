@@ -1,0 +1,219 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device/formats.h"
+#include "modules/rendering_device/rendering_device_impl.h"
+
+namespace gnomon {
+
+namespace {
+
+VkAttachmentLoadOp get_load_op(LoadOp p_op) {
+	switch (p_op) {
+		case LoadOp::CLEAR:
+			return VK_ATTACHMENT_LOAD_OP_CLEAR;
+		case LoadOp::KEEP:
+			return VK_ATTACHMENT_LOAD_OP_LOAD;
+		case LoadOp::DISCARD:
+			return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+	}
+	return VK_ATTACHMENT_LOAD_OP_LOAD;
+}
+
+VkClearColorValue make_clear_value(Format p_format, glm::vec4 p_value) {
+	VkClearColorValue value = {};
+	for (int channel = 0; channel < 4; ++channel) {
+		if (is_uint_format(p_format)) {
+			value.uint32[channel] = static_cast<uint32_t>(p_value[channel]);
+		} else {
+			value.float32[channel] = p_value[channel];
+		}
+	}
+	return value;
+}
+
+std::string describe_formats(const std::vector<Format> &p_formats, bool p_has_depth) {
+	std::string description;
+	for (const Format format : p_formats) {
+		description += text(get_format_name(format), " ");
+	}
+	return description + (p_has_depth ? "with depth" : "without depth");
+}
+
+} // namespace
+
+void CommandList::begin_rendering(
+		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	GNOMON_ASSERT(!p_colors.empty() || p_depth,
+			"begin_rendering without targets; begin_rendering_without_targets gives the size");
+	const TextureRID first = p_colors.empty() ? p_depth->texture : p_colors.front().texture;
+	begin_rendering_of_size(impl.device->textures.get(first).desc.size_px, p_colors, p_depth);
+}
+
+void CommandList::begin_rendering_without_targets(glm::uvec2 p_size_px) {
+	begin_rendering_of_size(p_size_px, {}, nullptr);
+}
+
+void CommandList::begin_rendering_of_size(glm::uvec2 p_size_px,
+		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	impl.check_recording("begin_rendering");
+	GNOMON_ASSERT(!impl.is_rendering, "begin_rendering before end_rendering");
+	RenderingDevice::Impl &device = *impl.device;
+	impl.target_color_formats.clear();
+	std::vector<VkRenderingAttachmentInfo> colors;
+	for (const ColorTarget &target : p_colors) {
+		TextureResource &texture = device.textures.get(target.texture);
+		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
+				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
+				p_size_px.x, " x ", p_size_px.y);
+		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::COLOR_ATTACHMENT), "target '",
+				texture.desc.name, "' lacks the usage COLOR_ATTACHMENT");
+		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
+				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+				.imageView = device.get_view(texture, target.layer, false),
+				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+				.loadOp = get_load_op(target.load),
+				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
+		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
+		impl.target_color_formats.push_back(texture.desc.format);
+		GNOMON_ASSERT(texture.format == get_vulkan_format(texture.desc.format),
+				"the swapchain stores BGRA; draw into a texture and blit_texture it");
+	}
+	VkRenderingAttachmentInfo depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
+	impl.has_target_depth = p_depth != nullptr;
+	impl.is_target_depth_read_only = false;
+	if (p_depth) {
+		TextureResource &texture = device.textures.get(p_depth->texture);
+		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
+				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
+				p_size_px.x, " x ", p_size_px.y);
+		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::DEPTH_ATTACHMENT), "target '",
+				texture.desc.name, "' lacks the usage DEPTH_ATTACHMENT");
+		impl.is_target_depth_read_only =
+				texture.recorded_layout == VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+		GNOMON_ASSERT(!impl.is_target_depth_read_only || p_depth->load == LoadOp::KEEP,
+				"target '", texture.desc.name, "' has Access::DEPTH_READ and must be kept");
+		depth.imageView = device.get_view(texture, p_depth->layer, false);
+		depth.imageLayout = impl.is_target_depth_read_only
+				? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
+				: VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+		depth.loadOp = get_load_op(p_depth->load);
+		// Storing counts as a write, also of what was only tested against.
+		depth.storeOp = impl.is_target_depth_read_only ? VK_ATTACHMENT_STORE_OP_NONE
+													   : VK_ATTACHMENT_STORE_OP_STORE;
+		depth.clearValue.depthStencil.depth = p_depth->clear;
+	}
+	const VkRenderingInfo info = { .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+		.renderArea = { .extent = { p_size_px.x, p_size_px.y } },
+		.layerCount = 1,
+		.colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+		.pColorAttachments = colors.data(),
+		.pDepthAttachment = p_depth ? &depth : nullptr };
+	vkCmdBeginRendering(impl.commands, &info);
+	impl.is_rendering = true;
+	set_viewport(glm::uvec2(0), p_size_px);
+	set_cull_mode(CullMode::NONE);
+	set_winding(Winding::NORMAL);
+}
+
+void CommandList::end_rendering() {
+	impl.check_recording("end_rendering");
+	GNOMON_ASSERT(impl.is_rendering, "end_rendering without begin_rendering");
+	vkCmdEndRendering(impl.commands);
+	impl.is_rendering = false;
+}
+
+void CommandList::set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
+	impl.check_recording("set_viewport");
+	const glm::vec2 offset(p_offset_px);
+	const glm::vec2 size(p_size_px);
+	const VkViewport viewport = { offset.x, offset.y, size.x, size.y, 0.0f, 1.0f };
+	const VkRect2D scissor = { { static_cast<int32_t>(p_offset_px.x),
+									   static_cast<int32_t>(p_offset_px.y) },
+		{ p_size_px.x, p_size_px.y } };
+	vkCmdSetViewport(impl.commands, 0, 1, &viewport);
+	vkCmdSetScissor(impl.commands, 0, 1, &scissor);
+}
+
+void CommandList::set_cull_mode(CullMode p_mode) {
+	impl.check_recording("set_cull_mode");
+	static const VkCullModeFlags MODES[] = { VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,
+		VK_CULL_MODE_BACK_BIT };
+	vkCmdSetCullMode(impl.commands, MODES[static_cast<size_t>(p_mode)]);
+}
+
+void CommandList::set_winding(Winding p_winding) {
+	impl.check_recording("set_winding");
+	vkCmdSetFrontFace(impl.commands,
+			p_winding == Winding::NORMAL ? VK_FRONT_FACE_COUNTER_CLOCKWISE
+										 : VK_FRONT_FACE_CLOCKWISE);
+}
+
+void CommandList::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {
+	impl.check_recording("bind_vertex_buffers");
+	std::vector<VkBuffer> handles;
+	for (const BufferRID buffer : p_buffers) {
+		handles.push_back(impl.device->buffers.get(buffer).buffer);
+	}
+	const std::vector<VkDeviceSize> offsets(handles.size(), 0);
+	if (!handles.empty()) {
+		vkCmdBindVertexBuffers(impl.commands, 0, static_cast<uint32_t>(handles.size()),
+				handles.data(), offsets.data());
+	}
+	impl.bound_vertex_buffer_count = static_cast<uint32_t>(handles.size());
+}
+
+void CommandList::bind_index_buffer(BufferRID p_buffer) {
+	impl.check_recording("bind_index_buffer");
+	vkCmdBindIndexBuffer(impl.commands, impl.device->buffers.get(p_buffer).buffer, 0,
+			VK_INDEX_TYPE_UINT32);
+	impl.is_index_buffer_bound = true;
+}
+
+void CommandList::Impl::prepare_draw(const char *p_call) const {
+	check_bound(p_call);
+	GNOMON_ASSERT(is_rendering, p_call, " outside begin_rendering .. end_rendering");
+	GNOMON_ASSERT(pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS, p_call,
+			" with compute pipeline '", pipeline->name, "'");
+	GNOMON_ASSERT(pipeline->color_formats == target_color_formats &&
+					pipeline->has_depth == has_target_depth,
+			"pipeline '", pipeline->name, "' draws into ",
+			describe_formats(pipeline->color_formats, pipeline->has_depth), ", the targets are ",
+			describe_formats(target_color_formats, has_target_depth));
+	GNOMON_ASSERT(!is_target_depth_read_only || !pipeline->writes_depth, "pipeline '",
+			pipeline->name, "' writes depth, the depth target has Access::DEPTH_READ");
+	GNOMON_ASSERT(bound_vertex_buffer_count >= pipeline->vertex_buffer_count, "pipeline '",
+			pipeline->name, "' reads ", pipeline->vertex_buffer_count, " vertex buffers, ",
+			bound_vertex_buffer_count, " are bound");
+}
+
+void CommandList::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
+	impl.prepare_draw("draw");
+	vkCmdDraw(impl.commands, p_vertex_count, p_instance_count, 0, 0);
+}
+
+void CommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
+	impl.prepare_draw("draw_indexed");
+	GNOMON_ASSERT(impl.is_index_buffer_bound, "pipeline '", impl.pipeline->name,
+			"': draw_indexed before bind_index_buffer");
+	vkCmdDrawIndexed(impl.commands, p_index_count, 1, p_first_index, 0, 0);
+}
+
+void CommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
+	impl.prepare_draw("draw_indirect");
+	vkCmdDrawIndirect(
+			impl.commands, impl.device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
+}
+
+void CommandList::clear_color(TextureRID p_texture, glm::vec4 p_value) {
+	impl.check_copy("clear_color");
+	const TextureResource &texture = impl.device->textures.get(p_texture);
+	GNOMON_ASSERT(!is_depth_format(texture.desc.format), "clear_color of depth texture '",
+			texture.desc.name, "'");
+	const VkClearColorValue value = make_clear_value(texture.desc.format, p_value);
+	const VkImageSubresourceRange range = { .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
+		.levelCount = 1,
+		.layerCount = texture.desc.layer_count };
+	vkCmdClearColorImage(impl.commands, texture.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value,
+			1, &range);
+}
+
+} // namespace gnomon

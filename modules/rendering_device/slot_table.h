@@ -1,0 +1,82 @@
+#pragma once
+
+#include "modules/core/error.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon {
+
+/// Resources behind handles. A handle holds the slot's index and its generation, so that a handle
+/// used after free() is noticed and named instead of reaching whoever took over the slot.
+/// Resource needs a member `desc.name`.
+template <typename Handle, typename Resource> class SlotTable {
+public:
+	explicit SlotTable(const char *p_kind) : kind(p_kind) {}
+
+	Handle add(Resource &&p_resource) {
+		if (free_indices.empty()) {
+			free_indices.push_back(static_cast<uint32_t>(slots.size()));
+			slots.emplace_back();
+		}
+		const uint32_t index = free_indices.back();
+		free_indices.pop_back();
+		slots[index].resource.emplace(std::move(p_resource));
+		return Handle{ (uint64_t(slots[index].generation) << 32) | (index + 1u) };
+	}
+
+	Resource &get(Handle p_handle) {
+		Slot &slot = find(p_handle);
+		return *slot.resource;
+	}
+
+	/// Takes the resource out; the handle names nothing from now on.
+	Resource remove(Handle p_handle) {
+		Slot &slot = find(p_handle);
+		Resource resource = std::move(*slot.resource);
+		slot.resource.reset();
+		slot.freed_name = resource.desc.name;
+		++slot.generation;
+		free_indices.push_back(get_index(p_handle));
+		return resource;
+	}
+
+	/// Calls p_visit(handle, resource) for each resource, oldest slot first.
+	template <typename Visit> void for_each(const Visit &p_visit) {
+		for (uint32_t index = 0; index < slots.size(); ++index) {
+			Slot &slot = slots[index];
+			if (slot.resource) {
+				p_visit(Handle{ (uint64_t(slot.generation) << 32) | (index + 1u) }, *slot.resource);
+			}
+		}
+	}
+
+private:
+	struct Slot {
+		std::optional<Resource> resource;
+		uint32_t generation = 1;
+		std::string freed_name; // of the resource before
+	};
+
+	static uint32_t get_index(Handle p_handle) { return static_cast<uint32_t>(p_handle.id) - 1u; }
+
+	Slot &find(Handle p_handle) {
+		GNOMON_ASSERT(p_handle, "An empty ", kind, " handle was used.");
+		GNOMON_ASSERT(get_index(p_handle) < slots.size(), "A ", kind, " handle of another device, ",
+				p_handle.id, ", was used.");
+		Slot &slot = slots[get_index(p_handle)];
+		GNOMON_ASSERT(slot.resource && slot.generation == p_handle.id >> 32, "The ", kind, " '",
+				slot.freed_name, "' was used after it was freed.");
+		return slot;
+	}
+
+	const char *kind;
+	std::deque<Slot> slots; // a deque, so that references survive add()
+	std::vector<uint32_t> free_indices;
+};
+
+} // namespace gnomon

@@ -1,0 +1,263 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device/rendering_device_impl.h"
+#include "modules/rendering_device/swapchain_impl.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gnomon {
+
+namespace {
+
+void record_full_barrier(VkCommandBuffer p_commands, VkPipelineStageFlags2 p_target_stages,
+		VkAccessFlags2 p_target_access) {
+	const VkMemoryBarrier2 barrier = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+		.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+		.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+		.dstStageMask = p_target_stages,
+		.dstAccessMask = p_target_access };
+	const VkDependencyInfo dependency = { .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+		.memoryBarrierCount = 1,
+		.pMemoryBarriers = &barrier };
+	vkCmdPipelineBarrier2(p_commands, &dependency);
+}
+
+constexpr VkCommandBufferBeginInfo BEGIN_INFO = {
+	.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+	.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
+};
+
+} // namespace
+
+void RenderingDevice::Impl::create_slots() {
+	const VkSemaphoreTypeCreateInfo timeline_info = {
+		.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+		.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE
+	};
+	VkSemaphoreCreateInfo semaphore_info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
+		.pNext = &timeline_info };
+	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &timeline), "vkCreateSemaphore");
+	set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "finished submissions");
+	semaphore_info.pNext = nullptr;
+	for (uint32_t index = 0; index < SLOT_COUNT; ++index) {
+		SubmissionSlot &slot = slots[index];
+		const VkCommandPoolCreateInfo pool_info = {
+			.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+			.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+			.queueFamilyIndex = physical.queue_family
+		};
+		check(vkCreateCommandPool(device, &pool_info, nullptr, &slot.pool), "vkCreateCommandPool");
+		const VkCommandBufferAllocateInfo allocate_info = {
+			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+			.commandPool = slot.pool,
+			.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+			.commandBufferCount = 2
+		};
+		VkCommandBuffer made[2];
+		check(vkAllocateCommandBuffers(device, &allocate_info, made), "vkAllocateCommandBuffers");
+		slot.commands = made[0];
+		slot.uploads = made[1];
+		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, text("commands ", index));
+		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.uploads, text("uploads ", index));
+		check(vkCreateSemaphore(device, &semaphore_info, nullptr, &slot.image_acquired),
+				"vkCreateSemaphore");
+		set_name(VK_OBJECT_TYPE_SEMAPHORE, slot.image_acquired, text("image acquired ", index));
+		slot.breadcrumbs = make_buffer({ .name = text("breadcrumbs ", index),
+				.size_bytes = MAX_BREADCRUMBS * sizeof(uint32_t),
+				.usage = BufferUsage::COPY_TARGET,
+				.memory = MemoryKind::READBACK });
+	}
+}
+
+void RenderingDevice::Impl::destroy_slots() {
+	for (SubmissionSlot &slot : slots) {
+		vkDestroyCommandPool(device, slot.pool, nullptr);
+		for (VkDescriptorPool pool : slot.descriptor_pools) {
+			vkDestroyDescriptorPool(device, pool, nullptr);
+		}
+		for (VkQueryPool pool : slot.query_pools) {
+			vkDestroyQueryPool(device, pool, nullptr);
+		}
+		vkDestroySemaphore(device, slot.image_acquired, nullptr);
+		destroy(slot.breadcrumbs);
+	}
+	vkDestroySemaphore(device, timeline, nullptr);
+}
+
+uint64_t RenderingDevice::Impl::get_finished_number() {
+	uint64_t finished = 0;
+	check(vkGetSemaphoreCounterValue(device, timeline, &finished), "vkGetSemaphoreCounterValue");
+	return finished;
+}
+
+void RenderingDevice::Impl::wait_for(uint64_t p_submission_number) {
+	const VkSemaphoreWaitInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+		.semaphoreCount = 1,
+		.pSemaphores = &timeline,
+		.pValues = &p_submission_number };
+	check(vkWaitSemaphores(device, &info, std::numeric_limits<uint64_t>::max()),
+			"vkWaitSemaphores");
+}
+
+void RenderingDevice::Impl::collect() {
+	const uint64_t finished = get_finished_number();
+	while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
+		std::visit([&](auto &r_resource) { destroy(r_resource); },
+				deferred_frees.front().resource);
+		deferred_frees.pop_front();
+	}
+	SubmissionSlot *newest = nullptr;
+	for (SubmissionSlot &slot : slots) {
+		const bool is_finished = slot.has_unread_spans && slot.number <= finished;
+		if (is_finished && (!newest || slot.number > newest->number)) {
+			newest = &slot;
+		}
+	}
+	if (newest) {
+		read_spans(*newest);
+	}
+}
+
+template <typename Resource> void RenderingDevice::Impl::defer_free(Resource &&p_resource) {
+	const uint64_t number = submitted_number + (recording.is_recording ? 1 : 0);
+	deferred_frees.push_back({ number, std::move(p_resource) });
+	// Never throws, since destructors call it: a lost device keeps everything until it ends.
+	uint64_t finished = 0;
+	if (lost_text.empty() &&
+			vkGetSemaphoreCounterValue(device, timeline, &finished) == VK_SUCCESS) {
+		while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
+			std::visit([&](auto &r_resource) { destroy(r_resource); },
+					deferred_frees.front().resource);
+			deferred_frees.pop_front();
+		}
+	}
+}
+template void RenderingDevice::Impl::defer_free(BufferResource &&);
+template void RenderingDevice::Impl::defer_free(TextureResource &&);
+template void RenderingDevice::Impl::defer_free(SamplerResource &&);
+template void RenderingDevice::Impl::defer_free(MemoryResource &&);
+
+CommandList &RenderingDevice::begin_commands() {
+	Impl &device = *impl;
+	device.fail_if_lost();
+	GNOMON_ASSERT(!device.recording.is_recording,
+			"begin_commands was called twice without submit_commands or abandon_commands.");
+	SubmissionSlot &slot = device.get_recording_slot();
+	// An abandoned or refused recording leaves a number that was never submitted.
+	device.wait_for(std::min(slot.number, device.submitted_number));
+	device.collect();
+	device.check(vkResetCommandPool(device.device, slot.pool, 0), "vkResetCommandPool");
+	for (VkDescriptorPool pool : slot.descriptor_pools) {
+		vkResetDescriptorPool(device.device, pool, 0);
+	}
+	slot.descriptor_pool_index = 0;
+	slot.span_names.clear();
+	slot.has_unread_spans = false;
+	slot.number = device.submitted_number + 1;
+	device.check(vkBeginCommandBuffer(slot.commands, &BEGIN_INFO), "vkBeginCommandBuffer");
+	// Frames follow one another; inside a frame the render graph is more exact.
+	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+			VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+	device.recording = CommandList::Impl();
+	device.recording.device = &device;
+	device.recording.commands = slot.commands;
+	device.recording.is_recording = true;
+	return device.command_list;
+}
+
+void RenderingDevice::submit_commands(SubmitMode p_mode) {
+	Impl &device = *impl;
+	device.fail_if_lost();
+	GNOMON_ASSERT(device.recording.is_recording, "submit_commands without begin_commands.");
+	GNOMON_ASSERT(!device.recording.is_rendering, "submit_commands before end_rendering.");
+	GNOMON_ASSERT(!device.recording.is_in_span, "submit_commands inside span '",
+			device.get_recording_slot().span_names.back(), "'.");
+	device.submit();
+	if (p_mode == SubmitMode::WAIT) {
+		device.wait_for(device.submitted_number);
+		device.collect();
+	}
+}
+
+void RenderingDevice::Impl::submit() {
+	SubmissionSlot &slot = get_recording_slot();
+	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+	recording.is_recording = false;
+	check(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
+	if (is_loss_injected) {
+		fail_as_lost(slot.span_names.empty() ? "" : slot.span_names.back());
+	}
+	VkCommandBufferSubmitInfo command_infos[2] = {};
+	uint32_t command_count = 0;
+	const auto add_commands = [&](VkCommandBuffer p_commands) {
+		command_infos[command_count++] = {
+			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = p_commands
+		};
+	};
+	if (!pending_uploads.empty()) {
+		check(vkBeginCommandBuffer(slot.uploads, &BEGIN_INFO), "vkBeginCommandBuffer");
+		record_uploads(slot.uploads);
+		check(vkEndCommandBuffer(slot.uploads), "vkEndCommandBuffer");
+		add_commands(slot.uploads);
+	}
+	add_commands(slot.commands);
+
+	const bool is_presenting = swapchain && swapchain->acquired_index;
+	const VkSemaphoreSubmitInfo wait = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+		.semaphore = is_presenting ? swapchain->acquired_semaphore : VK_NULL_HANDLE,
+		.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	VkSemaphoreSubmitInfo signals[2] = {
+		{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+				.semaphore = timeline,
+				.value = slot.number,
+				.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT },
+	};
+	if (is_presenting) {
+		signals[1] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+			.semaphore = swapchain->get_present_semaphore(),
+			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	}
+	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+		.waitSemaphoreInfoCount = is_presenting ? 1u : 0u,
+		.pWaitSemaphoreInfos = &wait,
+		.commandBufferInfoCount = command_count,
+		.pCommandBufferInfos = command_infos,
+		.signalSemaphoreInfoCount = is_presenting ? 2u : 1u,
+		.pSignalSemaphoreInfos = signals };
+	check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit2");
+	submitted_number = slot.number;
+	slot.has_unread_spans = true;
+	for (PendingUpload &upload : pending_uploads) {
+		deferred_frees.push_back({ submitted_number, std::move(upload.staging) });
+	}
+	pending_uploads.clear();
+	pending_upload_bytes = 0;
+	if (is_presenting) {
+		swapchain->present();
+	}
+}
+
+void RenderingDevice::abandon_commands() {
+	if (!impl->recording.is_recording) {
+		return;
+	}
+	// The command buffer stays open; begin_commands resets its pool.
+	impl->recording.is_recording = false;
+	impl->get_recording_slot().span_names.clear();
+}
+
+void RenderingDevice::wait_idle() {
+	impl->fail_if_lost();
+	impl->check(vkDeviceWaitIdle(impl->device), "vkDeviceWaitIdle");
+	impl->collect();
+}
+
+void RenderingDevice::inject_device_lost() {
+	impl->is_loss_injected = true;
+}
+
+const std::vector<GpuSpan> &RenderingDevice::get_gpu_spans() const {
+	return impl->gpu_spans;
+}
+
+} // namespace gnomon

@@ -1,0 +1,215 @@
+#include "modules/rendering_device/swapchain.h"
+
+#include "modules/core/error.h"
+#include "modules/rendering_device/swapchain_impl.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace gnomon {
+
+namespace {
+
+constexpr VkImageUsageFlags IMAGE_USAGE =
+		VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
+} // namespace
+
+Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_surface) :
+		impl(std::make_unique<Impl>(p_device)) {
+	RenderingDevice::Impl &device = impl->device;
+	device.fail_if_lost();
+	GNOMON_ASSERT(device.options.needs_surface, "the device was created without needs_surface");
+	GNOMON_ASSERT(!device.swapchain, "a device has one swapchain");
+	impl->surface = p_create_surface(device.instance->get());
+	if (!impl->surface) {
+		fail("The window gave no Vulkan surface. Check that a display is there, or run with ",
+				"--headless.");
+	}
+	VkBool32 is_supported = VK_FALSE;
+	vkGetPhysicalDeviceSurfaceSupportKHR(
+			device.physical.handle, device.physical.queue_family, impl->surface, &is_supported);
+	VkSurfaceCapabilitiesKHR capabilities = {};
+	vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
+			device.physical.handle, impl->surface, &capabilities);
+	if (!is_supported || (capabilities.supportedUsageFlags & IMAGE_USAGE) != IMAGE_USAGE) {
+		vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
+		fail("Device \"", device.physical.info.name, "\" cannot show this window. Choose another ",
+				"with --device, or run with --headless.");
+	}
+	try {
+		impl->choose_format();
+	} catch (const Error &) {
+		vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
+		throw;
+	}
+	device.swapchain = impl.get();
+}
+
+Swapchain::~Swapchain() {
+	RenderingDevice::Impl &device = impl->device;
+	vkDeviceWaitIdle(device.device);
+	impl->destroy_images();
+	vkDestroySwapchainKHR(device.device, impl->swapchain, nullptr);
+	vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
+	device.swapchain = nullptr;
+}
+
+glm::uvec2 Swapchain::get_size_px() const {
+	return impl->size_px;
+}
+
+void Swapchain::Impl::choose_format() {
+	uint32_t count = 0;
+	vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical.handle, surface, &count, nullptr);
+	std::vector<VkSurfaceFormatKHR> formats(count);
+	vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical.handle, surface, &count, formats.data());
+	for (const VkFormat wanted : { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM }) {
+		for (const VkSurfaceFormatKHR &offered : formats) {
+			if (offered.format == wanted &&
+					offered.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
+				format = offered;
+				return;
+			}
+		}
+	}
+	fail("Device \"", device.physical.info.name, "\" offers no window format of 8 bits per channel. ",
+			"Choose another with --device, or run with --headless.");
+}
+
+void Swapchain::Impl::destroy_images() {
+	for (Image &image : images) {
+		TextureResource texture = device.textures.remove(image.texture);
+		device.destroy(texture);
+		vkDestroySemaphore(device.device, image.rendered, nullptr);
+	}
+	images.clear();
+}
+
+bool Swapchain::Impl::recreate(glm::uvec2 p_window_size_px) {
+	device.check(vkDeviceWaitIdle(device.device), "vkDeviceWaitIdle");
+	VkSurfaceCapabilitiesKHR capabilities = {};
+	device.check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
+						 device.physical.handle, surface, &capabilities),
+			"vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+	VkExtent2D extent = capabilities.currentExtent;
+	if (extent.width == std::numeric_limits<uint32_t>::max()) {
+		// The window system takes the size from the images.
+		extent.width = std::clamp(p_window_size_px.x, capabilities.minImageExtent.width,
+				capabilities.maxImageExtent.width);
+		extent.height = std::clamp(p_window_size_px.y, capabilities.minImageExtent.height,
+				capabilities.maxImageExtent.height);
+	}
+	if (extent.width == 0 || extent.height == 0) {
+		return false;
+	}
+	uint32_t image_count = std::max(capabilities.minImageCount + 1, 3u);
+	if (capabilities.maxImageCount > 0) {
+		image_count = std::min(image_count, capabilities.maxImageCount);
+	}
+	const auto opaque = (capabilities.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR)
+			? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+			: VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+	const VkSwapchainCreateInfoKHR info = { .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+		.surface = surface,
+		.minImageCount = image_count,
+		.imageFormat = format.format,
+		.imageColorSpace = format.colorSpace,
+		.imageExtent = extent,
+		.imageArrayLayers = 1,
+		.imageUsage = IMAGE_USAGE,
+		.preTransform = capabilities.currentTransform,
+		.compositeAlpha = opaque,
+		.presentMode = VK_PRESENT_MODE_FIFO_KHR, // the only one that every device has
+		.clipped = VK_TRUE,
+		.oldSwapchain = swapchain };
+	VkSwapchainKHR made = VK_NULL_HANDLE;
+	const VkResult result = vkCreateSwapchainKHR(device.device, &info, nullptr, &made);
+	destroy_images();
+	vkDestroySwapchainKHR(device.device, swapchain, nullptr);
+	swapchain = made;
+	device.check(result, "vkCreateSwapchainKHR");
+	size_px = { extent.width, extent.height };
+	wanted_size_px = p_window_size_px;
+	is_out_of_date = false;
+
+	uint32_t count = 0;
+	vkGetSwapchainImagesKHR(device.device, swapchain, &count, nullptr);
+	std::vector<VkImage> handles(count);
+	vkGetSwapchainImagesKHR(device.device, swapchain, &count, handles.data());
+	for (uint32_t index = 0; index < count; ++index) {
+		TextureResource texture;
+		texture.desc = { text("window image ", index), Format::RGBA8_UNORM, size_px, 1,
+			TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_TARGET };
+		texture.image = handles[index];
+		texture.format = format.format;
+		texture.is_swapchain = true;
+		device.set_name(VK_OBJECT_TYPE_IMAGE, texture.image, texture.desc.name);
+		Image image;
+		image.texture = device.textures.add(std::move(texture));
+		const VkSemaphoreCreateInfo semaphore_info = {
+			.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO
+		};
+		const VkResult semaphore_result =
+				vkCreateSemaphore(device.device, &semaphore_info, nullptr, &image.rendered);
+		images.push_back(image);
+		device.check(semaphore_result, "vkCreateSemaphore");
+		device.set_name(VK_OBJECT_TYPE_SEMAPHORE, image.rendered, text("image rendered ", index));
+	}
+	return true;
+}
+
+std::optional<TextureRID> Swapchain::acquire(glm::uvec2 p_window_size_px) {
+	RenderingDevice::Impl &device = impl->device;
+	device.fail_if_lost();
+	device.recording.check_recording("Swapchain::acquire");
+	if (impl->acquired_index) {
+		return impl->images[*impl->acquired_index].texture; // of a frame that was abandoned
+	}
+	if (p_window_size_px.x == 0 || p_window_size_px.y == 0) {
+		return std::nullopt;
+	}
+	if (impl->wanted_size_px != p_window_size_px) {
+		impl->is_out_of_date = true;
+	}
+	// A window that is being resized may outrun us; the next frame tries again then.
+	for (int attempt = 0; attempt < 2; ++attempt) {
+		if ((impl->is_out_of_date || !impl->swapchain) && !impl->recreate(p_window_size_px)) {
+			return std::nullopt;
+		}
+		const VkSemaphore semaphore = device.get_recording_slot().image_acquired;
+		uint32_t index = 0;
+		const VkResult result = vkAcquireNextImageKHR(device.device, impl->swapchain,
+				std::numeric_limits<uint64_t>::max(), semaphore, VK_NULL_HANDLE, &index);
+		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+			impl->is_out_of_date = true;
+			continue;
+		}
+		device.check(result, "vkAcquireNextImageKHR");
+		impl->is_out_of_date = result == VK_SUBOPTIMAL_KHR;
+		impl->acquired_index = index;
+		impl->acquired_semaphore = semaphore;
+		return impl->images[index].texture;
+	}
+	return std::nullopt;
+}
+
+void Swapchain::Impl::present() {
+	const uint32_t index = *acquired_index;
+	const VkSemaphore rendered = images[index].rendered;
+	acquired_index.reset();
+	const VkPresentInfoKHR info = { .sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+		.waitSemaphoreCount = 1,
+		.pWaitSemaphores = &rendered,
+		.swapchainCount = 1,
+		.pSwapchains = &swapchain,
+		.pImageIndices = &index };
+	const VkResult result = vkQueuePresentKHR(device.queue, &info);
+	if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
+		is_out_of_date = true;
+		return;
+	}
+	device.check(result, "vkQueuePresentKHR");
+}
+
+} // namespace gnomon
