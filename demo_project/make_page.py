@@ -122,7 +122,7 @@ class Page:
             return ""
         low_x, high_x = min(p[2] for p in points) / 1.3, max(p[2] for p in points) * 1.6
         low_y, high_y = min(p[1] for p in points) / 1.3, max(p[1] for p in points) * 1.3
-        width, height, left, right, top, bottom = 720, 420, 64, 16, 14, 46
+        width, height, left, right, top, bottom = 640, 420, 64, 16, 14, 46
 
         def place_x(value):
             return left + (width - left - right) * math.log(value / low_x) / math.log(high_x / low_x)
@@ -146,20 +146,21 @@ class Page:
                 '<circle cx="%.1f" cy="%.1f" r="2.6" fill="%s" opacity="0.4"/>'
                 % (place_x(milliseconds), place_y(error), self.colors[name])
             )
-        taken = []
+        # A label avoids the other labels and the large dots: (left, middle, width) of each.
+        taken = [(place_x(item[2]) - 8, place_y(max(item[1], 1e-5)) + 4, 16) for item in means]
         for name, error, milliseconds, _ in means:
             x, y = place_x(milliseconds), place_y(max(error, 1e-5))
             parts.append(
                 '<circle cx="%.1f" cy="%.1f" r="7" fill="%s" stroke="var(--card)" stroke-width="2"/>'
                 % (x, y, self.colors[name])
             )
-            label_width = 7.4 * len(name)
+            label_width = 7.6 * len(name)
             to_left = x + 12 + label_width > width - right
             label_x = x - 12 - label_width if to_left else x + 12
             label_y = y + 4
             for step in range(24):
                 # Down, up, farther down ...: the first place where no label is yet.
-                offset = (step + 1) // 2 * 9 * (1 if step % 2 else -1)
+                offset = (step + 1) // 2 * 8 * (1 if step % 2 else -1)
                 label_y = y + 4 + offset
                 inside = top + 8 < label_y < height - bottom
                 clash = any(abs(label_y - b) < 15 and label_x < a + w + 4 and a < label_x + label_width + 4 for a, b, w in taken)
@@ -184,7 +185,8 @@ class Page:
         return (
             '<section id="summary"><h2>Error against time</h2>'
             "<p>Lower is closer to the exact shadow, left is faster. Small dots are single lights, large ones their mean"
-            " (of the times: the geometric mean).</p>%s"
+            " (of the times: the geometric mean).</p>"
+            '<div class="table">%s</div>'
             '<div class="table"><table><tr><th>technique</th><th>penumbra MAE</th><th>GPU ms</th><th>lights</th></tr>%s'
             "</table></div></section>" % (self.build_plot(means), "".join(rows))
         )
@@ -220,8 +222,9 @@ class Page:
                     cells += '<td%s>%s</td>' % (' class="best"' if is_best else "", format_value(value, kind))
             rows.append("<tr><td>%s</td>%s</tr>" % (label, cells))
         return (
-            '<div class="table"><table><caption>Tap a technique to see its mask. All errors over penumbra pixels;'
-            ' &ldquo;too dark&rdquo; = shown as umbra though lit by more than 5&thinsp;%%.</caption><tr><th>technique</th>%s</tr>%s'
+            '<p class="soft">Tap a technique to see its mask. All errors over penumbra pixels;'
+            ' &ldquo;too dark&rdquo; = shown as umbra though lit by more than 5&thinsp;%%.</p>'
+            '<div class="table"><table><tr><th>technique</th>%s</tr>%s'
             "</table></div>" % (head, "".join(rows))
         )
 

@@ -14,7 +14,7 @@ h1 { font-size: 2rem; line-height: 1.15; margin: 0 0 8px; letter-spacing: -0.01e
 h2 { font-size: 1.35rem; margin: 0 0 12px; }
 h3 { font-size: 1.02rem; margin: 24px 0 8px; }
 p { margin: 0 0 12px; max-width: 70ch; }
-.soft, figcaption, caption { color: var(--soft); font-size: 0.86rem; }
+.soft, figcaption { color: var(--soft); font-size: 0.86rem; }
 section { background: var(--card); border: 1px solid var(--line); border-radius: 14px;
   padding: 18px; margin: 22px 0; }
 nav { display: flex; flex-wrap: wrap; gap: 8px; margin: 14px 0 0; }
@@ -41,7 +41,7 @@ nav a:hover, nav a:focus { border-color: var(--accent); }
   image-rendering: auto; }
 .table { overflow-x: auto; margin: 12px -18px 0; padding: 0 18px; }
 table { border-collapse: collapse; width: 100%; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; padding-bottom: 6px; }
+p.soft { margin: 12px 0 0; }
 th, td { padding: 6px 10px; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--soft); }
 th:first-child, td:first-child { text-align: left; position: sticky; left: 0; background: var(--card); }
@@ -50,7 +50,7 @@ td.failure { text-align: left; white-space: normal; min-width: 240px; }
 button { all: unset; cursor: pointer; border-bottom: 1px dotted var(--soft); }
 button:hover, button:focus-visible { color: var(--accent); border-color: var(--accent); }
 button[aria-pressed="true"] { color: var(--accent); border-bottom: 2px solid var(--accent); font-weight: 600; }
-svg { width: 100%; height: auto; display: block; font: 13px system-ui, sans-serif; }
+svg { width: 100%; min-width: 540px; max-width: 860px; margin: 0 auto; height: auto; display: block; font: 13px system-ui, sans-serif; }
 svg .axis { stroke: var(--line); } svg text { fill: var(--ink); } svg text.tick { fill: var(--soft); font-size: 12px; }
 svg .halo { stroke: var(--card); stroke-width: 4px; paint-order: stroke; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 2px 16px; margin: 0; font-size: 0.9rem; }
