@@ -51,7 +51,7 @@ def add_builders(env):
     env["BUILDERS"]["Spirv"] = env.Builder(
         action=env.Action(
             "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
-            % (debug, env.Dir("#shaders").abspath),
+            % (debug, env.Dir("#shaders").path),
             "Compiling shader $SOURCE",
         ),
         source_scanner=scanner,
