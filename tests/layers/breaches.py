@@ -31,13 +31,14 @@ def make_small_tree(root):
     add_module(root, "shadow_moon", ["core", "renderer"], 4)
     add_module(root, "editor", ["core"], 5)
     add_module(root, "main", ["core"], 6)
-    for name, technique, made in (("lamp", "lamp_fan", "ShadowLamp"), ("moon", "moon", "ShadowMoon")):
+    for name, technique, made in (("lamp", "lamp_fan", "ShadowLamp"), ("moon", "moon", "Sun")):
         text = 'ShadowRegistry::add({ "%s", "x", [] { return std::make_unique<%s>(); } });\n' % (technique, made)
         add_file(root, "modules/shadow_%s/register_types.cpp" % name, text)
     add_file(root, "modules/scene/node.h", '#include "modules/core/register_types.h"\n#include <vector>\n')
     add_file(root, "modules/rendering_device/device.cpp", "#include <vulkan/vulkan.h>\n")
     add_file(root, "modules/main/window.cpp", "#include <GLFW/glfw3.h>\n")
-    add_file(root, "shaders/common/depth_inc.glsl", "// moon and lamp_fan without quotes are words\n")
+    add_file(root, "shaders/common/depth_inc.glsl", "// moon, Sun and lamp_fan without quotes are words\n")
+    add_file(root, "shaders/shared/shared_begin.h", "#include <cstdint>\n")
     add_file(root, "shaders/shadow_lamp/fan.frag", '#include "common/depth_inc.glsl"\n')
     add_file(root, "tests/golden/box/golden.json", '{ "lamp_fan": 1 }\n')
     add_file(root, "doc/index.md", "lamp_fan\n")
@@ -87,6 +88,10 @@ BREACHES = (
      lambda root: add_file(root, "modules/shadow_moon/a.cpp", 'find("lamp_fan");\n')),
     ("a class in a test of the engine", "check_technique_names",
      lambda root: add_file(root, "tests/a.cpp", "ShadowLamp lamp;\n")),
+    ("a class of one word in a test of the engine", "check_technique_names",
+     lambda root: add_file(root, "tests/a.cpp", "Sun sun; // shines\n")),
+    ("a shader include of another technique in brackets", "check_shader_includes",
+     lambda root: add_file(root, "shaders/shadow_moon/a.frag", "#include <shadow_lamp/fan.frag>\n")),
     ("a shader that includes another technique's", "check_shader_includes",
      lambda root: add_file(root, "shaders/shadow_moon/a.frag", '#include "shadow_lamp/fan.frag"\n')),
     ("a common shader that includes a technique's", "check_shader_includes",

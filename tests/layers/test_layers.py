@@ -196,14 +196,17 @@ def check_technique_names(tree):
             if path.startswith(("modules/%s/" % module, "shaders/%s/" % module)):
                 continue
             for number, line in enumerate(tree.get_text(path).splitlines(), 1):
+                code = line.split("//")[0].split("#")[0]
                 for name in sorted(ids):
-                    # A plain word such as "views" is a technique's id only when it stands alone;
-                    # one with an underscore also begins the names of its properties.
+                    # A plain word is a technique's id only when it stands alone in quotes; an id
+                    # with an underscore also begins the names of its properties.
                     ending = r"(_\w+)?" if "_" in name else ""
                     if re.search(r"[\"']%s%s[\"']" % (name, ending), line):
                         yield '%s:%d: names technique "%s" of module %s' % (path, number, name, module)
                 for name in sorted(classes):
-                    if re.search(r"\b%s\b" % name, line):
+                    # A class of one plain word may stand in a comment as that word.
+                    is_word = len(re.findall("[A-Z]", name)) == 1
+                    if re.search(r"\b%s\b" % name, code if is_word else line):
                         yield "%s:%d: names class %s of module %s" % (path, number, name, module)
 
 
@@ -211,7 +214,9 @@ def check_shader_includes(tree):
     """A shader includes its own folder, common/ and shared/."""
     for path in tree.find_sources(SHADERS + (".h",), ("shaders/",)):
         own = path.split("/")[1]
-        for line, _, name in tree.get_includes(path):
+        for line, bracket, name in tree.get_includes(path):
+            if bracket == "<" and not any(file.startswith("shaders/%s/" % name.split("/")[0]) for file in tree.files):
+                continue  # the standard library and GLM, in headers that C++ reads too
             if name.split("/")[0] not in (own, "common", "shared"):
                 yield "%s:%d: includes %s; allowed are %s/, common/ and shared/" % (path, line, name, own)
             elif "shaders/" + name not in tree.files:
