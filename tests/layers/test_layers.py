@@ -196,7 +196,7 @@ def check_technique_names(tree):
             if path.startswith(("modules/%s/" % module, "shaders/%s/" % module)):
                 continue
             for number, line in enumerate(tree.get_text(path).splitlines(), 1):
-                code = line.split("//")[0].split("#")[0]
+                code = line.split("//")[0] if path.endswith(CPP) else ""
                 for name in sorted(ids):
                     # A plain word is a technique's id only when it stands alone in quotes; an id
                     # with an underscore also begins the names of its properties.
@@ -204,7 +204,7 @@ def check_technique_names(tree):
                     if re.search(r"[\"']%s%s[\"']" % (name, ending), line):
                         yield '%s:%d: names technique "%s" of module %s' % (path, number, name, module)
                 for name in sorted(classes):
-                    # A class of one plain word may stand in a comment as that word.
+                    # A class of one plain word may be that word in comments and shaders.
                     is_word = len(re.findall("[A-Z]", name)) == 1
                     if re.search(r"\b%s\b" % name, code if is_word else line):
                         yield "%s:%d: names class %s of module %s" % (path, number, name, module)
