@@ -152,7 +152,7 @@ if is_wanted layers; then
     run_part "layers canary" python3 tests/layers/test_layers.py --self-test
 fi
 if is_wanted scenes; then
-    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py
+    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_page.py
 fi
 # Every later part runs what this one builds.
 if is_wanted build; then
