@@ -2,6 +2,8 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
+PARTS="layers scenes build engine command_line demo removal sanitized sanitized_all threads tables"
+
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
@@ -27,7 +29,14 @@ while [ $# -gt 0 ]; do
                 echo "ERROR: $1 needs a value. See tests/run_tests.sh --help." >&2
                 exit 2
             fi
-            if [ "$1" = --jobs ]; then jobs=$2; else only+=("$2"); fi
+            if [ "$1" = --jobs ]; then
+                jobs=$2
+            elif [[ " $PARTS " == *" $2 "* ]]; then
+                only+=("$2")
+            else
+                echo "ERROR: unknown part $2, must be one of: $PARTS." >&2
+                exit 2
+            fi
             shift
             ;;
         -h | --help)
