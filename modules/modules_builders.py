@@ -13,6 +13,7 @@ A module is a folder with register_types.h, SCsub and config.py. config.py says:
 
 import importlib.util
 import os
+import re
 
 VERSION = "0.1.0"
 REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
@@ -76,6 +77,26 @@ def select_modules(modules, env):
         names.add(module.name)
         selected.append(module)
     return selected
+
+
+def find_missing_modules(path, modules):
+    """Names of modules that a file of tests/ includes and this build does not have."""
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    built = {module.name for module in modules}
+    missing, seen, waiting = set(), set(), [path]
+    while waiting:
+        current = waiting.pop()
+        if current in seen or not os.path.isfile(current):
+            continue
+        seen.add(current)
+        with open(current, encoding="utf-8") as file:
+            included = re.findall(r'^\s*#\s*include\s+"([^"]+)"', file.read(), re.MULTILINE)
+        for name in included:
+            if name.startswith("tests/"):
+                waiting.append(os.path.join(root, name))
+            elif name.startswith("modules/") and name.split("/")[1] not in built and "/" in name[8:]:
+                missing.add(name.split("/")[1])
+    return missing
 
 
 def _quote(text):
@@ -142,7 +163,8 @@ def add_builders(env, modules):
 def use_precompiled_header(env):
     """A clone of env whose C++ files begin with the precompiled header."""
     clone = env.Clone()
-    header = env.File(env["BUILD_FOLDER"] + "/pch/pch.h").abspath
+    # Relative, so that a copy of the tree with its build folder rebuilds nothing (tests/removal).
+    header = env.File(env["BUILD_FOLDER"] + "/pch/pch.h").path
     clone.Append(CXXFLAGS=["-include", header, "-Winvalid-pch"])
     return clone
 
