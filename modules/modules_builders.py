@@ -145,7 +145,7 @@ def add_builders(env, modules):
     env["PRECOMPILED"] = env.Command(
         env["BUILD_FOLDER"] + "/pch/pch.h.gch",
         header,
-        "$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE",
+        env.Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
     )
     env.Depends(env["PRECOMPILED"], env["BUILD_FOLDER"] + "/pch/pch.h")
 

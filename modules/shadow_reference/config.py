@@ -3,7 +3,7 @@ import subprocess
 
 
 def get_dependencies():
-    return ["core", "scene"]
+    return ["core", "scene", "rendering_device", "render_graph", "renderer"]
 
 
 def get_layer():
@@ -30,3 +30,11 @@ def can_build(env):
 
 def configure(env):
     env.Append(LIBS=["embree%d" % _find_embree(env)])
+
+
+def get_source():
+    return "Area integral over the light's disc, Embree rays"
+
+
+def get_doc():
+    return "doc/techniques/reference.md"

@@ -1,9 +1,26 @@
 #include "modules/shadow_reference/register_types.h"
 
+#include "modules/renderer/shadow_registry.h"
+#include "modules/shadow_reference/shadow_reference.h"
+
 namespace gnomon {
 
-// Nothing to register yet: only the ray tracer on the CPU is here.
-void initialize_shadow_reference_module(ModuleLevel) {}
-void uninitialize_shadow_reference_module(ModuleLevel) {}
+void initialize_shadow_reference_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowTechniqueInfo info = { "reference", "Exact, by ray tracing on the CPU",
+		"Area integral over the light's disc, Embree rays",
+		[] { return std::make_unique<ShadowReference>(); } };
+	info.is_reference = true;
+	ShadowRegistry::add(std::move(info));
+}
+
+void uninitialize_shadow_reference_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowRegistry::remove("reference");
+}
 
 } // namespace gnomon

@@ -8,9 +8,8 @@ layout(push_constant) uniform Push {
 
 layout(location = 0) in vec3 in_position_node;
 
-// Every pass that draws casters from a light uses this one expression: equal bits, equal depth.
-invariant gl_Position;
-
 void main() {
-	gl_Position = push.clip_from_node * vec4(in_position_node, 1.0);
+	// Every pass that draws casters from a light uses this one expression: equal bits, equal depth.
+	precise vec4 position_clip = push.clip_from_node * vec4(in_position_node, 1.0);
+	gl_Position = position_clip;
 }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/packing.hpp>
+
+namespace gnomon {
+
+/// The unit vector of a texel of the G-buffer's normals: normal_inc.glsl's unpack_normal, for passes
+/// that run on the CPU.
+inline glm::vec3 unpack_normal(uint32_t p_packed) {
+	const glm::vec2 folded = glm::unpackSnorm2x16(p_packed);
+	glm::vec3 n(folded, 1.0f - std::abs(folded.x) - std::abs(folded.y));
+	if (n.z < 0.0f) {
+		const glm::vec2 sign(n.x >= 0.0f ? 1.0f : -1.0f, n.y >= 0.0f ? 1.0f : -1.0f);
+		n = glm::vec3(glm::vec2(1.0f - std::abs(n.y), 1.0f - std::abs(n.x)) * sign, n.z);
+	}
+	return glm::normalize(n);
+}
+
+} // namespace gnomon

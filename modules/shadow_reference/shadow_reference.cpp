@@ -1,0 +1,205 @@
+#include "modules/shadow_reference/shadow_reference.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/core/progress.h"
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/normal_packing.h"
+
+#include <chrono>
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+// Counts up when the definition of truth or the tracer changes: older cache entries are then
+// not found.
+constexpr uint64_t TRUTH_VERSION = 1;
+
+/// Triangles of all casters relative to the camera, as the rasteriser places them.
+struct CasterTriangles {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+};
+
+CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
+	CasterTriangles triangles;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (!instance.casts_shadow) {
+			continue;
+		}
+		const glm::mat4 matrix = p_scene.get_camera_relative_from_node(instance);
+		const uint32_t first = static_cast<uint32_t>(triangles.positions.size());
+		for (const glm::vec3 &position : instance.mesh->positions_node) {
+			triangles.positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
+		}
+		for (uint32_t index : instance.mesh->indices) {
+			triangles.indices.push_back(first + index);
+		}
+	}
+	return triangles;
+}
+
+template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {
+	return compute_hash(bytes_of(p_values), p_hash);
+}
+
+} // namespace
+
+struct ShadowReference::Job {
+	glm::uvec2 size_px;
+	shader::FrameConstants frame;
+	AreaLight light;
+	VisibilityOptions options;
+	CasterTriangles triangles;
+	RGBuffer depth;
+	RGBuffer normal;
+	RGBuffer receivers;
+	RGBuffer mask;
+	std::string light_name;
+
+	glm::vec3 compute_position(uint32_t p_x, uint32_t p_y, float p_depth) const {
+		// As position_from_depth in depth_inc.glsl.
+		const glm::vec2 uv = (glm::vec2(p_x, p_y) + 0.5f) / glm::vec2(size_px);
+		return frame.near_m / p_depth *
+				(glm::vec3(frame.forward) + (2.0f * uv.x - 1.0f) * glm::vec3(frame.right_tangent) +
+						(1.0f - 2.0f * uv.y) * glm::vec3(frame.up_tangent));
+	}
+
+	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
+		uint64_t key = add_to_hash(std::span<const glm::vec3>(triangles.positions), TRUTH_VERSION);
+		key = add_to_hash(std::span<const uint32_t>(triangles.indices), key);
+		std::vector<glm::vec3> points;
+		for (const ReceiverPoint &point : p_points) {
+			points.push_back(point.is_receiver ? point.position : glm::vec3(0.0f));
+			points.push_back(point.is_receiver ? point.geometric_normal : glm::vec3(0.0f));
+		}
+		key = add_to_hash(std::span<const glm::vec3>(points), key);
+		const float numbers[] = { light.is_directional ? 1.0f : 0.0f, light.position.x,
+			light.position.y, light.position.z, light.direction.x, light.direction.y,
+			light.direction.z, light.disc_radius, options.scene_size_m,
+			static_cast<float>(options.sample_count) };
+		return add_to_hash(std::span<const float>(numbers), key);
+	}
+};
+
+void ShadowReference::get_light_properties(PropertyList &r_list) const {
+	r_list.add({ "reference_samples", PropertyType::INT, int64_t(1024), "1,65536,1",
+			"Rays per pixel. The error falls faster than the square root of their number; published "
+			"tables use 9216.",
+			"", "Reference" });
+}
+
+void ShadowReference::compute(
+		const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth) {
+	const auto start = std::chrono::steady_clock::now();
+	const AreaLightVisibility tracer(p_job.triangles.positions, p_job.triangles.indices);
+	Progress progress("Tracing the reference of light \"" + p_job.light_name + "\"");
+	VisibilityOptions options = p_job.options;
+	options.progress = [&](float p_fraction) { progress.update(p_fraction); };
+	VisibilityResult result = tracer.compute(p_points, p_job.size_px, p_job.light, options);
+	r_truth.visibility = std::move(result.visibility);
+	r_truth.standard_error = result.standard_error;
+	r_truth.penumbra_pixel_count = result.penumbra_pixel_count;
+	const double seconds =
+			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	log_info("Reference: ", result.ray_count, " rays in ", seconds, " s (",
+			result.ray_count / std::max(seconds, 1e-9) * 1e-6, " million a second).");
+}
+
+void ShadowReference::run(const Job &p_job, HostContext &p_context) {
+	const size_t pixel_count = size_t(p_job.size_px.x) * p_job.size_px.y;
+	const uint8_t *receivers = p_context.get_mapped(p_job.receivers);
+	const uint8_t *depths = p_context.get_mapped(p_job.depth);
+	const uint8_t *normals = p_context.get_mapped(p_job.normal);
+	std::vector<ReceiverPoint> points(pixel_count);
+	for (size_t index = 0; index < pixel_count; ++index) {
+		float depth = 0;
+		uint32_t packed_normal = 0;
+		std::memcpy(&depth, depths + index * sizeof(float), sizeof(float));
+		std::memcpy(&packed_normal, normals + index * sizeof(uint32_t), sizeof(uint32_t));
+		points[index].is_receiver = receivers[index] != 0 && depth > 0.0f;
+		if (points[index].is_receiver) {
+			const uint32_t x = static_cast<uint32_t>(index % p_job.size_px.x);
+			const uint32_t y = static_cast<uint32_t>(index / p_job.size_px.x);
+			points[index].position = p_job.compute_position(x, y, depth);
+			points[index].geometric_normal = unpack_normal(packed_normal);
+		}
+	}
+	const uint64_t key = p_job.compute_key(points);
+	if (key != last_key || last_truth.visibility.size() != pixel_count) {
+		const std::optional<Truth> stored = load_truth(key, pixel_count);
+		if (stored) {
+			last_truth = *stored;
+		} else {
+			compute(p_job, points, last_truth);
+			save_truth(key, last_truth);
+		}
+		last_key = key;
+		log_info("Reference of light \"", p_job.light_name, "\": ", p_job.options.sample_count,
+				" samples, standard error ", last_truth.standard_error, " over ",
+				last_truth.penumbra_pixel_count, " penumbra pixels",
+				stored ? " (from the cache)." : ".");
+	}
+	std::memcpy(p_context.get_mapped(p_job.mask), last_truth.visibility.data(),
+			pixel_count * sizeof(float));
+}
+
+RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	auto job = std::make_shared<Job>();
+	job->size_px = p_inputs.size_px;
+	job->frame = compute_frame_constants(p_inputs.scene, p_inputs.size_px);
+	job->light_name = p_inputs.light.name;
+	job->light.is_directional = p_inputs.light.type == LightType::DIRECTIONAL;
+	if (!job->light.is_directional) {
+		job->light.position = p_inputs.scene.to_camera_relative(p_inputs.light.position_world);
+	}
+	job->light.direction = glm::vec3(p_inputs.light.get_direction_world());
+	job->light.disc_radius = p_inputs.light.get_disc_radius();
+	job->options.scene_size_m = static_cast<float>(p_inputs.scene.scene_size_m);
+	job->options.sample_count = static_cast<uint32_t>(
+			std::get<int64_t>(p_inputs.properties.at("reference_samples")));
+	job->triangles = collect_triangles(p_inputs.scene);
+
+	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
+	const auto add_copy = [&](RGTexture p_texture) {
+		const TextureDesc &desc = r_graph.get_desc(p_texture);
+		const RGBuffer buffer = r_graph.create_buffer({ desc.name + " for the reference",
+				pixel_count * get_texel_size_bytes(desc.format), BufferUsage::COPY_TARGET,
+				MemoryKind::READBACK });
+		r_graph.add_pass("read back " + desc.name)
+				.reads(p_texture, Access::COPY_READ)
+				.writes(buffer, Access::COPY_WRITE)
+				.execute([=](PassContext &p_context) {
+					p_context.commands.copy_texture_to_buffer(
+							p_context.get(p_texture), p_context.get(buffer));
+				});
+		return buffer;
+	};
+	job->depth = add_copy(p_inputs.depth);
+	job->normal = add_copy(p_inputs.geometric_normal);
+	job->receivers = add_copy(p_inputs.receivers);
+	job->mask = r_graph.create_buffer({ "reference mask", pixel_count * sizeof(float),
+			BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD });
+	r_graph.add_pass("trace")
+			.reads(job->depth, Access::HOST_READ)
+			.reads(job->normal, Access::HOST_READ)
+			.reads(job->receivers, Access::HOST_READ)
+			.writes(job->mask, Access::HOST_WRITE)
+			.execute_on_host([this, job](HostContext &p_context) { run(*job, p_context); });
+	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT,
+			p_inputs.size_px, 1,
+			TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	r_graph.add_pass("upload mask")
+			.reads(job->mask, Access::COPY_READ)
+			.writes(mask, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.copy_buffer_to_texture(
+						p_context.get(job->mask), p_context.get(mask));
+			});
+	return mask;
+}
+
+} // namespace gnomon

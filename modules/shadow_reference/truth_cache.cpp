@@ -1,0 +1,61 @@
+#include "modules/shadow_reference/truth_cache.h"
+
+#include "modules/core/files.h"
+#include "modules/core/text.h"
+
+#include <cstdio>
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+struct EntryHeader {
+	uint64_t key = 0;
+	uint64_t penumbra_pixel_count = 0;
+	uint64_t pixel_count = 0;
+	float standard_error = 0;
+	uint32_t padding = 0;
+};
+
+std::string get_entry_name(uint64_t p_key) {
+	char name[32];
+	std::snprintf(name, sizeof(name), "truth_%016llx", static_cast<unsigned long long>(p_key));
+	return name;
+}
+
+} // namespace
+
+void save_truth(uint64_t p_key, const Truth &p_truth) {
+	EntryHeader header;
+	header.key = p_key;
+	header.penumbra_pixel_count = p_truth.penumbra_pixel_count;
+	header.pixel_count = p_truth.visibility.size();
+	header.standard_error = p_truth.standard_error;
+	const size_t value_bytes = p_truth.visibility.size() * sizeof(float);
+	std::vector<uint8_t> bytes(sizeof(header) + value_bytes);
+	std::memcpy(bytes.data(), &header, sizeof(header));
+	std::memcpy(bytes.data() + sizeof(header), p_truth.visibility.data(), value_bytes);
+	save_cache_entry(get_entry_name(p_key), bytes);
+}
+
+std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count) {
+	const std::vector<uint8_t> bytes = load_cache_entry(get_entry_name(p_key));
+	EntryHeader header;
+	if (bytes.size() != sizeof(header) + p_pixel_count * sizeof(float)) {
+		return std::nullopt;
+	}
+	std::memcpy(&header, bytes.data(), sizeof(header));
+	if (header.key != p_key || header.pixel_count != p_pixel_count) {
+		return std::nullopt;
+	}
+	Truth truth;
+	truth.standard_error = header.standard_error;
+	truth.penumbra_pixel_count = header.penumbra_pixel_count;
+	truth.visibility.resize(p_pixel_count);
+	std::memcpy(truth.visibility.data(), bytes.data() + sizeof(header),
+			p_pixel_count * sizeof(float));
+	return truth;
+}
+
+} // namespace gnomon
