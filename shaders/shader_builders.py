@@ -53,7 +53,7 @@ def add_builders(env):
     env["BUILDERS"]["Spirv"] = env.Builder(
         action=Action(  # not env.Action: that expands $TARGET at once, to nothing
             "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
-            % (debug, env.Dir("#shaders").abspath),
+            % (debug, env.Dir("#shaders").path),
             "Compiling shader $SOURCE",
         ),
         source_scanner=scanner,

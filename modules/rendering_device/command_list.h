@@ -63,6 +63,8 @@ public:
 	/// Tightly packed rows. Depth textures give their depth.
 	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0);
 	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer = 0);
+	/// Any sizes and colour formats, nearest texel; brings a picture into a window.
+	void blit_texture(TextureRID p_source, TextureRID p_target);
 	/// Same size and format.
 	void copy_texture(TextureRID p_source, TextureRID p_target);
 	/// Layer 0 of the source into layer 0 of the target, converted to its format as Vulkan's blit does

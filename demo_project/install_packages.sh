@@ -1,0 +1,60 @@
+# shellcheck shell=bash disable=SC2034
+# The packages Gnomon needs on Debian 12, listed here only. Sourced by run_demo.sh and
+# tests/run_tests.sh; see doc/getting_started.md.
+
+# What builds and runs bin/gnomon.
+BUILD_PACKAGES=(
+    build-essential pkg-config python3 scons
+    libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
+    libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libembree-dev
+    libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev
+)
+# The mesh of the bunny scene.
+DEMO_PACKAGES=(glmark2-data)
+# What the tests use beside that.
+TEST_PACKAGES=(
+    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps
+)
+
+is_package_installed() {
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# install_packages PACKAGE...: installs those that are missing. Needs no network when none is.
+# Returns 1, with the list on stderr, where it cannot.
+install_packages() {
+    local missing=() package as_root=()
+    if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+        echo "ERROR: this system has no apt. Install what these Debian 12 packages hold, then build with scons:" >&2
+        printf '    %s\n' "$*" >&2
+        return 1
+    fi
+    for package in "$@"; do
+        is_package_installed "$package" || missing+=("$package")
+    done
+    if [ ${#missing[@]} -eq 0 ]; then
+        return 0
+    fi
+    echo "Installing ${#missing[@]} packages: ${missing[*]}"
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "ERROR: not root and no sudo. Install as root, then run this again:" >&2
+            echo "    apt-get install --no-install-recommends ${missing[*]}" >&2
+            return 1
+        fi
+        as_root=(sudo)
+    fi
+    # The variable is handed over by env, because sudo drops it.
+    local install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends
+        install "${missing[@]}")
+    if "${install[@]}" >/dev/null 2>&1; then
+        return 0
+    fi
+    # The package lists may be absent or old.
+    "${as_root[@]}" apt-get -qq update >/dev/null || true
+    if "${install[@]}" >/dev/null; then
+        return 0
+    fi
+    echo "ERROR: apt-get could not install: ${missing[*]}. Is the network there, and is this Debian 12?" >&2
+    return 1
+}

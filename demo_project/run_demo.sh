@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 to demo_project/out/index.html: installs what is missing, builds, renders
+# every demo scene with and without soft shadows, and measures every technique.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+Usage: demo_project/run_demo.sh [options]
+  --size WxH      size of the pictures and masks (default 512x512)
+  --samples N     light samples of the reference (default: its own)
+  --quick         three scenes only
+  --scenes A,B    these scenes only
+  --out DIR       where the page goes (default demo_project/out)
+  --jobs N        build jobs (default: one a core)
+  --device NAME   Vulkan device, by name or index (default: the engine's choice)
+  --no-window     do not open the window at the end, even where there is a display
+  --no-build      use bin/gnomon as it is
+Exit code: 0 all done, 1 something failed (the page says what), 2 wrong usage.
+TEXT
+}
+
+fail_usage() {
+    echo "ERROR: $1. See demo_project/run_demo.sh --help." >&2
+    exit 2
+}
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+out=$root/demo_project/out
+jobs=$(nproc 2>/dev/null || echo 1)
+wants_window=yes
+wants_build=yes
+measure_options=()
+while [ $# -gt 0 ]; do
+    case $1 in
+        --size | --samples | --scenes | --out | --jobs | --device)
+            [ $# -ge 2 ] || fail_usage "$1 needs a value"
+            case $1 in
+                --size) [[ $2 =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || fail_usage "--size is $2, must be WxH, such as 512x512" ;;
+                --samples | --jobs) [[ $2 =~ ^[1-9][0-9]*$ ]] || fail_usage "$1 is $2, must be a number from 1" ;;
+            esac
+            case $1 in
+                --out) out=$2 ;;
+                --jobs) jobs=$2 ;;
+                *) measure_options+=("$1" "$2") ;;
+            esac
+            shift
+            ;;
+        --quick) measure_options+=(--quick) ;;
+        --no-window) wants_window=no ;;
+        --no-build) wants_build=no ;;
+        -h | --help)
+            usage
+            exit 0
+            ;;
+        *) fail_usage "unknown option $1" ;;
+    esac
+    shift
+done
+mkdir -p "$out"
+out=$(cd "$out" && pwd)
+cd "$root"
+
+# shellcheck source=demo_project/install_packages.sh
+. demo_project/install_packages.sh
+if [ "$wants_build" = yes ]; then
+    echo "== Packages"
+    install_packages "${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" || exit 1
+    echo "== Build"
+    scons -j"$jobs" -Q bin/gnomon
+fi
+
+has_failed=no
+if [ ! -f demo_project/scenes/bunny.gltf ]; then
+    echo "== Bunny"
+    # The other scenes do not need it.
+    python3 demo_project/scenes/make_bunny.py || has_failed=yes
+fi
+
+echo "== Scenes"
+python3 demo_project/measure_demo.py --out "$out" "${measure_options[@]}" || has_failed=yes
+python3 demo_project/make_page.py "$out" || has_failed=yes
+echo "Page: $out/index.html"
+
+if [ "$wants_window" = yes ] && [ -n "${DISPLAY:-}" ]; then
+    echo "== Window (close it to end)"
+    bin/gnomon run demo_project || has_failed=yes
+fi
+[ "$has_failed" = no ]

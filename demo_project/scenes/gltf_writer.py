@@ -1,0 +1,291 @@
+"""Triangles and a small glTF 2.0 writer for the demo scenes. Standard library only.
+
+A mesh is checked before it is written: float32 positions, no degenerate triangle, and, where it
+should be closed, an oriented 2-manifold with outward faces after welding by position.
+"""
+
+import json
+import math
+import os
+import struct
+
+FLOAT = 5126  # glTF component types
+UINT32 = 5125
+ARRAY_BUFFER = 34962
+ELEMENT_ARRAY_BUFFER = 34963
+
+
+def add(a, b):
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def subtract(a, b):
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def scale(a, factor):
+    return (a[0] * factor, a[1] * factor, a[2] * factor)
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalize(a):
+    length = math.sqrt(dot(a, a))
+    if length == 0.0:
+        raise ValueError("a vector of length zero has no direction")
+    return scale(a, 1.0 / length)
+
+
+def to_float32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def quaternion_about(axis, angle_rad):
+    """x, y, z, w of a right-handed turn."""
+    x, y, z = scale(normalize(axis), math.sin(0.5 * angle_rad))
+    return (x, y, z, math.cos(0.5 * angle_rad))
+
+
+def quaternion_from_y(direction):
+    """The shortest turn that takes +Y to the direction (not straight down)."""
+    d = normalize(direction)
+    x, y, z, w = d[2], 0.0, -d[0], 1.0 + d[1]
+    length = math.sqrt(x * x + y * y + z * z + w * w)
+    return (x / length, y / length, z / length, w / length)
+
+
+def quaternion_look_at(eye, target):
+    """Turns -Z to the target and keeps +Y upward, as cameras and lights of glTF need."""
+    back = normalize(subtract(eye, target))
+    right = normalize(cross((0.0, 1.0, 0.0), back))
+    up = cross(back, right)
+    m = ((right[0], up[0], back[0]), (right[1], up[1], back[1]), (right[2], up[2], back[2]))
+    trace = m[0][0] + m[1][1] + m[2][2]
+    if trace > 0.0:
+        s = 2.0 * math.sqrt(1.0 + trace)
+        return ((m[2][1] - m[1][2]) / s, (m[0][2] - m[2][0]) / s, (m[1][0] - m[0][1]) / s, 0.25 * s)
+    i = max(range(3), key=lambda axis: m[axis][axis])
+    j, k = (i + 1) % 3, (i + 2) % 3
+    s = 2.0 * math.sqrt(1.0 + m[i][i] - m[j][j] - m[k][k])
+    result = [0.0, 0.0, 0.0, (m[k][j] - m[j][k]) / s]
+    result[i] = 0.25 * s
+    result[j] = (m[j][i] + m[i][j]) / s
+    result[k] = (m[k][i] + m[i][k]) / s
+    return tuple(result)
+
+
+def rotate(quaternion, v):
+    x, y, z, w = quaternion
+    t = scale(cross((x, y, z), v), 2.0)
+    return add(add(v, scale(t, w)), cross((x, y, z), t))
+
+
+class Mesh:
+    """Positions, normals and triangles; positions are rounded to float32 when they are added."""
+
+    def __init__(self, is_closed=True):
+        self.positions = []
+        self.normals = []
+        self.triangles = []
+        self.is_closed = is_closed
+
+    def add_vertex(self, position, normal):
+        self.positions.append(tuple(to_float32(value) for value in position))
+        self.normals.append(tuple(to_float32(value) for value in normalize(normal)))
+        return len(self.positions) - 1
+
+    def add_triangle(self, a, b, c):
+        self.triangles.append((a, b, c))
+
+    def add_quad(self, a, b, c, d):
+        self.triangles += [(a, b, c), (a, c, d)]
+
+    def add_mesh(self, other, rotation=(0.0, 0.0, 0.0, 1.0), translation=(0.0, 0.0, 0.0)):
+        """Appends a turned and moved copy."""
+        first = len(self.positions)
+        for position, normal in zip(other.positions, other.normals):
+            self.add_vertex(add(rotate(rotation, position), translation), rotate(rotation, normal))
+        self.triangles += [(a + first, b + first, c + first) for a, b, c in other.triangles]
+
+    def set_smooth_normals(self):
+        """One normal per position: the sum of its faces' normals, weighted by area."""
+        sums = [(0.0, 0.0, 0.0)] * len(self.positions)
+        for a, b, c in self.triangles:
+            origin = self.positions[a]
+            area_normal = cross(subtract(self.positions[b], origin), subtract(self.positions[c], origin))
+            for index in (a, b, c):
+                sums[index] = add(sums[index], area_normal)
+        self.normals = [tuple(to_float32(value) for value in normalize(total)) for total in sums]
+
+    def check(self, name):
+        """Raises ValueError naming the mesh when it is not what it should be."""
+        welded = {}
+        ids = [welded.setdefault(position, len(welded)) for position in self.positions]
+        points = list(welded)
+        parent = list(range(len(points)))
+
+        def find(index):
+            while parent[index] != index:
+                parent[index] = parent[parent[index]]
+                index = parent[index]
+            return index
+
+        directed = {}
+        for triangle in self.triangles:
+            a, b, c = (ids[index] for index in triangle)
+            if len({a, b, c}) < 3:
+                raise ValueError("mesh %s: triangle %s has no area" % (name, triangle))
+            for edge in ((a, b), (b, c), (c, a)):
+                directed[edge] = directed.get(edge, 0) + 1
+                parent[find(edge[0])] = find(edge[1])
+        for (a, b), count in directed.items():
+            if count > 1:
+                raise ValueError("mesh %s: edge %s-%s is run %d times in one direction" % (name, points[a], points[b], count))
+            if self.is_closed and (b, a) not in directed:
+                raise ValueError("mesh %s: edge %s-%s has one face only, so it is not closed" % (name, points[a], points[b]))
+        if not self.is_closed:
+            return
+        volumes = {}
+        for triangle in self.triangles:
+            a, b, c = (points[ids[index]] for index in triangle)
+            part = find(ids[triangle[0]])
+            volumes[part] = volumes.get(part, 0.0) + dot(a, cross(b, c)) / 6.0
+        if min(volumes.values()) <= 0.0:
+            raise ValueError("mesh %s: a part has volume %g, so its faces look inward" % (name, min(volumes.values())))
+
+
+class Document:
+    """One .gltf with its .bin."""
+
+    def __init__(self, scene_size_m):
+        self.binary = bytearray()
+        self.meshes = {}  # id(mesh) -> index in the file
+        self.root = {
+            "asset": {"version": "2.0", "generator": "Gnomon make_scenes.py"},
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "scene": 0,
+            "scenes": [{"name": "Scene", "nodes": [], "extras": {"scene_size": scene_size_m}}],
+            "nodes": [],
+            "cameras": [],
+            "materials": [],
+            "meshes": [],
+            "accessors": [],
+            "bufferViews": [],
+            "buffers": [],
+            "extensions": {"KHR_lights_punctual": {"lights": []}},
+        }
+
+    def _add_view(self, data, target):
+        self.root["bufferViews"].append(
+            {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data), "target": target}
+        )
+        self.binary += data
+        return len(self.root["bufferViews"]) - 1
+
+    def _add_vectors(self, vectors, has_bounds):
+        flat = [value for vector in vectors for value in vector]
+        accessor = {
+            "bufferView": self._add_view(struct.pack("<%df" % len(flat), *flat), ARRAY_BUFFER),
+            "componentType": FLOAT,
+            "count": len(vectors),
+            "type": "VEC3",
+        }
+        if has_bounds:
+            accessor["min"] = [min(vector[axis] for vector in vectors) for axis in range(3)]
+            accessor["max"] = [max(vector[axis] for vector in vectors) for axis in range(3)]
+        self.root["accessors"].append(accessor)
+        return len(self.root["accessors"]) - 1
+
+    def add_material(self, name, color, roughness=0.7, metallic=0.0, is_double_sided=False):
+        """Colour is linear."""
+        material = {
+            "name": name,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [color[0], color[1], color[2], 1.0],
+                "metallicFactor": metallic,
+                "roughnessFactor": roughness,
+            },
+        }
+        if is_double_sided:
+            material["doubleSided"] = True
+        self.root["materials"].append(material)
+        return len(self.root["materials"]) - 1
+
+    def add_mesh(self, name, mesh, material):
+        mesh.check(name)
+        positions = self._add_vectors(mesh.positions, True)
+        normals = self._add_vectors(mesh.normals, False)
+        flat = [index for triangle in mesh.triangles for index in triangle]
+        view = self._add_view(struct.pack("<%dI" % len(flat), *flat), ELEMENT_ARRAY_BUFFER)
+        self.root["accessors"].append(
+            {"bufferView": view, "componentType": UINT32, "count": len(flat), "type": "SCALAR"}
+        )
+        self.root["meshes"].append(
+            {
+                "name": name,
+                "primitives": [
+                    {
+                        "attributes": {"POSITION": positions, "NORMAL": normals},
+                        "indices": len(self.root["accessors"]) - 1,
+                        "material": material,
+                    }
+                ],
+            }
+        )
+        return len(self.root["meshes"]) - 1
+
+    def add_node(self, name, translation=None, rotation=None, **members):
+        node = {"name": name}
+        if translation is not None:
+            node["translation"] = list(translation)
+        if rotation is not None:
+            # Nine digits, so that the last bits of sin and cos do not show in the file.
+            node["rotation"] = [round(value, 9) + 0.0 for value in rotation]
+        node.update(members)
+        self.root["nodes"].append(node)
+        self.root["scenes"][0]["nodes"].append(len(self.root["nodes"]) - 1)
+
+    def add_object(self, name, mesh, material, translation=None, rotation=None, **members):
+        """A mesh and the node that places it."""
+        self.add_node(name, translation, rotation, mesh=self.add_mesh(name, mesh, material), **members)
+
+    def add_camera(self, name, eye, target, vertical_fov_rad):
+        self.root["cameras"].append(
+            {
+                "name": name,
+                "type": "perspective",
+                "perspective": {"yfov": round(vertical_fov_rad, 9), "znear": 0.05, "aspectRatio": 1.0},
+            }
+        )
+        index = len(self.root["cameras"]) - 1
+        self.add_node(name, eye, quaternion_look_at(eye, target), camera=index)
+
+    def add_light(self, name, light, eye, target, extras):
+        """light: type, intensity, color, spot as in KHR_lights_punctual."""
+        lights = self.root["extensions"]["KHR_lights_punctual"]["lights"]
+        lights.append({"name": name, **light, "extras": extras})
+        extension = {"KHR_lights_punctual": {"light": len(lights) - 1}}
+        rotation = None if light["type"] == "point" else quaternion_look_at(eye, target)
+        self.add_node(name, eye, rotation, extensions=extension)
+
+    def build_files(self, stem):
+        """File name -> bytes of the .gltf and the .bin."""
+        self.root["buffers"] = [{"uri": stem + ".bin", "byteLength": len(self.binary)}]
+        text = json.dumps(self.root, indent="\t", allow_nan=False) + "\n"
+        return {stem + ".gltf": text.encode("utf-8"), stem + ".bin": bytes(self.binary)}
+
+
+def save_files(files, folder):
+    """Each file is written beside its place and renamed, so that none is ever half there."""
+    os.makedirs(folder, exist_ok=True)
+    for name, data in sorted(files.items()):
+        path = os.path.join(folder, name)
+        with open(path + ".new", "wb") as file:
+            file.write(data)
+        os.replace(path + ".new", path)

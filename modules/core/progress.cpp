@@ -1,0 +1,46 @@
+#include "modules/core/progress.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <unistd.h>
+
+namespace gnomon {
+
+namespace {
+
+constexpr double QUIET_SECONDS = 1.0;
+constexpr int BAR_WIDTH = 30;
+
+} // namespace
+
+Progress::Progress(std::string p_what) :
+		what(std::move(p_what)), start(std::chrono::steady_clock::now()),
+		is_terminal(::isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+	if (is_terminal && shown_percent >= 0) {
+		std::fprintf(stderr, "\r\033[K");
+	}
+}
+
+void Progress::update(double p_fraction) {
+	const double seconds =
+			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	const int step = is_terminal ? 1 : 10;
+	const int percent = static_cast<int>(std::clamp(p_fraction, 0.0, 1.0) * 100) / step * step;
+	if (seconds < QUIET_SECONDS || percent <= shown_percent) {
+		return;
+	}
+	shown_percent = percent;
+	const double left_seconds = p_fraction > 0 ? seconds * (1 - p_fraction) / p_fraction : 0;
+	if (is_terminal) {
+		const std::string bar(static_cast<size_t>(percent * BAR_WIDTH / 100), '#');
+		std::fprintf(stderr, "\r%s [%-*s] %d %%, %.0f s left ", what.c_str(), BAR_WIDTH, bar.c_str(),
+				percent, left_seconds);
+	} else {
+		std::fprintf(stderr, "%s: %d %%, %.0f s left\n", what.c_str(), percent, left_seconds);
+	}
+	std::fflush(stderr);
+}
+
+} // namespace gnomon

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "modules/error_report/mask_image.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// The error that is shown in full colour; larger ones look the same.
+constexpr float HEAT_MAP_RANGE = 0.25f;
+
+/// 8-bit grey, 0 black .. 1 white, linear as stored (255 v rounded, clamped); no receiver is black.
+/// A value that is not finite is an Error; so is an empty image or an unwritable path.
+void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image);
+
+/// Result minus truth in colour: white = no error, blue = too dark, red = too light, full at
+/// HEAT_MAP_RANGE; grey where there is no receiver. Errors as in compute_mask_metrics.
+void save_error_png(
+		const std::filesystem::path &p_path, const MaskImage &p_truth, const MaskImage &p_result);
+
+/// Any 8-bit picture of 1 (grey), 3 (RGB) or 4 (RGBA) channels, rows from the top.
+void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
+		uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
+
+/// The pixels that the two functions above write: grey, and RGB.
+std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image);
+std::vector<uint8_t> compute_error_pixels(const MaskImage &p_truth, const MaskImage &p_result);
+
+} // namespace gnomon

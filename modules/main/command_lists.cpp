@@ -1,0 +1,144 @@
+// `gnomon techniques`, `gnomon modules` and `gnomon info`: what there is, as text or JSON.
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/module_registry.h"
+#include "modules/main/commands.h"
+#include "modules/renderer/shadow_registry.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace gnomon {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char *get_type_name(PropertyType p_type) {
+	static const char *const NAMES[] = { "bool", "int", "float", "enum", "string" };
+	return NAMES[static_cast<int>(p_type)];
+}
+
+Json describe_properties(const PropertyList &p_list) {
+	Json properties = Json::array();
+	for (const PropertyInfo &info : p_list.get_properties()) {
+		Json value;
+		std::visit([&](const auto &p_held) { value = p_held; }, info.default_value);
+		properties.push_back({ { "name", info.name }, { "type", get_type_name(info.type) },
+				{ "default", value }, { "range", describe_range(info) }, { "unit", info.unit },
+				{ "tooltip", info.tooltip } });
+	}
+	return properties;
+}
+
+void print_properties(const PropertyList &p_list) {
+	for (const PropertyInfo &info : p_list.get_properties()) {
+		std::printf("    %s = %s (%s): %s\n", info.name.c_str(),
+				format_property(info.default_value).c_str(), describe_range(info).c_str(),
+				info.tooltip.c_str());
+	}
+}
+
+void list_techniques(bool p_as_json) {
+	Json list = Json::array();
+	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		const PropertyList &properties = ShadowRegistry::get_light_properties(info.id);
+		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
+				{ "is_default", &info == chosen }, { "is_fallback", info.is_fallback },
+				{ "is_reference", info.is_reference },
+				{ "properties", describe_properties(properties) } });
+		if (!p_as_json) {
+			std::printf("%s%s\n    %s. Source: %s\n", info.id.c_str(),
+					&info == chosen ? " (default)" : "", info.name.c_str(), info.source.c_str());
+			print_properties(properties);
+		}
+	}
+	if (p_as_json) {
+		std::printf("%s\n", list.dump(2).c_str());
+		return;
+	}
+	std::printf("every light\n");
+	print_properties(Light3D::get_property_list());
+}
+
+void list_modules(bool p_as_json) {
+	Json list = Json::array();
+	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		list.push_back({ { "name", module.name }, { "description", module.description },
+				{ "source", module.source }, { "version", module.version }, { "doc", module.doc },
+				{ "layer", module.layer }, { "can_disable", module.can_disable },
+				{ "is_enabled", module.is_enabled }, { "dependencies", module.dependencies } });
+		if (!p_as_json) {
+			std::printf("%-20s %s%s\n", module.name.c_str(), module.description.c_str(),
+					module.is_enabled ? "" : " (disabled)");
+		}
+	}
+	if (p_as_json) {
+		std::printf("%s\n", list.dump(2).c_str());
+	}
+}
+
+std::string find_cpu_name() {
+	std::ifstream stream("/proc/cpuinfo");
+	for (std::string line; std::getline(stream, line);) {
+		const size_t colon = line.find(": ");
+		if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+			return line.substr(colon + 2);
+		}
+	}
+	return "unknown";
+}
+
+void print_info(bool p_as_json, const CommonOptions &p_common) {
+	const std::vector<DeviceInfo> devices = RenderingDevice::list_devices();
+	// Creating it says which one a command would take, and why none can be.
+	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
+	const uint32_t chosen = device->get_info().index;
+	Json list = Json::array();
+	for (const DeviceInfo &info : devices) {
+		list.push_back({ { "index", info.index }, { "name", info.name }, { "driver", info.driver },
+				{ "type", info.type }, { "api_version", info.api_version },
+				{ "memory_bytes", info.memory_bytes }, { "is_usable", info.is_usable },
+				{ "refusal", info.refusal } });
+		if (!p_as_json) {
+			std::printf("%s%u: %s (%s), %s, Vulkan %s, %llu MiB%s%s\n",
+					info.index == chosen ? "* " : "  ", info.index, info.name.c_str(),
+					info.type.c_str(), info.driver.c_str(), info.api_version.c_str(),
+					static_cast<unsigned long long>(info.memory_bytes >> 20),
+					info.is_usable ? "" : "; not usable: ", info.refusal.c_str());
+		}
+	}
+	const unsigned threads = std::thread::hardware_concurrency();
+	if (p_as_json) {
+		const Json json = { { "version", "0.1.0" }, { "devices", list }, { "chosen", chosen },
+			{ "cpu", find_cpu_name() }, { "threads", threads },
+			{ "cache", get_cache_folder().string() } };
+		std::printf("%s\n", json.dump(2).c_str());
+	} else {
+		std::printf("CPU: %s, %u threads\nCache: %s\n", find_cpu_name().c_str(), threads,
+				get_cache_folder().c_str());
+	}
+}
+
+} // namespace
+
+void add_list_commands(CLI::App &r_app, CommonOptions &r_common) {
+	static bool as_json = false;
+	const auto add = [&](const char *p_name, const char *p_description, auto p_function) {
+		CLI::App *command = r_app.add_subcommand(p_name, p_description);
+		command->add_flag("--json", as_json, "As JSON");
+		command->add_option("--device", r_common.device, "Index or part of the name");
+		command->add_flag("--validation", r_common.validation, "Validation layers on");
+		command->callback(p_function);
+	};
+	add("techniques", "Shadow techniques and their properties", [] { list_techniques(as_json); });
+	add("modules", "Modules of this build", [] { list_modules(as_json); });
+	add("info", "Devices, CPU, cache", [&r_common] { print_info(as_json, r_common); });
+}
+
+} // namespace gnomon

@@ -1,0 +1,102 @@
+// `gnomon run`: the game at run time, in a window or headless.
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/main/commands.h"
+#include "modules/main/game_window.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+namespace gnomon {
+
+namespace {
+
+RunOptions options;
+
+void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
+	if (!options.capture.empty()) {
+		save_png(options.capture, p_size_px, 4, p_result.image);
+	}
+	if (!options.dot.empty()) {
+		save_file_atomically(options.dot, p_result.dot);
+	}
+	if (options.prints_plan) {
+		std::printf("%s", p_result.plan.to_text().c_str());
+	}
+}
+
+void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_common) {
+	const Camera3D &camera = choose_camera(r_scene, options.camera);
+	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
+	Renderer renderer(*device);
+	RenderRequest request;
+	request.scene = build_snapshot(r_scene, camera);
+	request.size_px = p_size_px;
+	request.technique_override = options.technique;
+	request.debug_view = options.debug_view;
+	RenderResult result;
+	const uint32_t frame_count = std::max(options.frame_count, 1u);
+	for (uint32_t index = 0; index < frame_count; ++index) {
+		request.wants_image = index + 1 == frame_count;
+		result = renderer.render(request);
+	}
+	save_capture(result, p_size_px);
+	for (const PassTiming &timing : result.timings) {
+		std::printf("%-40s %8.3f ms GPU\n", timing.name.c_str(), timing.gpu_ms);
+	}
+	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
+}
+
+void run(const CommonOptions &p_common) {
+	glm::uvec2 size_px = parse_size(options.size);
+	for (const std::string &path : { options.capture, options.dot }) {
+		if (!path.empty()) {
+			check_writable(path);
+		}
+	}
+	const std::unique_ptr<Scene> scene = load_scene(options.scene);
+	for (const std::string &setting : options.settings) {
+		apply_setting(*scene, nullptr, setting);
+	}
+	if (scene->find_nodes<Light3D>().empty()) {
+		log_warning("Scene ", scene->path, " has no light; only ambient light is seen. Add one ",
+				"(KHR_lights_punctual).");
+	}
+	if (options.is_headless) {
+		run_headless(*scene, size_px, p_common);
+	} else {
+		const RenderResult result = run_in_window(*scene, size_px, options, p_common);
+		save_capture(result, size_px);
+	}
+}
+
+} // namespace
+
+void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
+	CLI::App *command = r_app.add_subcommand("run", "Shows a scene: W A S D Q E and the right "
+													"mouse button fly, T changes the technique");
+	command->add_option("scene", options.scene, "A project's folder, or a .gltf or .glb file")
+			->required();
+	command->add_flag("--headless", options.is_headless, "Needs no display");
+	command->add_option("--frames", options.frame_count, "Ends after so many; headless: 1")
+			->check(CLI::Range(1u, 1000000u));
+	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
+	command->add_option("--size", options.size, "Default: 512x512");
+	command->add_option("--camera", options.camera, "Default: the first");
+	command->add_option("--technique", options.technique, "Replaces that of every light");
+	command->add_option("--debug-view", options.debug_view,
+			"Shows an intermediate image of the first light: mask, map, ...");
+	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
+			->take_all()
+			->allow_extra_args(false);
+	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
+	command->add_option("--dot", options.dot, "Writes the frame's graph for Graphviz");
+	command->add_option("--device", r_common.device, "Index or part of the name");
+	command->add_flag("--validation", r_common.validation, "Validation layers on");
+	command->callback([&r_common] { run(r_common); });
+}
+
+} // namespace gnomon

@@ -1,0 +1,145 @@
+// `gnomon visibility`: one light's mask as an EXR, and what it cost.
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/error_report/mask_image.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/main/commands.h"
+#include "modules/main/measure.h"
+#include "modules/renderer/renderer.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint32_t WARM_UP_COUNT = 5;
+constexpr uint32_t MEASURED_COUNT = 20;
+
+struct VisibilityOptions {
+	std::string scene;
+	std::string technique;
+	std::string out;
+	std::string png;
+	std::string light;
+	std::string camera;
+	std::string size = "512x512";
+	std::vector<std::string> settings;
+	uint32_t frame_count = 1;
+	std::vector<double> motion;
+	std::string time;
+	bool prints_plan = false;
+	bool leaves_out_nothing = false;
+};
+
+/// mask.exr, 12 -> mask.0012.exr
+fs::path number_path(const fs::path &p_path, uint32_t p_index) {
+	char number[16];
+	std::snprintf(number, sizeof(number), ".%04u", p_index);
+	return p_path.parent_path() /
+			(p_path.stem().string() + number + p_path.extension().string());
+}
+
+/// Moves the light by an offset in the world.
+void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
+	const glm::dmat4 world_from_parent =
+			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
+	const glm::dmat4 parent_from_world = glm::inverse(world_from_parent);
+	r_light.parent_from_node = parent_from_world *
+			glm::translate(glm::dmat4(1.0), p_offset_world) * world_from_parent *
+			r_light.parent_from_node;
+}
+
+void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
+	const glm::uvec2 size_px = parse_size(p_options.size);
+	check_writable(p_options.out);
+	for (const std::string &path : { p_options.png, p_options.time }) {
+		if (!path.empty()) {
+			check_writable(path);
+		}
+	}
+	const std::unique_ptr<Scene> scene = load_scene(p_options.scene);
+	Light3D &light = choose_light(*scene, p_options.light);
+	const Camera3D &camera = choose_camera(*scene, p_options.camera);
+	for (const std::string &setting : p_options.settings) {
+		apply_setting(*scene, &light, setting);
+	}
+	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
+	Renderer renderer(*device);
+	RenderRequest request;
+	request.size_px = size_px;
+	request.technique_override = p_options.technique;
+	request.mask_light = light.name;
+	request.wants_mask = true;
+	request.may_leave_out = !p_options.leaves_out_nothing;
+
+	const bool moves = !p_options.motion.empty();
+	for (uint32_t index = 0; index < p_options.frame_count; ++index) {
+		if (moves && index > 0) {
+			move_light(light,
+					{ p_options.motion[0], p_options.motion[1], p_options.motion[2] });
+		}
+		request.scene = build_snapshot(*scene, camera);
+		RenderResult result = renderer.render(request);
+		if (!moves && index + 1 < p_options.frame_count) {
+			continue;
+		}
+		const MaskImage mask = { size_px, std::move(result.visibility),
+			std::move(result.receiver) };
+		const fs::path out =
+				moves ? number_path(p_options.out, index) : fs::path(p_options.out);
+		save_mask_exr(out, mask);
+		if (!p_options.png.empty()) {
+			save_mask_png(moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);
+		}
+		if (p_options.prints_plan) {
+			std::printf("%s", result.plan.to_text().c_str());
+		}
+	}
+	if (!p_options.time.empty()) {
+		save_file_atomically(p_options.time,
+				measure_mask_time(renderer, request, WARM_UP_COUNT, MEASURED_COUNT));
+	}
+}
+
+} // namespace
+
+void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
+	static VisibilityOptions options;
+	CLI::App *command = r_app.add_subcommand("visibility", "One light's mask, and what it cost");
+	command->add_option("scene", options.scene, "A .gltf or .glb file, or a project")->required();
+	command->add_option("--technique", options.technique, "Its id; see `gnomon techniques`")
+			->required();
+	command->add_option("--out", options.out, "The EXR to write: channels Y and receiver")
+			->required();
+	command->add_option("--png", options.png, "Also writes the mask as a grey PNG");
+	command->add_option("--light", options.light, "Default: the first that casts shadows");
+	command->add_option("--camera", options.camera, "Default: the first");
+	command->add_option("--size", options.size, "Default: 512x512");
+	command->add_option("--set", options.settings, "property=value of the light; repeatable")
+			->take_all()
+			->allow_extra_args(false);
+	command->add_option("--frames", options.frame_count, "Frames to draw; the last is written")
+			->check(CLI::Range(1u, 100000u));
+	command->add_option("--motion", options.motion,
+				   "dx,dy,dz in metres a frame: moves the light, writes one EXR a frame")
+			->delimiter(',')
+			->expected(3);
+	command->add_option("--time", options.time,
+			"Writes the times of 20 frames after 5 to warm up as JSON");
+	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
+	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
+			"Runs also what the image does not need (for comparison)");
+	command->add_option("--device", r_common.device, "Index or part of the name");
+	command->add_flag("--validation", r_common.validation, "Validation layers on");
+	command->callback([&r_common] { run_visibility(options, r_common); });
+}
+
+} // namespace gnomon

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/scene/nodes.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+/// Options of every command.
+struct CommonOptions {
+	std::string device;
+	bool validation = false;
+};
+
+// Each adds its command to the command line; when it is chosen, it runs inside CLI11's parse.
+void add_run_command(CLI::App &r_app, CommonOptions &r_common);
+void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);
+void add_compare_command(CLI::App &r_app);
+void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
+
+/// "640x480" to a size of 1..16384 each; else a UsageError.
+glm::uvec2 parse_size(const std::string &p_text);
+
+/// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
+/// project's disabled modules are switched off.
+std::unique_ptr<Scene> load_scene(const std::filesystem::path &p_path);
+/// The camera of that name, or the first. None: an Error that says how to add one.
+Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name);
+/// The light of that name, or the first that casts shadows.
+Light3D &choose_light(const Scene &p_scene, const std::string &p_name);
+/// Applies "prop=value" (to p_light) or "light.Name.prop=value". Unknown lights and properties and
+/// values out of range are an Error.
+void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting);
+/// Creates the device that the options ask for.
+std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common);
+/// An Error now rather than after minutes of work: the file's folder must exist and be writable.
+void check_writable(const std::filesystem::path &p_path);
+
+} // namespace gnomon

@@ -1,0 +1,163 @@
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/core/project.h"
+#include "modules/gltf_scene/gltf_scene.h"
+#include "modules/main/commands.h"
+#include "modules/renderer/shadow_registry.h"
+
+#include <charconv>
+#include <unistd.h>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint32_t MAX_SIZE_PX = 16384;
+
+bool parse_whole(std::string_view p_text, uint32_t &r_value) {
+	const char *end = p_text.data() + p_text.size();
+	const std::from_chars_result result = std::from_chars(p_text.data(), end, r_value);
+	return result.ec == std::errc() && result.ptr == end;
+}
+
+const PropertyInfo *find_property(const std::string &p_name) {
+	if (const PropertyInfo *info = Light3D::get_property_list().find(p_name)) {
+		return info;
+	}
+	return ShadowRegistry::find_light_property(p_name);
+}
+
+std::string list_properties() {
+	std::string names;
+	const auto add = [&](const PropertyList &p_list) {
+		for (const PropertyInfo &info : p_list.get_properties()) {
+			names += (names.empty() ? "" : ", ") + info.name;
+		}
+	};
+	add(Light3D::get_property_list());
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		add(ShadowRegistry::get_light_properties(info.id));
+	}
+	return names;
+}
+
+} // namespace
+
+glm::uvec2 parse_size(const std::string &p_text) {
+	glm::uvec2 size_px(0);
+	const size_t cross = p_text.find('x');
+	const bool is_valid = cross != std::string::npos &&
+			parse_whole(std::string_view(p_text).substr(0, cross), size_px.x) &&
+			parse_whole(std::string_view(p_text).substr(cross + 1), size_px.y);
+	if (!is_valid || size_px.x < 1 || size_px.y < 1 || size_px.x > MAX_SIZE_PX ||
+			size_px.y > MAX_SIZE_PX) {
+		throw UsageError(text("--size is \"", p_text, "\", must be WIDTHxHEIGHT with 1..",
+				MAX_SIZE_PX, " each, for example 512x512."));
+	}
+	return size_px;
+}
+
+std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
+	fs::path path = p_path;
+	fs::path project_folder = Project::find_folder(path);
+	std::error_code code;
+	if (fs::is_directory(path, code) || path.extension() == ".cfg") {
+		const Project project = Project::load(path);
+		project_folder = project.folder;
+		path = !project.start_scene.empty() ? project.start_scene
+				: !project.scenes.empty()	? project.scenes.front()
+											: fs::path();
+		if (path.empty()) {
+			fail("Project ", p_path, " names no scene. Set start_scene in its project.cfg.");
+		}
+	}
+	if (fs::exists(project_folder / "project.cfg", code)) {
+		for (const std::string &name : Project::load(project_folder).disabled_modules) {
+			ModuleRegistry::set_enabled(name, false);
+		}
+	}
+	GltfLoadOptions options;
+	options.project_folder = project_folder;
+	options.find_technique_property = &ShadowRegistry::find_light_property;
+	std::unique_ptr<Scene> scene = load_gltf(path, options);
+	if (scene->find_nodes<MeshInstance3D>().empty()) {
+		fail("Scene ", path, " has no mesh. Add one in the program that wrote the file.");
+	}
+	return scene;
+}
+
+Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name) {
+	if (!p_name.empty()) {
+		return p_scene.find_node<Camera3D>(p_name, "Camera");
+	}
+	const std::vector<Camera3D *> cameras = p_scene.find_nodes<Camera3D>();
+	if (cameras.empty()) {
+		fail("Scene ", p_scene.path, " has no perspective camera. Add one, and export it too.");
+	}
+	return *cameras.front();
+}
+
+Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
+	if (!p_name.empty()) {
+		return p_scene.find_node<Light3D>(p_name, "Light");
+	}
+	const std::vector<Light3D *> lights = p_scene.find_nodes<Light3D>();
+	for (Light3D *light : lights) {
+		if (get_bool(Light3D::get_property_list(), light->properties, "shadow_enabled")) {
+			return *light;
+		}
+	}
+	fail("Scene ", p_scene.path, lights.empty() ? " has no light" : " has no light that casts shadows",
+			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one with ",
+			"--light.");
+}
+
+void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {
+	const size_t equals = p_setting.find('=');
+	if (equals == std::string::npos) {
+		throw UsageError(text("--set is \"", p_setting, "\", must be property=value."));
+	}
+	std::string name = p_setting.substr(0, equals);
+	const std::string value = p_setting.substr(equals + 1);
+	if (name.rfind("light.", 0) == 0) {
+		const size_t dot = name.rfind('.');
+		if (dot <= 6) {
+			throw UsageError(
+					text("--set is \"", p_setting, "\", must be light.NAME.property=value."));
+		}
+		p_light = &p_scene.find_node<Light3D>(name.substr(6, dot - 6), "Light");
+		name = name.substr(dot + 1);
+	}
+	if (!p_light) {
+		throw UsageError(text("--set is \"", p_setting, "\", must be light.NAME.property=value."));
+	}
+	const PropertyInfo *info = find_property(name);
+	if (!info) {
+		fail("Light \"", p_light->name, "\": there is no property \"", name, "\". There are: ",
+				list_properties(), ".");
+	}
+	p_light->properties[name] =
+			parse_property(*info, value, text("Light \"", p_light->name, "\""));
+}
+
+std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common) {
+	DeviceOptions options;
+	options.device = p_common.device;
+	options.validation = p_common.validation;
+	return RenderingDevice::create(options);
+}
+
+void check_writable(const fs::path &p_path) {
+	const fs::path folder = p_path.has_parent_path() ? p_path.parent_path() : fs::path(".");
+	std::error_code code;
+	if (!fs::is_directory(folder, code) || ::access(folder.c_str(), W_OK) != 0 ||
+			fs::is_directory(p_path, code)) {
+		fail("Cannot write ", p_path, ": its folder must exist and be writable, and it must not be ",
+				"a folder itself. Choose another place.");
+	}
+}
+
+} // namespace gnomon

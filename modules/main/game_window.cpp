@@ -1,0 +1,181 @@
+#include "modules/main/game_window.h"
+
+#include "modules/core/log.h"
+#include "modules/main/fly_camera.h"
+#include "modules/main/overlay_text.h"
+#include "modules/main/window.h"
+#include "modules/renderer/shadow_registry.h"
+
+#include <GLFW/glfw3.h>
+#include <chrono>
+#include <cstdio>
+
+namespace gnomon {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Whole scenes cross the view in a few seconds, whatever unit they are modelled in.
+constexpr double SPEED_PER_SCENE_SIZE = 0.4;
+constexpr double TURN_RAD_PER_PX = 0.004;
+constexpr double SIZE_STEP = 1.15;
+constexpr size_t MAX_SHOWN_PASSES = 24;
+
+std::string format_milliseconds(const char *p_name, double p_milliseconds) {
+	char line[128];
+	std::snprintf(line, sizeof(line), "%8.2f ms  %.100s", p_milliseconds, p_name);
+	return line;
+}
+
+/// What the keys change.
+struct GameState {
+	Scene &scene;
+	RenderRequest &request;
+	bool shows_text = true;
+	bool shows_mask = false;
+
+	/// The light's own technique, then each of the registry's, then again.
+	void choose_next_technique() {
+		const std::vector<ShadowTechniqueInfo> &all = ShadowRegistry::get_techniques();
+		size_t next = 0;
+		while (next < all.size() && !request.technique_override.empty() &&
+				all[next].id != request.technique_override) {
+			++next;
+		}
+		next += request.technique_override.empty() ? 0 : 1;
+		request.technique_override = next < all.size() ? all[next].id : std::string();
+	}
+
+	void scale_light_sizes(double p_factor) {
+		const PropertyList &list = Light3D::get_property_list();
+		for (Light3D *light : scene.find_nodes<Light3D>()) {
+			const char *name = light->type == LightType::DIRECTIONAL ? "light_angular_distance"
+																	 : "light_size";
+			const PropertyValue value = get_float(list, light->properties, name) * p_factor;
+			if (check_property(*list.find(name), value).empty()) {
+				light->properties[name] = value;
+			}
+		}
+	}
+
+	void press(int p_key, Window &r_window) {
+		switch (p_key) {
+			case GLFW_KEY_ESCAPE:
+				r_window.close();
+				break;
+			case GLFW_KEY_T:
+			case GLFW_KEY_TAB:
+				choose_next_technique();
+				break;
+			case GLFW_KEY_V:
+				shows_mask = !shows_mask;
+				break;
+			case GLFW_KEY_F1:
+				shows_text = !shows_text;
+				break;
+			case GLFW_KEY_EQUAL:
+			case GLFW_KEY_KP_ADD:
+				scale_light_sizes(SIZE_STEP);
+				break;
+			case GLFW_KEY_MINUS:
+			case GLFW_KEY_KP_SUBTRACT:
+				scale_light_sizes(1 / SIZE_STEP);
+				break;
+			default:
+				break;
+		}
+	}
+};
+
+void fly(FlyCamera &r_camera, const Window &p_window, double p_seconds) {
+	const auto axis = [&](int p_positive, int p_negative) {
+		return double(p_window.is_down(p_positive)) - double(p_window.is_down(p_negative));
+	};
+	const glm::dvec2 drag_px = p_window.get_drag_px();
+	r_camera.turn(-drag_px.x * TURN_RAD_PER_PX, -drag_px.y * TURN_RAD_PER_PX);
+	r_camera.move({ axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+						  axis(GLFW_KEY_S, GLFW_KEY_W) },
+			p_seconds, p_window.is_down(GLFW_KEY_LEFT_SHIFT));
+}
+
+std::vector<std::string> describe_frame(const RenderRequest &p_request, const DeviceInfo &p_device,
+		const RenderResult &p_last, double p_frame_seconds) {
+	std::vector<std::string> lines = { p_device.name,
+		"technique: " +
+				(p_request.technique_override.empty() ? "each light's own"
+													  : p_request.technique_override),
+		format_milliseconds("frame, wall", p_frame_seconds * 1e3),
+		format_milliseconds("frame, GPU", p_last.gpu_ms) };
+	for (size_t index = 0; index < p_last.timings.size() && index < MAX_SHOWN_PASSES; ++index) {
+		const PassTiming &timing = p_last.timings[index];
+		lines.push_back(format_milliseconds(timing.name.c_str(), timing.gpu_ms));
+	}
+	lines.push_back("W A S D Q E, right mouse: fly   T: technique   +/-: light size");
+	lines.push_back("V: mask   F1: text   Esc: end");
+	return lines;
+}
+
+} // namespace
+
+RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
+		const CommonOptions &p_common) {
+	const Camera3D &start = choose_camera(r_scene, p_options.camera);
+	Window window("Gnomon", r_size_px);
+	DeviceOptions device_options;
+	device_options.device = p_common.device;
+	device_options.validation = p_common.validation;
+	device_options.needs_surface = true;
+	device_options.instance_extensions = Window::get_instance_extensions();
+	const std::unique_ptr<RenderingDevice> device = RenderingDevice::create(device_options);
+	Swapchain swapchain(*device, window.get_create_surface());
+	Renderer renderer(*device);
+
+	Camera3D camera;
+	camera.name = start.name;
+	camera.vertical_fov_rad = start.vertical_fov_rad;
+	camera.near_m = start.near_m;
+	const double scene_size_m = build_snapshot(r_scene, start)->scene_size_m;
+	FlyCamera fly_camera(start, scene_size_m * SPEED_PER_SCENE_SIZE);
+	RenderRequest request;
+	request.technique_override = p_options.technique;
+	request.mode = RenderGraph::Mode::QUEUE;
+	GameState state{ r_scene, request };
+	RenderResult result;
+	Clock::time_point last = Clock::now();
+	uint32_t drawn_count = 0;
+	while (window.poll()) {
+		const Clock::time_point now = Clock::now();
+		const double seconds = std::chrono::duration<double>(now - last).count();
+		last = now;
+		for (int key : window.get_pressed_keys()) {
+			state.press(key, window);
+		}
+		fly(fly_camera, window, seconds);
+		fly_camera.apply(camera);
+		const glm::uvec2 size_px = window.get_size_px();
+		if (size_px.x == 0 || size_px.y == 0) {
+			continue; // minimised
+		}
+		const bool is_last = p_options.frame_count > 0 && drawn_count + 1 >= p_options.frame_count;
+		request.scene = build_snapshot(r_scene, camera);
+		request.size_px = size_px;
+		request.acquire_window_image = [&] { return swapchain.acquire(size_px); };
+		request.debug_view = state.shows_mask ? "mask" : p_options.debug_view;
+		request.wants_image = is_last && !p_options.capture.empty();
+		request.overlay = state.shows_text
+				? make_overlay_text(describe_frame(request, device->get_info(), result, seconds),
+						  window.get_scale())
+				: std::vector<OverlayVertex>();
+		result = renderer.render(request);
+		r_size_px = size_px;
+		++drawn_count;
+		if (is_last) {
+			break;
+		}
+	}
+	device->wait_idle();
+	return result;
+}
+
+} // namespace gnomon

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "modules/main/commands.h"
+#include "modules/renderer/renderer.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+struct RunOptions {
+	std::string scene;
+	bool is_headless = false;
+	uint32_t frame_count = 0; // 0 = one headless, until it is closed in a window
+	std::string capture;
+	std::string size = "512x512";
+	std::string camera;
+	std::string technique;
+	std::string debug_view;
+	std::vector<std::string> settings;
+	bool prints_plan = false;
+	std::string dot;
+};
+
+/// Shows the scene in a window until it is closed or frame_count is reached. Returns the last
+/// frame, with its image when options ask for a capture (r_size_px: its size).
+RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
+		const CommonOptions &p_common);
+
+} // namespace gnomon

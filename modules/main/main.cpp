@@ -1,0 +1,61 @@
+// The program's entry: reads the command line, starts the modules, runs one command.
+// Exit codes: 0 done, 1 failed, 2 wrong usage. Errors are one line on stderr.
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/main/commands.h"
+#include "modules/rendering_device/rendering_device.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+namespace {
+
+using namespace gnomon;
+
+int run_program(int p_argument_count, char **p_arguments) {
+	CLI::App app("Gnomon: soft shadows that are measured against the exact ones.", "gnomon");
+	app.require_subcommand(1);
+	app.set_version_flag("--version", "gnomon 0.1.0");
+	CommonOptions common;
+	add_run_command(app, common);
+	add_visibility_command(app, common);
+	add_compare_command(app);
+	add_list_commands(app, common);
+	try {
+		app.parse(p_argument_count, p_arguments);
+	} catch (const CLI::ParseError &error) {
+		if (error.get_exit_code() == 0) {
+			return app.exit(error); // --help, --version
+		}
+		log_error(error.what(), " `gnomon --help` and `gnomon COMMAND --help` list what there is.");
+		return 2;
+	}
+	if (common.validation && RenderingDevice::get_validation_message_count() > 0) {
+		log_error(RenderingDevice::get_validation_message_count(), " validation messages.");
+		return 1;
+	}
+	return 0;
+}
+
+} // namespace
+
+int main(int p_argument_count, char **p_arguments) {
+	int result = 1;
+	try {
+		register_modules();
+		ModuleRegistry::initialize(ModuleLevel::FEATURES);
+		result = run_program(p_argument_count, p_arguments);
+	} catch (const UsageError &error) {
+		log_error(error.what());
+		result = 2;
+	} catch (const std::bad_alloc &) {
+		log_error("Out of memory. Close other programs, or use a smaller scene or --size.");
+	} catch (const std::exception &error) {
+		log_error(error.what());
+	}
+	ModuleRegistry::uninitialize();
+	return result;
+}

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "modules/rendering_device/swapchain.h"
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace gnomon {
+
+/// A window of the desktop and its keys. One at a time.
+class Window {
+public:
+	/// No display: an Error that names --headless.
+	Window(const std::string &p_title, glm::uvec2 p_size_px);
+	~Window();
+	Window(const Window &) = delete;
+	Window &operator=(const Window &) = delete;
+
+	/// What Vulkan needs to draw in windows of this desktop.
+	static std::vector<std::string> get_instance_extensions();
+	Swapchain::CreateSurface get_create_surface();
+
+	/// Reads events. False once the user closed the window.
+	bool poll();
+	void close();
+	/// Of the drawable area; 0 while minimised.
+	glm::uvec2 get_size_px() const;
+	/// Of the desktop: 1 on a normal screen, 2 on a dense one.
+	float get_scale() const;
+	void set_title(const std::string &p_title);
+
+	bool is_down(int p_glfw_key) const;
+	/// Keys pressed since the last poll, as GLFW key codes.
+	const std::vector<int> &get_pressed_keys() const { return pressed_keys; }
+	/// Movement since the last poll while the right button is held, in pixels.
+	glm::dvec2 get_drag_px() const { return drag_px; }
+
+private:
+	GLFWwindow *window = nullptr;
+	std::vector<int> pressed_keys;
+	glm::dvec2 cursor_px = glm::dvec2(0.0);
+	glm::dvec2 drag_px = glm::dvec2(0.0);
+};
+
+} // namespace gnomon

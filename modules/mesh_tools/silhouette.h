@@ -1,0 +1,44 @@
+#pragma once
+
+#include "modules/mesh_tools/topology.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon {
+
+/// An edge between what faces the light and what does not.
+struct SilhouetteEdge {
+	uint32_t edge_index = 0; // into MeshTopology::edges
+	/// Welded vertices, in the direction in which the surface winds where it is turned to the
+	/// light.
+	uint32_t from = 0;
+	uint32_t to = 0;
+	/// How often a shadow volume counts here: 1, or 2 for an interior edge of a double-sided mesh.
+	uint32_t weight = 0;
+};
+
+struct Silhouette {
+	std::vector<uint8_t> is_facing;	   // one per face: 1 when the light is strictly in front of it
+	std::vector<SilhouetteEdge> edges; // in the order of MeshTopology::edges
+};
+
+/// One entry per face. p_light_node: xyz/w is a point of node space; w = 0: the direction xyz
+/// towards a light at infinity. A light in the face's plane, and any face without area, gives 0.
+std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
+
+/// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
+/// else -1); half of it for a closed mesh. So 0 or +-1 when closed, else 0, +-1 or +-2. The sign
+/// says whether the silhouette runs a -> b or b -> a.
+int compute_edge_weight(
+		const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing, MeshClass p_class);
+
+/// All edges with a weight. At every vertex as many (by weight) arrive as leave: closed loops. Open
+/// and non-manifold meshes are double-sided: every face counts as turned to the light. The result
+/// is a matter of node space: a transform that mirrors the mesh turns from -> to around in the
+/// world. A light that is not finite has no silhouette and faces nothing.
+Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
+
+} // namespace gnomon

@@ -1,0 +1,294 @@
+#include "modules/mesh_tools/topology.h"
+
+#include "modules/core/error.h"
+#include "modules/mesh_tools/edge_pairing.h"
+
+#include <glm/glm.hpp>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint32_t NO_HALF_EDGE = 0xffffffffu;
+/// Above what double rounds in the cross product of two float differences, below any real sliver.
+constexpr double ZERO_AREA_SINE = 8 * DBL_EPSILON;
+/// Corners of a flat quad that was rotated in float miss its plane by about this angle.
+constexpr double COPLANAR_SINE = 1e-6;
+/// A sum of normals this short against its parts has a direction made of rounding alone.
+constexpr double ZERO_NORMAL_RATIO = 1e-6;
+
+/// Half edge h runs along face h / 3 from its corner h % 3 to the next corner.
+struct HalfEdges {
+	const std::vector<uint32_t> &triangles;
+
+	uint32_t get_start(uint32_t p_half) const { return triangles[p_half]; }
+	uint32_t get_end(uint32_t p_half) const {
+		return triangles[p_half % 3 == 2 ? p_half - 2 : p_half + 1];
+	}
+	uint32_t get_opposite(uint32_t p_half) const {
+		return triangles[p_half % 3 == 0 ? p_half + 2 : p_half - 1];
+	}
+};
+
+struct SortedHalfEdge {
+	uint32_t high_vertex;
+	uint32_t half;
+	bool operator<(const SortedHalfEdge &p_other) const {
+		return high_vertex != p_other.high_vertex ? high_vertex < p_other.high_vertex
+												  : half < p_other.half;
+	}
+};
+
+void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
+	const size_t position_count = p_mesh.positions_node.size();
+	for (const uint32_t index : p_mesh.indices) {
+		GNOMON_ASSERT(index < position_count, "mesh ", p_mesh.name, ": index ", index, " of ",
+				position_count);
+	}
+	std::vector<glm::vec3> positions = p_mesh.positions_node;
+	for (glm::vec3 &position : positions) {
+		position += 0.0f; // -0 becomes 0, all else stays; the remap compares bits
+	}
+	r_topology.welded_from_position.assign(position_count, NO_VERTEX);
+	if (p_mesh.indices.empty()) {
+		return;
+	}
+	const size_t welded_count = meshopt_generateVertexRemap(r_topology.welded_from_position.data(),
+			p_mesh.indices.data(), p_mesh.indices.size(), positions.data(), position_count,
+			sizeof(glm::vec3));
+	r_topology.welded_positions_node.resize(welded_count);
+	for (size_t i = 0; i < position_count; ++i) {
+		if (r_topology.welded_from_position[i] != NO_VERTEX) {
+			r_topology.welded_positions_node[r_topology.welded_from_position[i]] = positions[i];
+		}
+	}
+}
+
+void collect_triangles(const Mesh &p_mesh, MeshTopology &r_topology) {
+	r_topology.triangles.reserve(p_mesh.indices.size());
+	r_topology.source_triangles.reserve(p_mesh.indices.size() / 3);
+	for (uint32_t i = 0; i + 2 < p_mesh.indices.size(); i += 3) {
+		const uint32_t a = r_topology.welded_from_position[p_mesh.indices[i]];
+		const uint32_t b = r_topology.welded_from_position[p_mesh.indices[i + 1]];
+		const uint32_t c = r_topology.welded_from_position[p_mesh.indices[i + 2]];
+		if (a == b || b == c || c == a) {
+			++r_topology.counts.degenerate_triangle_count;
+			continue;
+		}
+		r_topology.triangles.insert(r_topology.triangles.end(), { a, b, c });
+		r_topology.source_triangles.push_back(i / 3);
+	}
+}
+
+/// Planes, vertex normals and volume. Returns the unit normals in double; zero without area.
+std::vector<glm::dvec3> compute_normals(MeshTopology &r_topology) {
+	const size_t face_count = r_topology.source_triangles.size();
+	const size_t vertex_count = r_topology.welded_positions_node.size();
+	std::vector<glm::dvec3> unit_normals(face_count, glm::dvec3(0.0));
+	std::vector<glm::dvec3> sums(vertex_count, glm::dvec3(0.0));
+	std::vector<double> areas(vertex_count, 0.0);
+	std::vector<bool> is_used(vertex_count, false); // by a face, not only by a degenerate triangle
+	r_topology.planes.resize(face_count);
+	// About a point of the mesh: far from the origin the terms would cancel digits away.
+	const glm::dvec3 centre =
+			vertex_count > 0 ? glm::dvec3(r_topology.welded_positions_node[0]) : glm::dvec3(0.0);
+	for (size_t face = 0; face < face_count; ++face) {
+		const uint32_t *corner = &r_topology.triangles[3 * face];
+		is_used[corner[0]] = is_used[corner[1]] = is_used[corner[2]] = true;
+		const glm::dvec3 p0 = r_topology.welded_positions_node[corner[0]];
+		const glm::dvec3 p1 = r_topology.welded_positions_node[corner[1]];
+		const glm::dvec3 p2 = r_topology.welded_positions_node[corner[2]];
+		const glm::dvec3 cross = glm::cross(p1 - p0, p2 - p0);
+		const double length = glm::length(cross);
+		r_topology.signed_volume_m3 += glm::dot(p0 - centre, cross) / 6;
+		if (!(length > ZERO_AREA_SINE * glm::length(p1 - p0) * glm::length(p2 - p0))) {
+			++r_topology.counts.zero_area_triangle_count;
+			continue;
+		}
+		unit_normals[face] = cross / length;
+		FacePlane &plane = r_topology.planes[face];
+		plane.normal = glm::vec3(unit_normals[face]);
+		// From the rounded normal: the plane then fits the triangle itself best.
+		plane.offset_m =
+				static_cast<float>(-glm::dot(glm::dvec3(plane.normal), (p0 + p1 + p2) / 3.0));
+		for (int k = 0; k < 3; ++k) {
+			sums[corner[k]] += cross;
+			areas[corner[k]] += length;
+		}
+	}
+	r_topology.normals_node.assign(vertex_count, glm::vec3(0.0f));
+	for (size_t vertex = 0; vertex < vertex_count; ++vertex) {
+		const double length = glm::length(sums[vertex]);
+		if (length > ZERO_NORMAL_RATIO * areas[vertex]) {
+			r_topology.normals_node[vertex] = glm::vec3(sums[vertex] / length);
+		} else if (is_used[vertex]) {
+			++r_topology.counts.zero_normal_count;
+		}
+	}
+	return unit_normals;
+}
+
+/// Half edges grouped by their lower vertex, sorted by the higher one within. A counting sort plus
+/// small sorts takes a fifth of the time of one large sort.
+std::vector<SortedHalfEdge> sort_half_edges(
+		const MeshTopology &p_topology, std::vector<uint32_t> &r_first_of_vertex) {
+	const HalfEdges halves{ p_topology.triangles };
+	const uint32_t half_count = static_cast<uint32_t>(p_topology.triangles.size());
+	r_first_of_vertex.assign(p_topology.welded_positions_node.size() + 1, 0);
+	for (uint32_t half = 0; half < half_count; ++half) {
+		++r_first_of_vertex[std::min(halves.get_start(half), halves.get_end(half)) + 1];
+	}
+	for (size_t i = 1; i < r_first_of_vertex.size(); ++i) {
+		r_first_of_vertex[i] += r_first_of_vertex[i - 1];
+	}
+	std::vector<SortedHalfEdge> sorted(half_count);
+	std::vector<uint32_t> next = r_first_of_vertex;
+	for (uint32_t half = 0; half < half_count; ++half) {
+		const uint32_t start = halves.get_start(half);
+		const uint32_t end = halves.get_end(half);
+		sorted[next[std::min(start, end)]++] = { std::max(start, end), half };
+	}
+	for (size_t i = 0; i + 1 < r_first_of_vertex.size(); ++i) {
+		std::sort(sorted.begin() + r_first_of_vertex[i], sorted.begin() + r_first_of_vertex[i + 1]);
+	}
+	return sorted;
+}
+
+/// Copies among the faces of one edge. Each triangle is looked at on one edge only, the one without
+/// its highest vertex, so that no copy is counted twice.
+uint32_t count_duplicates(
+		const HalfEdges &p_halves, const SortedHalfEdge *p_group, uint32_t p_count) {
+	if (p_count < 2) {
+		return 0;
+	}
+	std::vector<uint32_t> opposites;
+	for (uint32_t i = 0; i < p_count; ++i) {
+		const uint32_t opposite = p_halves.get_opposite(p_group[i].half);
+		if (opposite > p_group[i].high_vertex) {
+			opposites.push_back(opposite);
+		}
+	}
+	std::sort(opposites.begin(), opposites.end());
+	const auto unique_end = std::unique(opposites.begin(), opposites.end());
+	return static_cast<uint32_t>(opposites.end() - unique_end);
+}
+
+bool are_coplanar(const glm::dvec3 &p_normal_0, const glm::dvec3 &p_normal_1) {
+	return glm::dot(p_normal_0, p_normal_1) > 0.5 &&
+			glm::length(glm::cross(p_normal_0, p_normal_1)) <= COPLANAR_SINE;
+}
+
+/// Edges from pairs of half edges; also notes each half edge's partner.
+class EdgeBuilder {
+public:
+	EdgeBuilder(MeshTopology &r_topology, const std::vector<glm::dvec3> &p_unit_normals) :
+			topology(r_topology), unit_normals(p_unit_normals), halves{ r_topology.triangles },
+			partners(r_topology.triangles.size(), NO_HALF_EDGE) {}
+
+	void add_group(uint32_t p_low_vertex, const SortedHalfEdge *p_group, uint32_t p_count) {
+		topology.counts.duplicate_triangle_count += count_duplicates(halves, p_group, p_count);
+		if (p_count == 1) {
+			add_edge(p_group[0].half, NO_HALF_EDGE);
+		} else if (p_count == 2) {
+			add_edge(p_group[0].half, p_group[1].half);
+		} else {
+			++topology.counts.non_manifold_edge_count;
+			split_group(p_low_vertex, p_group, p_count);
+		}
+	}
+
+	void write_adjacency() {
+		topology.adjacency_indices.resize(2 * partners.size());
+		for (uint32_t half = 0; half < partners.size(); ++half) {
+			const uint32_t other = partners[half] == NO_HALF_EDGE ? half : partners[half];
+			topology.adjacency_indices[2 * half] = halves.get_start(half);
+			topology.adjacency_indices[2 * half + 1] = halves.get_opposite(other);
+		}
+	}
+
+private:
+	MeshTopology &topology;
+	const std::vector<glm::dvec3> &unit_normals;
+	HalfEdges halves;
+	std::vector<uint32_t> partners;
+
+	void add_edge(uint32_t p_half0, uint32_t p_half1) {
+		MeshEdge edge;
+		edge.a = halves.get_start(p_half0);
+		edge.b = halves.get_end(p_half0);
+		edge.face0 = p_half0 / 3;
+		if (p_half1 == NO_HALF_EDGE) {
+			++topology.counts.boundary_edge_count;
+		} else {
+			edge.face1 = p_half1 / 3;
+			edge.is_inconsistent = halves.get_start(p_half1) == edge.a;
+			topology.counts.inconsistent_edge_count += edge.is_inconsistent ? 1 : 0;
+			const glm::dvec3 normal1 = unit_normals[edge.face1];
+			edge.is_coplanar = are_coplanar(
+					unit_normals[edge.face0], edge.is_inconsistent ? -normal1 : normal1);
+			partners[p_half0] = p_half1;
+			partners[p_half1] = p_half0;
+		}
+		topology.edges.push_back(edge);
+	}
+
+	void split_group(uint32_t p_low_vertex, const SortedHalfEdge *p_group, uint32_t p_count) {
+		const glm::dvec3 low = topology.welded_positions_node[p_low_vertex];
+		const glm::dvec3 high = topology.welded_positions_node[p_group[0].high_vertex];
+		std::vector<FaceAtEdge> faces(p_count);
+		for (uint32_t i = 0; i < p_count; ++i) {
+			const uint32_t half = p_group[i].half;
+			const glm::dvec3 opposite = topology.welded_positions_node[halves.get_opposite(half)];
+			faces[i].toward_face = opposite - low;
+			faces[i].runs_along = halves.get_start(half) == p_low_vertex;
+		}
+		for (const FacePair &pair : pair_faces_at_edge(high - low, faces)) {
+			add_edge(p_group[pair.first].half,
+					pair.second == NO_FACE ? NO_HALF_EDGE : p_group[pair.second].half);
+		}
+	}
+};
+
+} // namespace
+
+MeshTopology build_topology(const Mesh &p_mesh) {
+	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 2,
+			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(), " indices");
+	MeshTopology topology;
+	weld(p_mesh, topology);
+	collect_triangles(p_mesh, topology);
+	const std::vector<glm::dvec3> unit_normals = compute_normals(topology);
+
+	std::vector<uint32_t> first_of_vertex;
+	const std::vector<SortedHalfEdge> sorted = sort_half_edges(topology, first_of_vertex);
+	topology.edges.reserve(sorted.size() / 2 + 16);
+	EdgeBuilder builder(topology, unit_normals);
+	for (uint32_t vertex = 0; vertex + 1 < first_of_vertex.size(); ++vertex) {
+		uint32_t begin = first_of_vertex[vertex];
+		while (begin < first_of_vertex[vertex + 1]) {
+			uint32_t end = begin + 1;
+			while (end < first_of_vertex[vertex + 1] &&
+					sorted[end].high_vertex == sorted[begin].high_vertex) {
+				++end;
+			}
+			builder.add_group(vertex, &sorted[begin], end - begin);
+			begin = end;
+		}
+	}
+	builder.write_adjacency();
+
+	const TopologyCounts &counts = topology.counts;
+	if (counts.non_manifold_edge_count > 0 || counts.inconsistent_edge_count > 0) {
+		topology.mesh_class = MeshClass::NON_MANIFOLD;
+	} else if (counts.boundary_edge_count > 0) {
+		topology.mesh_class = MeshClass::OPEN;
+	}
+	return topology;
+}
+
+} // namespace gnomon

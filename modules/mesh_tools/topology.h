@@ -1,0 +1,100 @@
+#pragma once
+
+#include "modules/scene/mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// In place of a face index: the edge is a boundary.
+constexpr uint32_t NO_FACE = 0xffffffffu;
+/// In place of a welded vertex: no triangle uses the position.
+constexpr uint32_t NO_VERTEX = 0xffffffffu;
+
+/// What the edges allow a shadow algorithm to assume. Decided by edges alone: two parts that touch
+/// in one vertex are still CLOSED, because every silhouette is then still a set of closed loops.
+enum class MeshClass {
+	/// Every edge has two faces that run along it in opposite directions. So has an empty mesh.
+	CLOSED,
+	/// Some edges have one face, all others two of opposite direction.
+	OPEN,
+	/// An edge has more than two faces, or two that run along it in the same direction
+	/// (inconsistent winding). Boundary edges may be there as well.
+	NON_MANIFOLD,
+};
+
+/// An edge with one or two faces. An edge of more faces is stored several times, see
+/// build_topology.
+struct MeshEdge {
+	uint32_t a = 0; // welded vertices; a -> b as face0 winds
+	uint32_t b = 0;
+	uint32_t face0 = 0;
+	uint32_t face1 = NO_FACE;
+	/// Both faces run a -> b. Whoever needs one orientation negates face1's plane for this edge.
+	bool is_inconsistent = false;
+	/// The faces continue each other in one plane (to 1e-6 rad, in double), so that no viewpoint
+	/// off that plane sees a silhouette here. Never set for a boundary, a fold or a zero-area face.
+	bool is_coplanar = false;
+};
+
+/// dot(normal, p) + offset_m = 0 in node space; above 0 in front of the face. All zero for a face
+/// without area: such a face counts as turned away from every viewpoint.
+struct FacePlane {
+	glm::vec3 normal = glm::vec3(0.0f);
+	float offset_m = 0.0f;
+};
+
+/// What was found in a mesh, for the validation at import and for the frame plan.
+struct TopologyCounts {
+	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; left out of the topology
+	uint32_t zero_area_triangle_count = 0;	// three vertices on a line; kept, they close gaps
+	uint32_t duplicate_triangle_count = 0;	// copies beyond the first, whatever their winding; kept
+	uint32_t boundary_edge_count = 0;
+	uint32_t inconsistent_edge_count = 0;
+	uint32_t non_manifold_edge_count = 0; // pairs of vertices joined by more than two faces
+	uint32_t zero_normal_count = 0;		  // welded vertices whose face normals cancel
+};
+
+/// Edges and neighbours of a mesh. "Face" and triangle index mean the kept triangles, in the mesh's
+/// order; lengths in metres, node space.
+struct MeshTopology {
+	std::vector<uint32_t> welded_from_position; // per mesh position; NO_VERTEX where unused
+	std::vector<glm::vec3> welded_positions_node;
+	std::vector<uint32_t> triangles;		// three welded vertices per face
+	std::vector<uint32_t> source_triangles; // per face the index of the mesh's triangle
+	std::vector<MeshEdge> edges;			// ordered by their vertices
+	std::vector<FacePlane> planes;			// one per face
+	/// Area-weighted sum of the face normals, unit; zero where the faces cancel: no direction to
+	/// extrude along.
+	std::vector<glm::vec3> normals_node; // one per welded vertex
+	/// Six welded vertices per face, in the order of a geometry shader's triangles with adjacency:
+	/// corners at 0, 2, 4; at 1, 3, 5 the neighbour's vertex opposite to edges 02, 24, 40. On a
+	/// boundary edge the face's own opposite vertex is repeated: the neighbour is then the face
+	/// itself turned over, so that every viewpoint sees a silhouette there.
+	std::vector<uint32_t> adjacency_indices;
+	TopologyCounts counts;
+	MeshClass mesh_class = MeshClass::CLOSED;
+	/// Volume inside; negative when the mesh is inside out. Means little unless CLOSED.
+	double signed_volume_m3 = 0;
+
+	uint32_t get_face_count() const { return static_cast<uint32_t>(planes.size()); }
+	/// Edges of such a mesh count for both sides, see build_silhouette.
+	bool is_double_sided() const { return mesh_class != MeshClass::CLOSED; }
+};
+
+/// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0). An edge of
+/// more than two faces is split: faces of opposite winding that enclose a wedge of the inside are
+/// paired first, what is left by angle about the edge, an odd one becomes a boundary. The sum over
+/// faces that a silhouette weight is does not depend on this choice. Positions must be finite and
+/// indices valid, as make_mesh guarantees; a bad index is our mistake.
+MeshTopology build_topology(const Mesh &p_mesh);
+
+/// As build_topology, kept as long as the mesh lives. A mesh with id 0 (not from make_mesh) is
+/// built anew each time. Callable from any thread; one mesh is built only once.
+std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
+
+} // namespace gnomon

@@ -1,0 +1,44 @@
+#include "modules/mesh_tools/topology.h"
+
+#include <map>
+#include <mutex>
+
+namespace gnomon {
+
+namespace {
+
+struct CacheEntry {
+	std::weak_ptr<const Mesh> mesh;
+	std::once_flag once;
+	std::shared_ptr<const MeshTopology> topology;
+};
+
+std::mutex cache_mutex;
+std::map<uint64_t, std::shared_ptr<CacheEntry>> cache; // by mesh id, which is never used twice
+
+} // namespace
+
+std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh) {
+	if (p_mesh->id == 0) {
+		return std::make_shared<const MeshTopology>(build_topology(*p_mesh));
+	}
+	std::shared_ptr<CacheEntry> entry;
+	{
+		const std::lock_guard<std::mutex> lock(cache_mutex);
+		std::shared_ptr<CacheEntry> &slot = cache[p_mesh->id];
+		if (!slot) {
+			slot = std::make_shared<CacheEntry>();
+			slot->mesh = p_mesh;
+			// A new mesh is the rare moment to drop those that are gone.
+			std::erase_if(cache, [](const auto &p_item) { return p_item.second->mesh.expired(); });
+		}
+		entry = slot;
+	}
+	// Outside the lock: a large mesh must not hold up the threads that ask for another.
+	std::call_once(entry->once, [&] {
+		entry->topology = std::make_shared<const MeshTopology>(build_topology(*p_mesh));
+	});
+	return entry->topology;
+}
+
+} // namespace gnomon

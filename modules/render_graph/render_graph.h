@@ -1,0 +1,180 @@
+#pragma once
+
+#include "modules/rendering_device/command_list.h"
+#include "modules/rendering_device/rendering_device.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A texture or buffer of one graph. Transient ones exist from their first to their last pass.
+struct RGTexture {
+	uint32_t index = ~0u;
+	explicit operator bool() const { return index != ~0u; }
+	bool operator==(const RGTexture &) const = default;
+};
+struct RGBuffer {
+	uint32_t index = ~0u;
+	explicit operator bool() const { return index != ~0u; }
+	bool operator==(const RGBuffer &) const = default;
+};
+
+class RenderGraph;
+class TransientPool;
+
+/// What a pass's function gets: where to record, and which real resources its handles became.
+class PassContext {
+public:
+	CommandList &commands;
+
+	TextureRID get(RGTexture p_texture) const;
+	BufferRID get(RGBuffer p_buffer) const;
+	RenderingDevice &get_device() const;
+
+	PassContext(CommandList &p_commands, const RenderGraph &p_graph) :
+			commands(p_commands), graph(p_graph) {}
+
+private:
+	const RenderGraph &graph;
+};
+
+/// What a host pass gets: its buffers as mapped memory, with the GPU's work finished.
+class HostContext {
+public:
+	uint8_t *get_mapped(RGBuffer p_buffer) const;
+
+	explicit HostContext(const RenderGraph &p_graph) : graph(p_graph) {}
+
+private:
+	const RenderGraph &graph;
+};
+
+/// Time of one pass. gpu_ms lies between two timestamps; wall_ms is what the CPU's clock saw from
+/// recording to the end of the pass, known only when passes ran one by one.
+struct PassTiming {
+	std::string name;
+	double gpu_ms = 0;
+	double wall_ms = 0;
+};
+
+/// Declares one pass: what it reads, what it writes, then the function that records it.
+class PassBuilder {
+public:
+	/// Shader reads, vertex and index buffers, indirect arguments, uniforms, copies.
+	PassBuilder &reads(RGTexture p_texture, Access p_access);
+	PassBuilder &reads(RGBuffer p_buffer, Access p_access);
+	/// Storage images and buffers, copies. FRESH: the pass writes every texel that is read later,
+	/// and earlier content is discarded. UPDATE: earlier content is kept.
+	enum class Content { FRESH, UPDATE };
+	PassBuilder &writes(RGTexture p_texture, Access p_access, Content p_content = Content::FRESH);
+	PassBuilder &writes(RGBuffer p_buffer, Access p_access, Content p_content = Content::FRESH);
+	/// Attachments: the graph begins and ends the rendering around the pass's function.
+	PassBuilder &color(RGTexture p_texture, LoadOp p_load = LoadOp::CLEAR,
+			glm::vec4 p_clear = glm::vec4(0.0f), uint32_t p_layer = 0);
+	PassBuilder &depth(
+			RGTexture p_texture, LoadOp p_load, float p_clear = 0.0f, uint32_t p_layer = 0);
+	/// Runs even when nobody reads what it writes.
+	PassBuilder &keep();
+	void execute(std::function<void(PassContext &)> p_record);
+	/// Runs on the CPU: everything before it is submitted and waited for. Its buffers are READBACK
+	/// (HOST_READ) or UPLOAD (HOST_WRITE) ones.
+	void execute_on_host(std::function<void(HostContext &)> p_run);
+
+	PassBuilder(RenderGraph &p_graph, uint32_t p_pass_index) :
+			graph(p_graph), pass_index(p_pass_index) {}
+
+private:
+	RenderGraph &graph;
+	uint32_t pass_index;
+};
+
+/// The passes of one frame, in the order in which they were added. Passes declare reads and
+/// writes; the graph leaves out passes whose results nobody uses, gives transient textures memory
+/// that they share when they do not live at the same time, and puts the barriers between passes.
+///
+/// Made anew each frame; what can be reused (memory) is kept in the TransientPool.
+class RenderGraph {
+public:
+	RenderGraph(RenderingDevice &p_device, TransientPool &p_pool);
+	~RenderGraph();
+	RenderGraph(const RenderGraph &) = delete;
+	RenderGraph &operator=(const RenderGraph &) = delete;
+
+	RGTexture create_texture(const TextureDesc &p_desc);
+	RGBuffer create_buffer(const BufferDesc &p_desc);
+	/// A buffer that holds these bytes; for constants and small lists of this frame.
+	RGBuffer upload(const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
+	template <typename T> RGBuffer upload_constants(const std::string &p_name, const T &p_block) {
+		return upload(p_name, BufferUsage::UNIFORM,
+				std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
+	}
+	/// A resource that outlives the frame. Between frames imported textures rest as
+	/// SHADER_READ_COMPUTE. NONE: it has no content yet (it was just made).
+	enum class ImportedContent { NONE, KEPT };
+	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
+	RGBuffer import_buffer(BufferRID p_buffer);
+	/// The window's next image, got from p_acquire when its first pass is recorded and shown when
+	/// that pass is submitted; one pass uses it. The pass is left out when p_acquire gives nothing.
+	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
+
+	const TextureDesc &get_desc(RGTexture p_texture) const;
+
+	PassBuilder add_pass(const std::string &p_name);
+	/// Goes before the names of the passes added from now on: "Lamp: ". Empty = nothing.
+	void set_pass_prefix(const std::string &p_prefix) { pass_prefix = p_prefix; }
+
+	/// QUEUE: returns at once; timings() then belong to an earlier frame. WAIT: returns when the
+	/// GPU has finished. ONE_BY_ONE: each pass is a submission of its own that is waited for, so
+	/// that wall_ms is known.
+	enum class Mode { QUEUE, WAIT, ONE_BY_ONE };
+	/// Compiles and runs the passes; at most once.
+	void execute(Mode p_mode);
+
+	const std::vector<PassTiming> &get_timings() const { return timings; }
+	/// Sum over the passes, and the wall time of execute() from the first to the last command.
+	double get_wall_ms() const { return wall_ms; }
+	/// Passes that were left out because nobody uses what they write.
+	std::vector<std::string> get_culled_passes() const;
+	/// Bytes of transient textures as if none shared memory, and as placed. After execute().
+	uint64_t get_unaliased_bytes() const { return unaliased_bytes; }
+	uint64_t get_aliased_bytes() const { return aliased_bytes; }
+	/// Graphviz text: passes as boxes, resources as ellipses, culled passes dashed.
+	std::string to_dot() const;
+
+private:
+	friend class PassBuilder;
+	friend class PassContext;
+	friend class HostContext;
+	struct Resource;
+	struct Use;
+	struct Pass;
+
+	void add_use(uint32_t p_pass_index, Use p_use);
+	void cull();
+	void compute_lifetimes();
+	void allocate();
+	void collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &r_barriers);
+	void record_pass(Pass &p_pass, CommandList &p_commands);
+	void rest_imported(std::vector<Barrier> &r_barriers);
+	Resource *find_window_image(const Pass &p_pass);
+	void collect_spans();
+
+	RenderingDevice &device;
+	TransientPool &pool;
+	std::vector<Resource> resources; // textures and buffers; a handle's index points here
+	std::vector<Pass> passes;
+	std::vector<PassTiming> timings;
+	std::vector<BufferRID> uploads; // freed with the graph
+	std::string pass_prefix;
+	double wall_ms = 0;
+	uint64_t unaliased_bytes = 0;
+	uint64_t aliased_bytes = 0;
+	bool is_executed = false;
+};
+
+} // namespace gnomon

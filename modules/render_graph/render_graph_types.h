@@ -1,0 +1,59 @@
+#pragma once
+
+#include "modules/render_graph/render_graph.h"
+
+#include <optional>
+
+// Private to render_graph: what the graph keeps of resources and passes.
+
+namespace gnomon {
+
+struct RenderGraph::Resource {
+	std::string name;
+	bool is_texture = false;
+	bool is_imported = false;
+	std::function<std::optional<TextureRID>()> acquire; // of the window's image
+	bool has_content = false; // imported only
+	TextureDesc texture_desc;
+	BufferDesc buffer_desc;
+	TextureRID texture;
+	BufferRID buffer;
+	// Passes that are not culled; first > last means that nobody uses it.
+	uint32_t first_pass = ~0u;
+	uint32_t last_pass = 0;
+	/// Accesses of the resources that had this one's memory before (aliasing).
+	std::vector<Access> earlier_users;
+	Access last_access = Access::NONE; // while barriers are derived
+};
+
+struct RenderGraph::Use {
+	uint32_t resource = 0;
+	Access access = Access::NONE;
+	bool is_written = false;
+	bool needs_content = true; // false: earlier content is discarded
+};
+
+struct RenderGraph::Pass {
+	std::string name;
+	std::vector<Use> uses;
+	struct Color {
+		RGTexture texture;
+		LoadOp load;
+		glm::vec4 clear;
+		uint32_t layer;
+	};
+	struct Depth {
+		RGTexture texture;
+		LoadOp load;
+		float clear;
+		uint32_t layer;
+	};
+	std::vector<Color> colors;
+	std::optional<Depth> depth_target;
+	bool is_kept = false;
+	bool is_culled = false;
+	std::function<void(PassContext &)> record;
+	std::function<void(HostContext &)> run_on_host;
+};
+
+} // namespace gnomon

@@ -1,0 +1,115 @@
+#include "modules/render_graph/transient_pool.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gnomon {
+
+namespace {
+
+// A frame shape per debug view and per set of left-out passes; more would only hold memory.
+constexpr size_t MAX_KEPT_ENTRIES = 3;
+
+bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
+	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
+}
+
+uint64_t align_up(uint64_t p_value, uint64_t p_alignment) {
+	return (p_value + p_alignment - 1) / p_alignment * p_alignment;
+}
+
+bool shares_memory(const PlacedBlock &p_left, const PlacedBlock &p_right) {
+	return p_left.offset_bytes < p_right.offset_bytes + p_right.size_bytes &&
+			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
+}
+
+} // namespace
+
+uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
+	std::vector<uint32_t> order(r_blocks.size());
+	std::iota(order.begin(), order.end(), 0u);
+	std::stable_sort(order.begin(), order.end(), [&](uint32_t p_left, uint32_t p_right) {
+		return r_blocks[p_left].size_bytes > r_blocks[p_right].size_bytes;
+	});
+	uint64_t total_bytes = 0;
+	std::vector<uint32_t> placed;
+	for (uint32_t index : order) {
+		PlacedBlock &block = r_blocks[index];
+		block.offset_bytes = 0;
+		// Move behind each neighbour in the way, lowest first, until none is.
+		std::sort(placed.begin(), placed.end(), [&](uint32_t p_left, uint32_t p_right) {
+			return r_blocks[p_left].offset_bytes < r_blocks[p_right].offset_bytes;
+		});
+		for (uint32_t other : placed) {
+			if (lives_with(block, r_blocks[other]) && shares_memory(block, r_blocks[other])) {
+				block.offset_bytes =
+						align_up(r_blocks[other].offset_bytes + r_blocks[other].size_bytes,
+								block.alignment_bytes);
+			}
+		}
+		placed.push_back(index);
+		total_bytes = std::max(total_bytes, block.offset_bytes + block.size_bytes);
+	}
+	return total_bytes;
+}
+
+const TransientPlacement &TransientPool::place(const std::vector<TransientRequest> &p_requests) {
+	++use_count;
+	for (const std::unique_ptr<Entry> &entry : entries) {
+		if (entry->requests == p_requests) {
+			entry->last_use = use_count;
+			return entry->placement;
+		}
+	}
+	if (entries.size() >= MAX_KEPT_ENTRIES) {
+		entries.erase(std::min_element(
+				entries.begin(), entries.end(), [](const auto &p_left, const auto &p_right) {
+					return p_left->last_use < p_right->last_use;
+				}));
+	}
+	auto entry = std::make_unique<Entry>();
+	entry->requests = p_requests;
+	entry->last_use = use_count;
+	TransientPlacement &placement = entry->placement;
+	placement.textures.resize(p_requests.size());
+	placement.buffers.resize(p_requests.size());
+	placement.predecessors.resize(p_requests.size());
+
+	std::vector<PlacedBlock> blocks;
+	std::vector<uint32_t> block_requests;
+	for (uint32_t index = 0; index < p_requests.size(); ++index) {
+		const TransientRequest &request = p_requests[index];
+		if (!request.is_texture) {
+			entry->buffers.emplace_back(device, device.create_buffer(request.buffer));
+			placement.buffers[index] = entry->buffers.back().get();
+			continue;
+		}
+		const auto needs = device.compute_placement_needs(request.texture);
+		blocks.push_back({ needs.size_bytes, needs.alignment_bytes, request.first_pass,
+				request.last_pass });
+		block_requests.push_back(index);
+		placement.unaliased_bytes += needs.size_bytes;
+	}
+	placement.aliased_bytes = place_blocks(blocks);
+	if (!blocks.empty()) {
+		entry->memory = OwnedMemory(device,
+				device.create_texture_memory("transient textures", placement.aliased_bytes));
+	}
+	for (size_t index = 0; index < blocks.size(); ++index) {
+		const uint32_t request = block_requests[index];
+		entry->textures.emplace_back(device,
+				device.create_placed_texture(p_requests[request].texture, entry->memory.get(),
+						blocks[index].offset_bytes));
+		placement.textures[request] = entry->textures.back().get();
+		for (size_t other = 0; other < blocks.size(); ++other) {
+			if (blocks[other].last_pass < blocks[index].first_pass &&
+					shares_memory(blocks[index], blocks[other])) {
+				placement.predecessors[request].push_back(block_requests[other]);
+			}
+		}
+	}
+	entries.push_back(std::move(entry));
+	return entries.back()->placement;
+}
+
+} // namespace gnomon

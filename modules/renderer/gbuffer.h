@@ -1,0 +1,36 @@
+#pragma once
+
+#include "modules/render_graph/render_graph.h"
+#include "modules/renderer/mesh_store.h"
+#include "modules/scene/scene_snapshot.h"
+#include "shared/frame_shared.h"
+
+namespace gnomon {
+
+/// What the camera sees, one texel per pixel.
+struct GBuffer {
+	RGTexture depth; // D32_SFLOAT, reversed
+	RGTexture base_color; // RGBA8_SRGB
+	RGTexture geometric_normal; // R32_UINT
+	RGTexture shading_normal; // R32_UINT
+	RGTexture material; // RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+	RGTexture emissive; // RGBA16_SFLOAT, cd/m^2
+};
+
+/// The camera as the shaders read it. Exposure and ambient: see compute_exposure.
+shader::FrameConstants compute_frame_constants(
+		const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
+
+/// Scales radiance so that a white surface at the middle of the casters, facing the brightest
+/// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.
+float compute_exposure(const SceneSnapshot &p_scene);
+
+/// Draws the instances the camera may see. r_drawn_count: how many those are.
+GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &p_meshes,
+		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,
+		uint32_t &r_drawn_count);
+
+/// The camera as a view, for culling: its sides and what lies behind it.
+LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
+
+} // namespace gnomon

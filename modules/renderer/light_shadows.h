@@ -1,0 +1,70 @@
+#pragma once
+
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/mask_filter.h"
+#include "modules/renderer/shadow_registry.h"
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace gnomon {
+
+/// Which technique a light gets, and why another than it asks for.
+struct TechniqueChoice {
+	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
+	std::string warning; // empty when the light gets what it asks for
+};
+/// p_override: an id that replaces every light's own; must exist when not empty.
+TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string &p_override);
+
+/// The technique's properties of the light with defaults filled in. A stored value that is out of
+/// range is logged once per light and value, and its default is used.
+PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
+
+/// Makes and keeps the technique of each light, culls its casters, and calls its hooks in order.
+class LightShadows {
+public:
+	LightShadows(RenderingDevice &p_device, MeshStore &p_meshes) :
+			device(p_device), meshes(p_meshes) {}
+
+	struct Request {
+		const SceneSnapshot &scene;
+		const LightSnapshot &light;
+		const GBuffer &gbuffer;
+		RGTexture receivers;
+		RGBuffer frame;
+		RGBuffer light_constants;
+		glm::uvec2 size_px;
+		std::string technique_override;
+		bool may_leave_out = true;
+		bool may_keep = true;
+		std::string debug_view; // empty = none
+	};
+	/// Records everything between the G-buffer and the lighting of one light. Returns its mask.
+	/// r_debug_view: set when the request names a debug view that the technique has.
+	RGTexture add_passes(RenderGraph &r_graph, const Request &p_request, FramePlan &r_plan,
+			std::optional<ShadowTechnique::DebugView> &r_debug_view);
+	/// Drops techniques of lights that are gone, and all when a registry changed. Once a frame.
+	void collect_garbage(const SceneSnapshot &p_scene);
+
+private:
+	struct Slot {
+		std::string technique_id;
+		std::unique_ptr<ShadowTechnique> technique;
+	};
+	ShadowTechnique &get_technique(const LightSnapshot &p_light, const ShadowTechniqueInfo &p_info);
+	RGTexture add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+			RGTexture p_mask, TechniquePlan &r_plan);
+
+	RenderingDevice &device;
+	MeshStore &meshes;
+	std::map<std::string, Slot> slots; // by light name
+	std::vector<std::unique_ptr<MaskFilter>> filters;
+	std::set<std::string> warned;
+	uint64_t technique_revision = 0;
+	uint64_t filter_revision = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,189 @@
+#include "modules/renderer/lighting.h"
+
+#include "renderer/renderer_shared.h"
+
+namespace gnomon {
+
+shader::LightConstants compute_light_constants(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera) {
+	shader::LightConstants constants = {};
+	const glm::dvec3 position = p_light.type == LightType::DIRECTIONAL
+			? glm::dvec3(0.0)
+			: p_light.position_world - p_camera.position_world;
+	constants.position_radius = glm::vec4(glm::vec3(position), p_light.get_disc_radius());
+	constants.direction = glm::vec4(glm::vec3(p_light.get_direction_world()), 0.0f);
+	constants.intensity = glm::vec4(p_light.color * p_light.intensity, 0.0f);
+	constants.range_m = p_light.range_m;
+	constants.cos_outer = std::cos(p_light.outer_cone_rad);
+	constants.cos_inner = std::cos(p_light.inner_cone_rad);
+	constants.type = p_light.type == LightType::OMNI ? LIGHT_TYPE_OMNI
+			: p_light.type == LightType::SPOT		 ? LIGHT_TYPE_SPOT
+													 : LIGHT_TYPE_DIRECTIONAL;
+	constants.outer_width_m = p_light.penumbra_outer_width_m;
+	constants.inner_width_m = p_light.penumbra_inner_width_m;
+	constants.casts_shadow = p_light.casts_shadow ? 1u : 0u;
+	return constants;
+}
+
+bool may_light_view(const LightSnapshot &p_light, const LightView &p_camera_view) {
+	if (p_light.type == LightType::DIRECTIONAL || p_light.range_m <= 0.0f) {
+		return true;
+	}
+	Bounds reach;
+	reach.add(p_light.position_world - glm::dvec3(p_light.range_m));
+	reach.add(p_light.position_world + glm::dvec3(p_light.range_m));
+	return p_camera_view.may_see(reach);
+}
+
+RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
+		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "receivers", "renderer/receivers.comp", {} });
+	const RGTexture receivers = r_graph.create_texture({ "receivers", Format::R8_UNORM, p_size_px,
+			1, TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	r_graph.add_pass("receivers")
+			.reads(p_frame, Access::UNIFORM_READ)
+			.reads(p_light, Access::UNIFORM_READ)
+			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.geometric_normal, Access::SHADER_READ_COMPUTE)
+			.writes(receivers, Access::SHADER_WRITE_COMPUTE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
+						{ RENDERER_BINDING_LIGHT, p_context.get(p_light) },
+						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
+						{ RENDERER_BINDING_GEOMETRIC_NORMAL,
+								p_context.get(p_gbuffer.geometric_normal) },
+						{ RENDERER_BINDING_RECEIVERS, p_context.get(receivers) },
+				});
+				p_context.commands.dispatch_items({ p_size_px, 1 });
+			});
+	return receivers;
+}
+
+RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility) {
+	const RGTexture mask = r_graph.create_texture({ "constant mask", Format::R16_SFLOAT, p_size_px,
+			1, TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	r_graph.add_pass("constant mask")
+			.writes(mask, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.clear_color(p_context.get(mask), glm::vec4(p_visibility));
+			});
+	return mask;
+}
+
+RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
+		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "ambient", "renderer/ambient.comp", {} });
+	const RGTexture radiance = r_graph.create_texture({ "radiance", Format::RGBA16_SFLOAT,
+			p_size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
+	r_graph.add_pass("ambient")
+			.reads(p_frame, Access::UNIFORM_READ)
+			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.base_color, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.emissive, Access::SHADER_READ_COMPUTE)
+			.writes(radiance, Access::SHADER_WRITE_COMPUTE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
+						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
+						{ RENDERER_BINDING_BASE_COLOR, p_context.get(p_gbuffer.base_color) },
+						{ RENDERER_BINDING_EMISSIVE, p_context.get(p_gbuffer.emissive) },
+						{ RENDERER_BINDING_RADIANCE, p_context.get(radiance) },
+				});
+				p_context.commands.dispatch_items({ p_size_px, 1 });
+			});
+	return radiance;
+}
+
+void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
+		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
+		RGTexture p_radiance, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "lighting", "renderer/lighting.comp", {} });
+	r_graph.add_pass("lighting")
+			.reads(p_frame, Access::UNIFORM_READ)
+			.reads(p_light, Access::UNIFORM_READ)
+			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.base_color, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.shading_normal, Access::SHADER_READ_COMPUTE)
+			.reads(p_gbuffer.material, Access::SHADER_READ_COMPUTE)
+			.reads(p_receivers, Access::SHADER_READ_COMPUTE)
+			.reads(p_mask, Access::SHADER_READ_COMPUTE)
+			.writes(p_radiance, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
+						{ RENDERER_BINDING_LIGHT, p_context.get(p_light) },
+						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
+						{ RENDERER_BINDING_SHADING_NORMAL,
+								p_context.get(p_gbuffer.shading_normal) },
+						{ RENDERER_BINDING_MATERIAL, p_context.get(p_gbuffer.material) },
+						{ RENDERER_BINDING_BASE_COLOR, p_context.get(p_gbuffer.base_color) },
+						{ RENDERER_BINDING_RECEIVERS, p_context.get(p_receivers) },
+						{ RENDERER_BINDING_MASK, p_context.get(p_mask) },
+						{ RENDERER_BINDING_RADIANCE, p_context.get(p_radiance) },
+				});
+				p_context.commands.dispatch_items({ p_size_px, 1 });
+			});
+}
+
+namespace {
+
+RGTexture create_output(RenderGraph &r_graph, glm::uvec2 p_size_px) {
+	return r_graph.create_texture({ "picture", Format::RGBA8_UNORM, p_size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
+}
+
+} // namespace
+
+RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		RGTexture p_radiance, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} });
+	const RGTexture output = create_output(r_graph, p_size_px);
+	r_graph.add_pass("tone map")
+			.reads(p_frame, Access::UNIFORM_READ)
+			.reads(p_radiance, Access::SHADER_READ_COMPUTE)
+			.writes(output, Access::SHADER_WRITE_COMPUTE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
+						{ RENDERER_BINDING_RADIANCE, p_context.get(p_radiance) },
+						{ RENDERER_BINDING_OUTPUT, p_context.get(output) },
+				});
+				p_context.commands.dispatch_items({ p_size_px, 1 });
+			});
+	return output;
+}
+
+RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
+	const RGTexture output = create_output(r_graph, p_size_px);
+	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, 0 };
+	const RGTexture shown = p_view.texture;
+	r_graph.add_pass("debug view " + p_view.id)
+			.reads(p_frame, Access::UNIFORM_READ)
+			.reads(shown, Access::SHADER_READ_COMPUTE)
+			.writes(output, Access::SHADER_WRITE_COMPUTE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
+						{ RENDERER_BINDING_MASK, p_context.get(shown) },
+						{ RENDERER_BINDING_OUTPUT, p_context.get(output) },
+				});
+				p_context.commands.push_constants(push);
+				p_context.commands.dispatch_items({ p_size_px, 1 });
+			});
+	return output;
+}
+
+} // namespace gnomon

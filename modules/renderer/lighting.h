@@ -1,0 +1,37 @@
+#pragma once
+
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/shadow_technique.h"
+#include "shared/light_shared.h"
+
+namespace gnomon {
+
+/// The light in camera-relative space, as the shaders read it.
+shader::LightConstants compute_light_constants(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
+
+/// False when the light's range ends before everything the camera sees.
+bool may_light_view(const LightSnapshot &p_light, const LightView &p_camera_view);
+
+/// R8_UNORM: 1 where the light can reach (TECHNIQUES, section 0: receiver pixels).
+RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
+		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px);
+
+/// A mask of one value; for lights without a shadow.
+RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility);
+
+/// RGBA16_SFLOAT, exposed: ambient and emitted light.
+RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
+		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px);
+/// Adds one light, times its mask.
+void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
+		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
+		RGTexture p_radiance, glm::uvec2 p_size_px);
+/// RGBA8_UNORM, sRGB-encoded.
+RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		RGTexture p_radiance, glm::uvec2 p_size_px);
+/// RGBA8_UNORM: the texture of a debug view in place of the picture.
+RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px);
+
+} // namespace gnomon

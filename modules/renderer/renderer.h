@@ -1,0 +1,84 @@
+#pragma once
+
+#include "modules/renderer/frame_plan.h"
+#include "modules/renderer/light_shadows.h"
+#include "modules/renderer/mesh_store.h"
+#include "modules/render_graph/render_graph.h"
+#include "modules/render_graph/transient_pool.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A corner of a triangle drawn over the picture: text and gizmos.
+struct OverlayVertex {
+	glm::vec2 position_px; // from the top left
+	glm::vec4 color; // sRGB-encoded, alpha not premultiplied
+};
+
+/// What one frame is to make.
+struct RenderRequest {
+	std::shared_ptr<const SceneSnapshot> scene;
+	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
+	/// Replaces the technique of every light. Empty = each light's own.
+	std::string technique_override;
+	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or "mask".
+	std::string debug_view;
+	bool wants_image = false; // RenderResult::image
+	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
+	std::string mask_light;
+	bool wants_mask = false; // with mask_light: RenderResult::visibility and receiver
+	/// Gets the window's next image to show the picture in; see RenderGraph::import_window_image.
+	std::function<std::optional<TextureRID>()> acquire_window_image;
+	std::vector<OverlayVertex> overlay; // three per triangle
+	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
+	/// False: runs everything, also what the image does not need (for the test that compares both).
+	bool may_leave_out = true;
+	/// False: techniques use nothing that they kept of earlier frames, as if everything had moved.
+	bool may_keep = true;
+};
+
+struct RenderResult {
+	FramePlan plan;
+	std::vector<PassTiming> timings; // QUEUE: of an earlier frame
+	double gpu_ms = 0; // sum of the passes
+	double wall_ms = 0; // of the frame's submission
+	std::vector<uint8_t> image; // RGBA8, sRGB-encoded, rows from the top
+	std::vector<float> visibility; // Y: 0 where receiver is 0
+	std::vector<float> receiver; // 1 or 0
+	std::string dot; // the frame's graph for Graphviz
+	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
+	uint64_t aliased_bytes = 0;
+};
+
+/// Draws frames of a scene: G-buffer, each light's shadow, lighting, tone map.
+class Renderer {
+public:
+	explicit Renderer(RenderingDevice &p_device);
+	~Renderer();
+
+	/// An unknown technique, light or debug view, or a size out of range, is an Error.
+	RenderResult render(const RenderRequest &p_request);
+	RenderingDevice &get_device() { return device; }
+
+private:
+	struct Frame;
+	RGTexture add_light(Frame &r_frame, const LightSnapshot &p_light, RGTexture &r_receivers,
+			RGBuffer &r_light_constants);
+	void add_mask_only(Frame &r_frame);
+	void add_picture(Frame &r_frame);
+	void add_overlay(Frame &r_frame, RGTexture p_target);
+	/// A pass that copies a texture where the CPU can read it, and fills r_bytes.
+	void add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes);
+
+	RenderingDevice &device;
+	TransientPool transients;
+	MeshStore meshes;
+	LightShadows shadows;
+};
+
+} // namespace gnomon

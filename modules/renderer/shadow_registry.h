@@ -1,0 +1,50 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+/// What a module says of a technique when it registers it.
+struct ShadowTechniqueInfo {
+	std::string id; // stored in scene files; never changes
+	std::string name;
+	std::string source; // paper, book, section
+	std::function<std::unique_ptr<ShadowTechnique>()> make;
+	/// The highest rank is what a light without shadow_technique gets; 0 = never by default.
+	int default_rank = 0;
+	/// Takes over for lights whose technique is missing.
+	bool is_fallback = false;
+	/// Exact within its sampling error: what the others are measured against.
+	bool is_reference = false;
+};
+
+/// All techniques there are. Modules add and remove; main thread only.
+class ShadowRegistry {
+public:
+	/// An id that is present already is our mistake.
+	static void add(ShadowTechniqueInfo p_info);
+	/// Renderers drop the technique's instances before the next frame (see get_revision).
+	static void remove(std::string_view p_id);
+	static const ShadowTechniqueInfo *find(std::string_view p_id);
+	/// As find; absent: an Error that lists the ids there are.
+	static const ShadowTechniqueInfo &get(std::string_view p_id);
+	static const std::vector<ShadowTechniqueInfo> &get_techniques();
+	/// Null where no candidate is registered.
+	static const ShadowTechniqueInfo *find_default();
+	static const ShadowTechniqueInfo *find_fallback();
+	static const ShadowTechniqueInfo *find_reference();
+	/// Light properties of one technique, which must exist.
+	static const PropertyList &get_light_properties(std::string_view p_id);
+	/// The property of whichever technique declares that name, or null.
+	static const PropertyInfo *find_light_property(std::string_view p_name);
+	/// Counts adds and removes.
+	static uint64_t get_revision();
+};
+
+} // namespace gnomon

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "modules/core/property.h"
+#include "modules/render_graph/render_graph.h"
+#include "modules/renderer/frame_plan.h"
+#include "modules/renderer/light_view.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class MeshStore;
+
+/// The casters that one light view may see, culled by the renderer.
+struct CasterList {
+	std::vector<uint32_t> instances; // indices into SceneSnapshot::instances
+	/// Changes when the view, a caster or a caster's place changes: equal hashes, equal map.
+	uint64_t content_hash = 0;
+};
+
+/// What a technique decides before any pass is recorded. Names the light in the frame's plan.
+class TechniquePlan {
+public:
+	explicit TechniquePlan(FramePlan &p_plan) : plan(p_plan) {}
+
+	void run(const std::string &p_pass) { plan.run(p_pass); }
+	void leave_out(const std::string &p_pass, const std::string &p_reason) {
+		plan.leave_out(p_pass, p_reason);
+	}
+	/// The renderer then calls none of the view's three hooks.
+	void leave_out_light_view(uint32_t p_view_index, const std::string &p_reason);
+	bool is_light_view_left_out(uint32_t p_view_index) const {
+		return left_out_views.count(p_view_index) != 0;
+	}
+
+private:
+	FramePlan &plan;
+	std::set<uint32_t> left_out_views;
+};
+
+/// Answers one question for one light: what fraction of it does each visible pixel see?
+///
+/// The renderer owns one instance per shadow-casting light and calls it on the render thread, each
+/// frame in the order in which the methods stand here. The engine knows the id, never the class.
+class ShadowTechnique {
+public:
+	/// Valid from plan() to resolve() of one frame. All textures have the size `size_px`.
+	struct Inputs {
+		RenderingDevice &device;
+		MeshStore &meshes; // GPU buffers of the casters
+		const SceneSnapshot &scene;
+		const LightSnapshot &light;
+		/// Of the technique's light properties, with defaults filled in and every value in range.
+		const PropertyValues &properties;
+		std::span<const LightView> views;
+		std::span<const CasterList> casters; // one list per view
+		glm::uvec2 size_px;
+		RGTexture depth; // D32_SFLOAT, reversed; 0 = background
+		RGTexture geometric_normal; // R32_UINT, normal_inc.glsl; of the face, towards the viewer
+		RGTexture shading_normal; // likewise; interpolated
+		RGTexture material; // RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
+		RGBuffer frame; // FrameConstants
+		RGBuffer light_constants; // LightConstants
+		/// False: nothing may be left out (for the test that compares both bit for bit).
+		bool may_leave_out = true;
+		/// False: what was kept of earlier frames must not be used, as if everything had moved.
+		bool may_keep = true;
+	};
+	/// An intermediate image of the last resolve().
+	struct DebugView {
+		std::string id; // "layer_1"
+		RGTexture texture;
+		glm::vec2 shown_range = glm::vec2(0.0f, 1.0f); // value shown black, value shown white
+		uint32_t layer = 0;
+	};
+
+	virtual ~ShadowTechnique() = default;
+
+	/// Properties this technique adds to a light; names begin with the technique's id. Called on
+	/// any instance, at any time; always the same list.
+	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
+	/// Called once a frame with p_properties as in Inputs. Leave empty when nothing is rendered
+	/// from the light.
+	virtual void get_light_views(const LightSnapshot & /*p_light*/,
+			const SceneSnapshot & /*p_scene*/, const PropertyValues & /*p_properties*/,
+			std::vector<LightView> & /*r_views*/) const {}
+	/// Called once a frame before any pass: what will run, what is left out and why.
+	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}
+	/// Around each light view that was not left out, in this order; record passes only.
+	virtual void before_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
+	virtual void at_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
+	virtual void after_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
+	/// Returns the visibility mask: R16_SFLOAT (R32_SFLOAT where the precision is needed), 0 =
+	/// hidden, 1 = fully lit, one texel per camera pixel, ready to be sampled. Never NaN.
+	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
+	/// Called after resolve() while a debug view is shown.
+	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}
+	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
+	virtual std::vector<std::string> get_shader_files() const = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,109 @@
+#include "modules/scene/mesh.h"
+
+#include "modules/core/error.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+// A normal this short has lost its direction to rounding; a longer one is only rescaled.
+const double SHORTEST_NORMAL = 1e-6;
+// Normals that are unit to within float rounding stay bit for bit as they came.
+const double UNIT_TOLERANCE = 1e-6;
+
+bool is_finite(const glm::vec3 &p_vector) {
+	return std::isfinite(p_vector.x) && std::isfinite(p_vector.y) && std::isfinite(p_vector.z);
+}
+
+void check_mesh(const Mesh &p_mesh) {
+	const size_t vertex_count = p_mesh.positions_node.size();
+	if (vertex_count > UINT32_MAX) {
+		fail("Mesh \"", p_mesh.name, "\" has ", vertex_count, " vertices, must be at most ",
+				UINT32_MAX, ". Split it.");
+	}
+	if (p_mesh.indices.size() % 3 != 0) {
+		fail("Mesh \"", p_mesh.name, "\" has ", p_mesh.indices.size(),
+				" indices, must be three per triangle. Triangulate it.");
+	}
+	if (!p_mesh.normals_node.empty() && p_mesh.normals_node.size() != vertex_count) {
+		fail("Mesh \"", p_mesh.name, "\" has ", p_mesh.normals_node.size(),
+				" normals, must be 0 or ", vertex_count,
+				", one per position. Leave them out to have them computed.");
+	}
+	for (size_t index = 0; index < vertex_count; ++index) {
+		if (!is_finite(p_mesh.positions_node[index])) {
+			fail("Mesh \"", p_mesh.name, "\": position ", index,
+					" is not finite. Correct the vertex or export the mesh again.");
+		}
+	}
+	for (size_t index = 0; index < p_mesh.indices.size(); ++index) {
+		if (p_mesh.indices[index] >= vertex_count) {
+			fail("Mesh \"", p_mesh.name, "\": index ", index, " is ", p_mesh.indices[index],
+					", must be below ", vertex_count,
+					", the number of positions. Export it again.");
+		}
+	}
+}
+
+/// Area-weighted: the cross product's length is twice the area. Double, because the square of a
+/// millimetre in a large mesh vanishes in float.
+std::vector<glm::dvec3> compute_face_normal_sums(const Mesh &p_mesh) {
+	std::vector<glm::dvec3> sums(p_mesh.positions_node.size(), glm::dvec3(0.0));
+	for (size_t first = 0; first + 2 < p_mesh.indices.size(); first += 3) {
+		const uint32_t *corners = &p_mesh.indices[first];
+		const glm::dvec3 origin = p_mesh.positions_node[corners[0]];
+		const glm::dvec3 normal = glm::cross(glm::dvec3(p_mesh.positions_node[corners[1]]) - origin,
+				glm::dvec3(p_mesh.positions_node[corners[2]]) - origin);
+		for (int corner = 0; corner < 3; ++corner) {
+			sums[corners[corner]] += normal;
+		}
+	}
+	return sums;
+}
+
+void repair_normals(Mesh &r_mesh) {
+	std::vector<glm::dvec3> sums; // computed when the first normal needs it
+	r_mesh.normals_node.resize(r_mesh.positions_node.size(), glm::vec3(0.0f));
+	for (size_t index = 0; index < r_mesh.normals_node.size(); ++index) {
+		glm::vec3 &normal = r_mesh.normals_node[index];
+		const double length = is_finite(normal) ? glm::length(glm::dvec3(normal)) : 0.0;
+		if (std::abs(length - 1.0) <= UNIT_TOLERANCE) {
+			continue;
+		}
+		if (length > SHORTEST_NORMAL) {
+			normal = glm::vec3(glm::dvec3(normal) / length);
+			continue;
+		}
+		if (sums.empty()) {
+			sums = compute_face_normal_sums(r_mesh);
+		}
+		const double sum_length = glm::length(sums[index]);
+		// A vertex without any area has no normal; any unit vector keeps shaders free of NaN.
+		normal = sum_length > 0 && std::isfinite(sum_length) ? glm::vec3(sums[index] / sum_length)
+															 : glm::vec3(0.0f, 1.0f, 0.0f);
+	}
+}
+
+} // namespace
+
+std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
+		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices) {
+	static std::atomic<uint64_t> next_id = 1;
+	auto mesh = std::make_shared<Mesh>();
+	mesh->name = std::move(p_name);
+	mesh->positions_node = std::move(p_positions_node);
+	mesh->normals_node = std::move(p_normals_node);
+	mesh->indices = std::move(p_indices);
+	check_mesh(*mesh);
+	repair_normals(*mesh);
+	for (const glm::vec3 &position : mesh->positions_node) {
+		mesh->bounds_node.add(glm::dvec3(position));
+	}
+	mesh->id = next_id++;
+	return mesh;
+}
+
+} // namespace gnomon

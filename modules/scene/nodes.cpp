@@ -1,0 +1,75 @@
+#include "modules/scene/nodes.h"
+
+#include "modules/core/error.h"
+
+namespace gnomon {
+
+Node3D *Node3D::add_child(std::unique_ptr<Node3D> p_child) {
+	GNOMON_ASSERT(p_child, "node ", name, " was given no child");
+	GNOMON_ASSERT(!p_child->parent, "node ", p_child->name, " has a parent already");
+	p_child->parent = this;
+	children.push_back(std::move(p_child));
+	return children.back().get();
+}
+
+glm::dmat4 Node3D::compute_world_from_node() const {
+	glm::dmat4 world_from_node = parent_from_node;
+	for (const Node3D *ancestor = parent; ancestor; ancestor = ancestor->parent) {
+		world_from_node = ancestor->parent_from_node * world_from_node;
+	}
+	return world_from_node;
+}
+
+void Scene::fail_unknown_node(const char *p_kind, const std::string &p_name,
+		const std::vector<std::string> &p_names) const {
+	const std::string place = path.empty() ? "The scene" : "Scene \"" + path + "\"";
+	if (p_names.empty()) {
+		fail(place, " has no ", p_kind, " \"", p_name, "\", and no other ", p_kind,
+				". Add one to the scene.");
+	}
+	const size_t SHOWN_COUNT = 20; // enough to choose from; a scene can hold thousands
+	std::string list;
+	for (size_t index = 0; index < p_names.size() && index < SHOWN_COUNT; ++index) {
+		list += (index == 0 ? "\"" : ", \"") + p_names[index] + "\"";
+	}
+	if (p_names.size() > SHOWN_COUNT) {
+		list += text(" and ", p_names.size() - SHOWN_COUNT, " more");
+	}
+	fail(place, " has no ", p_kind, " \"", p_name, "\". Name one of these: ", list, ".");
+}
+
+const PropertyList &Light3D::get_property_list() {
+	static const PropertyList list = [] {
+		PropertyList made;
+		made.add({ "light_size", PropertyType::FLOAT, 0.1, "0,10000,0.01",
+				"Radius R of a point or spot light, the size of its luminous disc. 0 makes a point "
+				"with a hard shadow; a directional light ignores it.",
+				"m", "Light" });
+		made.add({ "light_angular_distance", PropertyType::FLOAT, 0.5, "0,90,0.1",
+				"Apparent diameter of a directional light in the sky (the sun: 0.5). 0 makes a "
+				"hard "
+				"shadow; point and spot lights ignore it.",
+				"deg", "Light" });
+		made.add({ "shadow_enabled", PropertyType::BOOL, true, "",
+				"Whether objects hide this light. Off, it shines through them and costs no shadow "
+				"pass.",
+				"", "Shadow" });
+		made.add({ "shadow_technique", PropertyType::STRING, "", "",
+				"Id of the technique that computes the shadow. Empty means the default; one that "
+				"is "
+				"not in this build falls back with a warning and stays stored.",
+				"", "Shadow" });
+		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
+				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
+				"means the light's size; 0 leaves the outer part out.",
+				"m", "Shadow", "-1" });
+		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
+				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
+				"means the light's size; 0 leaves the inner part out.",
+				"m", "Shadow", "-1" });
+		return made;
+	}();
+	return list;
+}
+
+} // namespace gnomon

@@ -1,0 +1,205 @@
+#include "modules/scene/scene_snapshot.h"
+
+#include "modules/core/error.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
+// Volume of the unit axes' parallelepiped below which an orientation is rounding noise.
+const double FLATTEST_AXES = 1e-9;
+
+bool is_finite(const glm::dmat4 &p_matrix) {
+	for (int column = 0; column < 4; ++column) {
+		for (int row = 0; row < 4; ++row) {
+			if (!std::isfinite(p_matrix[column][row])) {
+				return false;
+			}
+		}
+	}
+	return true;
+}
+
+void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) {
+	if (!is_finite(p_world_from_node)) {
+		fail("Node \"", p_node.name, "\": its transform to the world is not finite. Correct it or ",
+				"one of its parents' transforms.");
+	}
+}
+
+/// Rotation of a transform: the axis that is looked or shone along is kept exactly, as a scale that
+/// is not uniform bends the others. Right-handed even when the transform mirrors.
+glm::dmat3 compute_orientation(
+		const glm::dmat4 &p_world_from_node, const char *p_kind, const std::string &p_name) {
+	glm::dmat3 axes(p_world_from_node);
+	bool is_degenerate = false;
+	for (int axis = 0; axis < 3; ++axis) {
+		const double length = glm::length(axes[axis]);
+		is_degenerate = is_degenerate || !(length > 0) || !std::isfinite(length);
+		axes[axis] /= length;
+	}
+	if (is_degenerate || !(std::abs(glm::determinant(axes)) > FLATTEST_AXES)) {
+		fail(p_kind, " \"", p_name,
+				"\": its transform has no orientation (a scale is 0, too large, ",
+				"or axes coincide). Set the scale of it and of its parents to other than 0.");
+	}
+	const glm::dvec3 back = axes[2];
+	const glm::dvec3 right = glm::normalize(axes[0] - back * glm::dot(axes[0], back));
+	return glm::dmat3(right, glm::cross(back, right), back);
+}
+
+/// A property as every technique must read it. Values come checked from files and the inspector;
+/// code may set anything.
+PropertyValue read_property(const Light3D &p_light, std::string_view p_name) {
+	const PropertyList &list = Light3D::get_property_list();
+	const PropertyInfo &info = *list.find(p_name);
+	const PropertyValue &value = get_property(list, p_light.properties, p_name);
+	const std::string refusal = check_property(info, value);
+	if (!refusal.empty()) {
+		fail("Light \"", p_light.name, "\": ", p_name, " ", refusal,
+				". Set it to an allowed value.");
+	}
+	return convert_property(info, value);
+}
+
+float read_float(const Light3D &p_light, std::string_view p_name) {
+	return static_cast<float>(std::get<double>(read_property(p_light, p_name)));
+}
+
+CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
+	const glm::dmat4 world_from_node = p_camera.compute_world_from_node();
+	check_transform(p_camera, world_from_node);
+	CameraSnapshot snapshot;
+	snapshot.name = p_camera.name;
+	snapshot.position_world = glm::dvec3(world_from_node[3]);
+	snapshot.world_from_camera = compute_orientation(world_from_node, "Camera", p_camera.name);
+	snapshot.vertical_fov_rad = p_camera.vertical_fov_rad;
+	snapshot.near_m = p_camera.near_m;
+	return snapshot;
+}
+
+LightSnapshot build_light_snapshot_at(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
+	check_transform(p_light, p_world_from_node);
+	LightSnapshot snapshot;
+	snapshot.name = p_light.name;
+	snapshot.type = p_light.type;
+	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
+	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
+	snapshot.color = p_light.color;
+	snapshot.intensity = p_light.intensity;
+	snapshot.range_m = p_light.range_m;
+	snapshot.inner_cone_rad = p_light.inner_cone_rad;
+	snapshot.outer_cone_rad = p_light.outer_cone_rad;
+	snapshot.light_size_m = read_float(p_light, "light_size");
+	snapshot.light_angular_distance_deg = read_float(p_light, "light_angular_distance");
+	snapshot.casts_shadow = std::get<bool>(read_property(p_light, "shadow_enabled"));
+	snapshot.technique_id = std::get<std::string>(read_property(p_light, "shadow_technique"));
+	const float outer_width_m = read_float(p_light, "penumbra_outer_width");
+	const float inner_width_m = read_float(p_light, "penumbra_inner_width");
+	snapshot.penumbra_outer_width_m = outer_width_m < 0 ? snapshot.light_size_m : outer_width_m;
+	snapshot.penumbra_inner_width_m = inner_width_m < 0 ? snapshot.light_size_m : inner_width_m;
+	for (const auto &[name, value] : p_light.properties) {
+		if (!Light3D::get_property_list().find(name)) {
+			snapshot.properties.emplace(name, value);
+		}
+	}
+	snapshot.file_path = p_light.file_path;
+	return snapshot;
+}
+
+Bounds compute_bounds_world(const Bounds &p_bounds_node, const glm::dmat4 &p_world_from_node) {
+	Bounds bounds;
+	for (int corner = 0; corner < 8; ++corner) {
+		const glm::dvec3 point((corner & 1) ? p_bounds_node.maximum.x : p_bounds_node.minimum.x,
+				(corner & 2) ? p_bounds_node.maximum.y : p_bounds_node.minimum.y,
+				(corner & 4) ? p_bounds_node.maximum.z : p_bounds_node.minimum.z);
+		bounds.add(glm::dvec3(p_world_from_node * glm::dvec4(point, 1.0)));
+	}
+	return bounds;
+}
+
+/// Fills the snapshot from the tree, with the transform to the world carried along: asking every
+/// node to compute its own would cost the square of the depth.
+struct TreeReader {
+	SceneSnapshot &snapshot;
+	Bounds caster_bounds;
+
+	void read(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
+		const glm::dmat4 world_from_node = p_world_from_parent * p_node.parent_from_node;
+		check_transform(p_node, world_from_node);
+		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
+			snapshot.lights.push_back(build_light_snapshot_at(*light, world_from_node));
+		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
+			read_surfaces(*instance, world_from_node);
+		}
+		for (const std::unique_ptr<Node3D> &child : p_node.children) {
+			read(*child, world_from_node);
+		}
+	}
+
+	void read_surfaces(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
+		// A mesh without a material is still seen: it gets the plain one.
+		static const auto default_material = std::make_shared<const Material>();
+		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
+			if (!surface.mesh || surface.mesh->indices.empty()) {
+				continue;
+			}
+			InstanceSnapshot instance;
+			instance.mesh = surface.mesh;
+			instance.material = surface.material ? surface.material : default_material;
+			instance.world_from_node = p_world_from_node;
+			instance.bounds_world =
+					compute_bounds_world(surface.mesh->bounds_node, p_world_from_node);
+			if (!std::isfinite(instance.bounds_world.get_diagonal())) {
+				fail("Node \"", p_node.name, "\": its vertices are not finite in the world. Make ",
+						"its scale smaller.");
+			}
+			instance.casts_shadow = p_node.casts_shadow;
+			instance.is_planar_receiver = p_node.is_planar_receiver;
+			if (instance.casts_shadow) {
+				caster_bounds.add(instance.bounds_world);
+			}
+			snapshot.instances.push_back(std::move(instance));
+		}
+	}
+};
+
+} // namespace
+
+float LightSnapshot::get_disc_radius() const {
+	if (type == LightType::DIRECTIONAL) {
+		return std::tan(glm::radians(light_angular_distance_deg) * 0.5f);
+	}
+	return light_size_m;
+}
+
+bool InstanceSnapshot::is_mirrored() const {
+	return glm::determinant(glm::dmat3(world_from_node)) < 0;
+}
+
+glm::mat4 SceneSnapshot::get_camera_relative_from_node(const InstanceSnapshot &p_instance) const {
+	glm::dmat4 camera_relative_from_node = p_instance.world_from_node;
+	camera_relative_from_node[3] -= glm::dvec4(camera.position_world, 0.0);
+	return glm::mat4(camera_relative_from_node);
+}
+
+LightSnapshot build_light_snapshot(const Light3D &p_light) {
+	return build_light_snapshot_at(p_light, p_light.compute_world_from_node());
+}
+
+std::shared_ptr<const SceneSnapshot> build_snapshot(
+		const Scene &p_scene, const Camera3D &p_camera) {
+	auto snapshot = std::make_shared<SceneSnapshot>();
+	snapshot->camera = build_camera_snapshot(p_camera);
+	TreeReader reader{ *snapshot, {} };
+	reader.read(*p_scene.root, glm::dmat4(1.0));
+	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
+	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M,
+			has_own_size ? p_scene.scene_size_m : reader.caster_bounds.get_diagonal());
+	return snapshot;
+}
+
+} // namespace gnomon

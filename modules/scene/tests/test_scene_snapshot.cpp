@@ -1,0 +1,126 @@
+#include "modules/core/error.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace gnomon;
+
+namespace {
+
+template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
+	auto node = std::make_unique<T>();
+	node->name = p_name;
+	return static_cast<T *>(p_parent.add_child(std::move(node)));
+}
+
+/// A camera, a light and one triangle of the box (0,0,0)..(1,1,0).
+struct SmallScene {
+	Scene scene;
+	Camera3D *camera = add<Camera3D>(*scene.root, "Camera");
+	Light3D *light = add<Light3D>(*scene.root, "Lamp");
+	MeshInstance3D *instance = add<MeshInstance3D>(*scene.root, "Box");
+	SmallScene() {
+		instance->surfaces.push_back(
+				{ make_mesh("m", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 }),
+						nullptr });
+	}
+	std::shared_ptr<const SceneSnapshot> build() const { return build_snapshot(scene, *camera); }
+};
+
+} // namespace
+
+TEST_CASE("[SceneSnapshot] r and t of -1 become the light's size, others stay") {
+	SmallScene small;
+	small.light->properties = { { "light_size", 0.4 }, { "penumbra_inner_width", 0.25 },
+		{ "x_taps", int64_t(8) } };
+	const LightSnapshot light = build_light_snapshot(*small.light);
+	CHECK(light.penumbra_outer_width_m == 0.4f);
+	CHECK(light.penumbra_inner_width_m == 0.25f);
+	CHECK(light.get_disc_radius() == 0.4f);
+	CHECK(light.casts_shadow);
+	CHECK(light.properties == PropertyValues{ { "x_taps", int64_t(8) } });
+}
+
+TEST_CASE("[SceneSnapshot] a directional light's disc is the tangent of half its diameter") {
+	SmallScene small;
+	small.light->type = LightType::DIRECTIONAL;
+	small.light->properties = { { "light_angular_distance", 90.0 } };
+	CHECK(build_light_snapshot(*small.light).get_disc_radius() ==
+			doctest::Approx(std::tan(M_PI / 4)));
+}
+
+TEST_CASE("[SceneSnapshot] a value that no file could hold is an error naming the light") {
+	SmallScene small;
+	small.light->properties = { { "light_size", -1.0 } };
+	CHECK_THROWS_WITH_AS(
+			small.build(), doctest::Contains("Light \"Lamp\": light_size is -1"), Error);
+	small.light->properties = { { "light_size", int64_t(2) } };
+	CHECK(small.build()->lights[0].light_size_m == 2.0f);
+}
+
+TEST_CASE("[SceneSnapshot] a light's orientation ignores scale and mirroring") {
+	SmallScene small;
+	const glm::dmat4 turned =
+			glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+	small.light->parent_from_node = turned * glm::scale(glm::dmat4(1.0), glm::dvec3(-2, 3, 1e-5));
+	const LightSnapshot light = build_light_snapshot(*small.light);
+	const glm::dmat3 identity = glm::transpose(light.world_from_light) * light.world_from_light;
+	for (int axis = 0; axis < 3; ++axis) {
+		CHECK(glm::length(identity[axis] - glm::dmat3(1.0)[axis]) < 1e-12);
+	}
+	CHECK(glm::determinant(light.world_from_light) == doctest::Approx(1.0));
+	CHECK(glm::length(light.get_direction_world() + glm::dvec3(turned[2])) < 1e-12);
+}
+
+TEST_CASE("[SceneSnapshot] transforms without orientation or not finite name their node") {
+	SmallScene small;
+	small.light->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0, 1, 1));
+	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Light \"Lamp\""), Error);
+	small.light->parent_from_node = glm::dmat4(1.0);
+	small.light->parent_from_node[0] = small.light->parent_from_node[1];
+	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Light \"Lamp\""), Error);
+	small.light->parent_from_node = glm::dmat4(1.0);
+	small.instance->parent_from_node[3].y = std::numeric_limits<double>::quiet_NaN();
+	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Node \"Box\""), Error);
+	small.instance->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0.0));
+	CHECK_NOTHROW(small.build()); // draws nothing
+	small.camera->parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0.0));
+	CHECK_THROWS_WITH_AS(small.build(), doctest::Contains("Camera \"Camera\""), Error);
+}
+
+TEST_CASE("[SceneSnapshot] the scene's size is its own, else the casters' diagonal, never 0") {
+	SmallScene small;
+	CHECK(small.build()->scene_size_m == doctest::Approx(std::sqrt(2.0)));
+	small.scene.scene_size_m = 4;
+	CHECK(small.build()->scene_size_m == 4);
+	small.scene.scene_size_m = 0;
+	small.instance->casts_shadow = false;
+	CHECK(small.build()->scene_size_m == 1e-9);
+}
+
+TEST_CASE("[SceneSnapshot] bounds hold the turned corners and camera space keeps precision") {
+	SmallScene small;
+	const glm::dvec3 far_away(1e9, 0, 0);
+	small.instance->parent_from_node = glm::rotate(
+			glm::translate(glm::dmat4(1.0), far_away), glm::radians(90.0), glm::dvec3(0, 0, 1));
+	small.camera->parent_from_node =
+			glm::translate(glm::dmat4(1.0), far_away + glm::dvec3(0.125, 0, 0));
+	const auto snapshot = small.build();
+	const InstanceSnapshot &instance = snapshot->instances.at(0);
+	CHECK(instance.material);
+	CHECK(instance.bounds_world.minimum.x == doctest::Approx(1e9 - 1).epsilon(1e-15));
+	CHECK(instance.bounds_world.maximum.y == doctest::Approx(1.0));
+	CHECK(snapshot->get_camera_relative_from_node(instance)[3].x == -0.125f);
+	CHECK(snapshot->to_camera_relative(far_away).x == -0.125f);
+}
+
+TEST_CASE("[SceneSnapshot] a mirroring transform is known as one") {
+	InstanceSnapshot instance;
+	CHECK_FALSE(instance.is_mirrored());
+	instance.world_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
+	CHECK(instance.is_mirrored());
+}

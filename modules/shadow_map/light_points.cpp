@@ -1,0 +1,77 @@
+#include "modules/shadow_map/light_points.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace gnomon {
+
+namespace {
+
+constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
+constexpr double GOLDEN_RATIO_FRACTION = 0.6180339887498949;
+
+glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
+	const double radius = std::sqrt((p_index + 0.5) / p_count);
+	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
+	return radius * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
+}
+
+/// Inverts F(x) = 2/pi (asin x - x sqrt(1 - x^2)), the share of the ball's density within x R.
+double compute_ball_radius(double p_share) {
+	double low = 0;
+	double high = 1;
+	for (int step = 0; step < 50; ++step) {
+		const double x = 0.5 * (low + high);
+		const double share = (std::asin(x) - x * std::sqrt(1 - x * x)) * 2 / glm::pi<double>();
+		(share < p_share ? low : high) = x;
+	}
+	return 0.5 * (low + high);
+}
+
+glm::dvec3 compute_ball_point(uint32_t p_index, uint32_t p_count) {
+	// Fibonacci sphere for the direction; the radius runs through its strata in another order.
+	const double z = 1 - 2 * (p_index + 0.5) / p_count;
+	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
+	const double share = std::fmod(0.5 + p_index * GOLDEN_RATIO_FRACTION, 1.0);
+	const double ring = std::sqrt(std::max(0.0, 1 - z * z));
+	return compute_ball_radius(share) *
+			glm::dvec3(ring * std::cos(angle_rad), ring * std::sin(angle_rad), z);
+}
+
+} // namespace
+
+LightSnapshot make_light_point(
+		const LightSnapshot &p_light, uint32_t p_index, uint32_t p_count, double p_nearest_m) {
+	LightSnapshot point = p_light;
+	const double radius = p_light.get_disc_radius();
+	const glm::dmat3 &axes = p_light.world_from_light;
+	if (p_light.type == LightType::OMNI) {
+		point.position_world += radius * compute_ball_point(p_index, p_count);
+		return point;
+	}
+	const glm::dvec2 offset = radius * compute_vogel_point(p_index, p_count);
+	if (p_light.type == LightType::SPOT) {
+		point.position_world += axes[0] * offset.x + axes[1] * offset.y;
+		const double tangent = std::tan(std::min(1.55, double(p_light.outer_cone_rad)));
+		const double widened = tangent + radius / std::max({ p_nearest_m, radius, 1e-9 });
+		point.outer_cone_rad = static_cast<float>(std::atan(widened));
+		return point;
+	}
+	const glm::dvec3 back = glm::normalize(axes[2] + axes[0] * offset.x + axes[1] * offset.y);
+	const glm::dvec3 right = glm::normalize(axes[0] - back * glm::dot(axes[0], back));
+	point.world_from_light = glm::dmat3(right, glm::cross(back, right), back);
+	return point;
+}
+
+double compute_nearest_distance_m(const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+	double nearest_m = 1e30;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const glm::dvec3 &position = p_light.position_world;
+		const glm::dvec3 closest = glm::clamp(
+				position, instance.bounds_world.minimum, instance.bounds_world.maximum);
+		nearest_m = std::min(nearest_m, glm::distance(position, closest));
+	}
+	return nearest_m;
+}
+
+} // namespace gnomon

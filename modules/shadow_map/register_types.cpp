@@ -1,0 +1,30 @@
+#include "modules/shadow_map/register_types.h"
+
+#include "modules/renderer/shadow_registry.h"
+#include "modules/shadow_map/shadow_map.h"
+#include "modules/shadow_map/views.h"
+
+namespace gnomon {
+
+void initialize_shadow_map_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowTechniqueInfo map = { "shadow_map", "Shadow map, hard or filtered",
+		"Williams 1978; Reeves, Salesin, Cook 1987", [] { return std::make_unique<ShadowMap>(); } };
+	map.default_rank = 1;
+	map.is_fallback = true;
+	ShadowRegistry::add(std::move(map));
+	ShadowRegistry::add({ "views", "Mean of many hard shadow maps", "Brute force",
+			[] { return std::make_unique<Views>(); } });
+}
+
+void uninitialize_shadow_map_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowRegistry::remove("views");
+	ShadowRegistry::remove("shadow_map");
+}
+
+} // namespace gnomon

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+#include "modules/rendering_device/rendering_device.h"
+
+namespace gnomon {
+
+/// Depth seen from the light's centre, compared per pixel: hard, or the mean over n x n texels.
+/// Blind to the light's size. Receivers are compared with their own plane at the texel's centre, so
+/// that no depth bias has to be tuned. A map is kept while neither its view nor its casters change.
+class ShadowMap : public ShadowTechnique {
+public:
+	void get_light_properties(PropertyList &r_list) const override;
+	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
+	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
+	void at_light_view(
+			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
+	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	void get_debug_views(std::vector<DebugView> &r_views) const override;
+	std::vector<std::string> get_shader_files() const override;
+
+private:
+	RGTexture import_map(RenderGraph &r_graph);
+
+	OwnedTexture map; // one layer per view
+	TextureDesc map_desc;
+	std::vector<uint64_t> drawn_hashes; // per view; 0 = its layer holds nothing of use
+	uint32_t empty_views = 0; // bits, this frame
+	bool has_content = false; // of the map, before this frame
+	RGTexture frame_map; // this frame's handle of map
+};
+
+} // namespace gnomon

@@ -1,0 +1,134 @@
+#include "modules/shadow_map/views.h"
+
+#include "modules/core/error.h"
+#include "modules/renderer/lighting.h"
+#include "modules/renderer/mesh_store.h"
+#include "modules/shadow_map/light_points.h"
+#include "shadow_map/shadow_map_shared.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+uint32_t get_count(const LightSnapshot &p_light, const PropertyValues &p_properties) {
+	// All points of a light without size are one.
+	return p_light.get_disc_radius() > 0.0f
+			? static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_count")))
+			: 1;
+}
+
+} // namespace
+
+void Views::get_light_properties(PropertyList &r_list) const {
+	r_list.add({ "views_count", PropertyType::INT, int64_t(16), "1,1024,1",
+			"Points of the light from which a hard shadow map is drawn each frame.", "", "Views" });
+	r_list.add({ "views_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
+			"Width and height of each map.", "px", "Views" });
+}
+
+void Views::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
+	const uint32_t size_px =
+			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_map_size")));
+	const uint32_t count = get_count(p_light, p_properties);
+	const double nearest_m = compute_nearest_distance_m(p_light, p_scene);
+	for (uint32_t index = 0; index < count; ++index) {
+		const LightSnapshot point = make_light_point(p_light, index, count, nearest_m);
+		const std::vector<LightView> views = build_light_views(point, p_scene, size_px, 1);
+		r_views.insert(r_views.end(), views.begin(), views.end());
+	}
+}
+
+void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	const uint32_t count = get_count(p_inputs.light, p_inputs.properties);
+	views_per_point = static_cast<uint32_t>(p_inputs.views.size()) / count;
+	is_empty.assign(p_inputs.views.size(), false);
+	for (uint32_t index = 0; index < p_inputs.views.size(); ++index) {
+		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
+			is_empty[index] = true;
+			r_plan.leave_out_light_view(index, "no casters");
+		}
+	}
+	is_all_empty = std::all_of(is_empty.begin(), is_empty.end(), [](bool p_is) { return p_is; });
+}
+
+// Everything is recorded here and not at the views' hooks: all points share one map, so that each
+// point's depth passes must be followed at once by the pass that reads them.
+RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	if (is_all_empty) {
+		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
+	}
+	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
+			{ "views accumulate", "shadow_map/accumulate.comp", {} });
+	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT,
+			p_inputs.size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture map = r_graph.create_texture({ "map of one light point", Format::D32_SFLOAT,
+			p_inputs.views[0].size_px, views_per_point,
+			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+	const uint32_t count = static_cast<uint32_t>(p_inputs.views.size()) / views_per_point;
+	const double nearest_m = compute_nearest_distance_m(p_inputs.light, p_inputs.scene);
+	const RGTexture depth = p_inputs.depth;
+	const RGTexture normal = p_inputs.geometric_normal;
+	const RGTexture receivers = p_inputs.receivers;
+	const RGBuffer frame = p_inputs.frame;
+	const glm::uvec2 size_px = p_inputs.size_px;
+	bool is_map_written = false;
+	for (uint32_t point_index = 0; point_index < count; ++point_index) {
+		shader::ShadowMapPush push = { 0, point_index, count, 0 };
+		std::vector<LightView> views;
+		for (uint32_t face = 0; face < views_per_point; ++face) {
+			const uint32_t index = point_index * views_per_point + face;
+			views.push_back(p_inputs.views[index]);
+			if (is_empty[index]) {
+				push.empty_views |= 1u << face;
+			} else {
+				add_depth_pass(r_graph, text("depth point ", point_index, " view ", face), p_inputs,
+						p_inputs.views[index], p_inputs.casters[index], map, face);
+				is_map_written = true;
+			}
+		}
+		if (!is_map_written) {
+			// A point before the first caster: the map is bound though not read, so it must exist.
+			add_depth_pass(r_graph, "empty map", p_inputs, views[0], {}, map, 0);
+			is_map_written = true;
+		}
+		const LightSnapshot point =
+				make_light_point(p_inputs.light, point_index, count, nearest_m);
+		const RGBuffer view_constants = r_graph.upload_constants("light point views",
+				compute_light_views_constants(point, p_inputs.scene.camera, views));
+		r_graph.add_pass(text("accumulate point ", point_index))
+				.reads(frame, Access::UNIFORM_READ)
+				.reads(view_constants, Access::UNIFORM_READ)
+				.reads(depth, Access::SHADER_READ_COMPUTE)
+				.reads(normal, Access::SHADER_READ_COMPUTE)
+				.reads(receivers, Access::SHADER_READ_COMPUTE)
+				.reads(map, Access::SHADER_READ_COMPUTE)
+				.writes(mask, Access::SHADER_WRITE_COMPUTE,
+						point_index == 0 ? PassBuilder::Content::FRESH
+										 : PassBuilder::Content::UPDATE)
+				.execute([=](PassContext &p_context) {
+					p_context.commands.bind_pipeline(pipeline);
+					p_context.commands.bind_resources({
+							{ SHADOW_MAP_BINDING_FRAME, p_context.get(frame) },
+							{ SHADOW_MAP_BINDING_VIEWS, p_context.get(view_constants) },
+							{ SHADOW_MAP_BINDING_DEPTH, p_context.get(depth) },
+							{ SHADOW_MAP_BINDING_NORMAL, p_context.get(normal) },
+							{ SHADOW_MAP_BINDING_RECEIVERS, p_context.get(receivers) },
+							{ SHADOW_MAP_BINDING_MAP, p_context.get(map) },
+							{ SHADOW_MAP_BINDING_MASK, p_context.get(mask) },
+					});
+					p_context.commands.push_constants(push);
+					p_context.commands.dispatch_items({ size_px, 1 });
+				});
+	}
+	return mask;
+}
+
+std::vector<std::string> Views::get_shader_files() const {
+	return { "shadow_map/accumulate.comp" };
+}
+
+} // namespace gnomon

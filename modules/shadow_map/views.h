@@ -1,0 +1,24 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+namespace gnomon {
+
+/// The mean of N hard shadow maps from N points of the light: brute force, the honest yardstick.
+/// Converges to the exact mask with N; costs N times a hard map, every frame.
+class Views : public ShadowTechnique {
+public:
+	void get_light_properties(PropertyList &r_list) const override;
+	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
+	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
+	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	std::vector<std::string> get_shader_files() const override;
+
+private:
+	uint32_t views_per_point = 1;
+	std::vector<bool> is_empty; // per view, this frame
+	bool is_all_empty = false;
+};
+
+} // namespace gnomon

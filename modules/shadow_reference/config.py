@@ -1,0 +1,32 @@
+import shlex
+import subprocess
+
+
+def get_dependencies():
+    return ["core", "scene"]
+
+
+def get_layer():
+    return 4
+
+
+def get_description():
+    return "Exact area-light visibility by ray tracing: the truth that techniques are measured against"
+
+
+def _find_embree(env):
+    """The newest major version whose header the compiler finds, or 0."""
+    for version in (4, 3):
+        command = shlex.split(env["CXX"]) + ["-E", "-x", "c++", "-"]
+        source = "#include <embree%d/rtcore.h>\n" % version
+        if subprocess.run(command, input=source, text=True, capture_output=True).returncode == 0:
+            return version
+    return 0
+
+
+def can_build(env):
+    return _find_embree(env) != 0
+
+
+def configure(env):
+    env.Append(LIBS=["embree%d" % _find_embree(env)])

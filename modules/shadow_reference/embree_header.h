@@ -1,0 +1,28 @@
+#pragma once
+
+// Embree 3 and 4 differ in folder and in how a query is described; nothing else here sees which.
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace gnomon {
+
+/// Sets tfar of each ray with valid = -1 to -infinity when anything is hit between tnear and tfar.
+/// The rays of one call start at one point and keep close together.
+inline void find_occluded_8(RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays) {
+#if RTC_VERSION_MAJOR >= 4
+	RTCOccludedArguments arguments;
+	rtcInitOccludedArguments(&arguments);
+	arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+	rtcOccluded8(p_valid, p_scene, &r_rays, &arguments);
+#else
+	RTCIntersectContext context;
+	rtcInitIntersectContext(&context);
+	context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+	rtcOccluded8(p_valid, p_scene, &context, &r_rays);
+#endif
+}
+
+} // namespace gnomon

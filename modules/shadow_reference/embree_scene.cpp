@@ -1,0 +1,99 @@
+#include "modules/shadow_reference/embree_scene.h"
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gnomon {
+
+namespace {
+
+bool is_finite(const glm::vec3 &p_value) {
+	return std::isfinite(p_value.x) && std::isfinite(p_value.y) && std::isfinite(p_value.z);
+}
+
+/// Embree leaves the space of a triangle that is not finite to us.
+std::vector<uint32_t> keep_finite(
+		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
+	GNOMON_ASSERT(p_triangle_indices.size() % 3 == 0, p_triangle_indices.size(), " indices");
+	std::vector<uint32_t> kept;
+	kept.reserve(p_triangle_indices.size());
+	for (size_t i = 0; i < p_triangle_indices.size(); i += 3) {
+		bool is_kept = true;
+		for (size_t k = i; k < i + 3; ++k) {
+			const uint32_t index = p_triangle_indices[k];
+			GNOMON_ASSERT(index < p_positions.size(), "index ", index, " of ", p_positions.size());
+			is_kept = is_kept && is_finite(p_positions[index]);
+		}
+		if (is_kept) {
+			kept.insert(kept.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
+		}
+	}
+	return kept;
+}
+
+} // namespace
+
+EmbreeScene::EmbreeScene(
+		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
+	try {
+		build(p_positions, p_triangle_indices);
+	} catch (...) {
+		release();
+		throw;
+	}
+}
+
+EmbreeScene::~EmbreeScene() {
+	release();
+}
+
+void EmbreeScene::release() {
+	if (scene != nullptr) {
+		rtcReleaseScene(scene);
+	}
+	if (device != nullptr) {
+		rtcReleaseDevice(device);
+	}
+}
+
+void EmbreeScene::check() const {
+	const RTCError error = rtcGetDeviceError(device);
+	if (error != RTC_ERROR_NONE) {
+		fail("Reference: Embree reports error ", static_cast<int>(error),
+				" while building the scene. Free memory or use fewer triangles.");
+	}
+}
+
+void EmbreeScene::build(
+		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
+	const std::vector<uint32_t> kept = keep_finite(p_positions, p_triangle_indices);
+	device = rtcNewDevice(nullptr);
+	check();
+	scene = rtcNewScene(device);
+	rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+	rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+	if (!kept.empty()) {
+		RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+		// Buffers of Embree's own, because it reads 16 bytes beyond the last vertex of a shared
+		// one.
+		void *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+				RTC_FORMAT_FLOAT3, sizeof(glm::vec3), p_positions.size());
+		void *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), kept.size() / 3);
+		if (vertices != nullptr && indices != nullptr) {
+			std::copy(p_positions.begin(), p_positions.end(), static_cast<glm::vec3 *>(vertices));
+			std::copy(kept.begin(), kept.end(), static_cast<uint32_t *>(indices));
+			rtcCommitGeometry(geometry);
+			rtcAttachGeometry(scene, geometry);
+		}
+		rtcReleaseGeometry(geometry);
+		check();
+	}
+	rtcCommitScene(scene);
+	check();
+}
+
+} // namespace gnomon

@@ -1,0 +1,14 @@
+def get_dependencies():
+    return ["core", "scene", "rendering_device", "render_graph", "renderer"]
+
+
+def get_layer():
+    return 4
+
+
+def get_description():
+    return "The smallest technique that builds and passes; copy it to start a new one"
+
+
+def get_doc():
+    return "doc/add_a_technique.md"

@@ -1,0 +1,98 @@
+#include "modules/shadow_template/shadow_template.h"
+
+#include "modules/core/text.h"
+#include "modules/renderer/mesh_store.h"
+#include "shadow_template/shadow_template_shared.h"
+
+namespace gnomon {
+
+// One line declares a property for the inspector, the scene file, --set and the docs.
+void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
+	r_list.add({ "template_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
+			"Width and height of the map drawn from the light.", "px", "Template" });
+	r_list.add({ "template_strength", PropertyType::FLOAT, 1.0, "0,1,0.01",
+			"How dark a hidden place is: 0 = as if lit, 1 = no light.", "", "Template" });
+}
+
+// Which cameras stand at the light: the renderer culls the casters of each.
+void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
+	const auto size_px =
+			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("template_map_size")));
+	r_views = build_light_views(p_light, p_scene, size_px, 1);
+}
+
+// Before anything is recorded: say what this frame does not need. The template needs all of it.
+void ShadowTemplate::plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {
+	map = {};
+}
+
+// Once per view: draw what the light sees.
+void ShadowTemplate::at_light_view(
+		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
+	if (!map) {
+		map = r_graph.create_texture({ "template map", Format::D32_SFLOAT,
+				p_inputs.views[p_view_index].size_px,
+				static_cast<uint32_t>(p_inputs.views.size()),
+				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+	}
+	add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
+			p_inputs.views[p_view_index], p_inputs.casters[p_view_index], map, p_view_index);
+}
+
+// Once per frame: answer for every pixel.
+RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
+			{ "template resolve", "shadow_template/resolve.comp", {} });
+	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
+	const RGBuffer view_constants = r_graph.upload_constants("template views",
+			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
+	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT,
+			p_inputs.size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const auto strength =
+			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
+	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };
+	// Handles are copied into the pass: the inputs themselves end before it runs.
+	const RGTexture depth = p_inputs.depth;
+	const RGTexture normal = p_inputs.geometric_normal;
+	const RGTexture receivers = p_inputs.receivers;
+	const RGTexture map_of_frame = map;
+	const RGBuffer frame = p_inputs.frame;
+	const glm::uvec2 size_px = p_inputs.size_px;
+	r_graph.add_pass("resolve")
+			.reads(frame, Access::UNIFORM_READ)
+			.reads(view_constants, Access::UNIFORM_READ)
+			.reads(depth, Access::SHADER_READ_COMPUTE)
+			.reads(normal, Access::SHADER_READ_COMPUTE)
+			.reads(receivers, Access::SHADER_READ_COMPUTE)
+			.reads(map_of_frame, Access::SHADER_READ_COMPUTE)
+			.writes(mask, Access::SHADER_WRITE_COMPUTE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources({
+						{ SHADOW_TEMPLATE_BINDING_FRAME, p_context.get(frame) },
+						{ SHADOW_TEMPLATE_BINDING_VIEWS, p_context.get(view_constants) },
+						{ SHADOW_TEMPLATE_BINDING_DEPTH, p_context.get(depth) },
+						{ SHADOW_TEMPLATE_BINDING_NORMAL, p_context.get(normal) },
+						{ SHADOW_TEMPLATE_BINDING_RECEIVERS, p_context.get(receivers) },
+						{ SHADOW_TEMPLATE_BINDING_MAP, p_context.get(map_of_frame) },
+						{ SHADOW_TEMPLATE_BINDING_MASK, p_context.get(mask) },
+				});
+				p_context.commands.push_constants(push);
+				p_context.commands.dispatch_items({ size_px, 1 });
+			});
+	return mask;
+}
+
+void ShadowTemplate::get_debug_views(std::vector<DebugView> &r_views) const {
+	if (map) {
+		r_views.push_back({ "map", map, glm::vec2(0.0f, 1e-3f), 0 });
+	}
+}
+
+std::vector<std::string> ShadowTemplate::get_shader_files() const {
+	return { "shadow_template/resolve.comp" };
+}
+
+} // namespace gnomon

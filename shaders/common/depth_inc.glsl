@@ -1,0 +1,16 @@
+// The one place that knows how depth is stored: reversed, near / z, 1 near .. 0 far (infinity).
+#ifndef DEPTH_INC_GLSL
+#define DEPTH_INC_GLSL
+
+#include "shared/frame_shared.h"
+
+/// Camera-relative position of a pixel's centre from its stored depth, which is above 0.
+vec3 position_from_depth(FrameConstants p_frame, ivec2 p_pixel, float p_depth) {
+	const vec2 uv = (vec2(p_pixel) + 0.5) / vec2(p_frame.size_px);
+	const float z_m = p_frame.near_m / p_depth;
+	return z_m *
+			(p_frame.forward.xyz + (2.0 * uv.x - 1.0) * p_frame.right_tangent.xyz +
+					(1.0 - 2.0 * uv.y) * p_frame.up_tangent.xyz);
+}
+
+#endif

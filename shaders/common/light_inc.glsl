@@ -1,0 +1,52 @@
+// What light reaches a point, without its shadow.
+#ifndef LIGHT_INC_GLSL
+#define LIGHT_INC_GLSL
+
+#include "shared/light_shared.h"
+
+/// From the point towards the light's centre, not unit: its length is the distance (directional: 1).
+vec3 vector_to_light(LightConstants p_light, vec3 p_position) {
+	return p_light.type == LIGHT_TYPE_DIRECTIONAL ? -p_light.direction.xyz
+												  : p_light.position_radius.xyz - p_position;
+}
+
+/// A receiver faces the light and lies inside its cone and range (TECHNIQUES, section 0).
+bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
+	const vec3 to_light = vector_to_light(p_light, p_position);
+	const float distance_m = length(to_light);
+	if (!(dot(p_normal, to_light) > 0.0)) {
+		return false; // also for a point on the light, and NaN
+	}
+	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {
+		return true;
+	}
+	if (p_light.range_m > 0.0 && distance_m > p_light.range_m) {
+		return false;
+	}
+	return p_light.type != LIGHT_TYPE_SPOT ||
+			dot(-to_light, p_light.direction.xyz) >= p_light.cos_outer * distance_m;
+}
+
+/// Illuminance on a surface that faces the light, lx per colour: KHR_lights_punctual's attenuation
+/// with its range window and smooth cone.
+vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
+	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {
+		return p_light.intensity.rgb;
+	}
+	const float distance2 = max(dot(p_to_light, p_to_light), 1e-12);
+	float factor = 1.0 / distance2;
+	if (p_light.range_m > 0.0) {
+		const float ratio2 = distance2 / (p_light.range_m * p_light.range_m);
+		const float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+		factor *= window;
+	}
+	if (p_light.type == LIGHT_TYPE_SPOT) {
+		const float cosine = dot(-p_to_light, p_light.direction.xyz) * inversesqrt(distance2);
+		const float span = max(p_light.cos_inner - p_light.cos_outer, 1e-4);
+		const float cone = clamp((cosine - p_light.cos_outer) / span, 0.0, 1.0);
+		factor *= cone * cone;
+	}
+	return p_light.intensity.rgb * factor;
+}
+
+#endif

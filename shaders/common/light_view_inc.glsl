@@ -1,0 +1,57 @@
+// Points and planes as a light view sees them. See LightViewConstants for the spaces.
+#ifndef LIGHT_VIEW_INC_GLSL
+#define LIGHT_VIEW_INC_GLSL
+
+#include "shared/light_shared.h"
+
+/// A receiver in map coordinates, and how w changes over the map on the receiver's plane.
+struct MapPoint {
+	vec2 xy;
+	float w; // 0 or less: behind the view
+	vec2 w_slope; // dw/dx, dw/dy on the receiver's plane: exact, since w is linear on a plane
+};
+
+/// Index of the view that holds a position, by the largest component in the light's own axes.
+uint find_view(LightViewsConstants p_views, vec3 p_position) {
+	if (p_views.view_count <= 1u) {
+		return 0u;
+	}
+	const vec3 r = (p_views.light_from_camera_relative * vec4(p_position, 1.0)).xyz;
+	const vec3 size = abs(r);
+	if (size.x >= size.y && size.x >= size.z) {
+		return r.x >= 0.0 ? 0u : 1u;
+	}
+	if (size.y >= size.z) {
+		return r.y >= 0.0 ? 2u : 3u;
+	}
+	return r.z >= 0.0 ? 4u : 5u;
+}
+
+MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_normal) {
+	const vec3 r = (p_view.view_from_camera_relative * vec4(p_position, 1.0)).xyz;
+	const vec3 n = mat3(p_view.view_from_camera_relative) * p_normal;
+	MapPoint point;
+	if (p_view.is_orthographic != 0u) {
+		point.xy = r.xy;
+		point.w = p_view.far_m - r.z;
+		point.w_slope = n.z == 0.0 ? vec2(0.0) : n.xy / n.z;
+	} else {
+		point.w = r.z > 0.0 ? 1.0 / r.z : 0.0;
+		point.xy = r.xy * point.w;
+		const float height = dot(n, r); // distance of the plane from the light, with sign
+		point.w_slope = abs(height) < 1e-7 ? vec2(0.0) : n.xy / height;
+	}
+	return point;
+}
+
+/// Map coordinates to texels: texel centres lie at whole numbers plus a half.
+vec2 texels_from_map(LightViewConstants p_view, vec2 p_xy) {
+	return (p_xy / p_view.half_extent * 0.5 + 0.5) * vec2(p_view.size_px);
+}
+
+/// Size of one texel in map coordinates.
+vec2 texel_extent(LightViewConstants p_view) {
+	return 2.0 * p_view.half_extent / vec2(p_view.size_px);
+}
+
+#endif

@@ -1,0 +1,36 @@
+// Is a receiver lit, as far as one texel of a light's depth map can tell?
+#ifndef MAP_COMPARE_INC_GLSL
+#define MAP_COMPARE_INC_GLSL
+
+#include "common/light_view_inc.glsl"
+
+// The rasteriser snaps corners to 1/256 texel, so that a stored w may be off by the slope over
+// that much; twice it is allowed for.
+const float SNAP_TEXELS = 2.0 / 256.0;
+// Neighbouring facets of a curved surface rise over a receiver's plane by this part of a texel.
+// Smaller shows the facets of "terrain" as lines; larger opens contacts by the same distance.
+const float CURVATURE_TEXELS = 0.15;
+// Steeper planes leave the map's resolution: w changes by more than this part within the offset.
+const float MAX_RELATIVE_CHANGE = 0.25;
+
+/// The w that a caster in the texel must exceed to hide the receiver: the receiver's own plane at
+/// the texel's centre (receiver-plane bias), plus what the map cannot resolve.
+float hiding_w(LightViewConstants p_view, MapPoint p_point, ivec2 p_texel) {
+	const vec2 extent = texel_extent(p_view);
+	const vec2 centre = (vec2(p_texel) + 0.5) * extent - p_view.half_extent;
+	const float scale = p_view.is_orthographic != 0u ? 1.0 / p_view.depth_scale : p_point.w;
+	const float limit = MAX_RELATIVE_CHANGE * scale;
+	const float change = clamp(dot(p_point.w_slope, centre - p_point.xy), -limit, limit);
+	const float snap = min(dot(abs(p_point.w_slope), extent) * SNAP_TEXELS, limit);
+	const float curvature = CURVATURE_TEXELS * max(extent.x, extent.y) *
+			(p_view.is_orthographic != 0u ? 1.0 : p_point.w);
+	return p_point.w + change + snap + curvature;
+}
+
+/// 1 lit, 0 hidden. p_stored: the map's depth at the texel.
+float compare_texel(
+		LightViewConstants p_view, MapPoint p_point, ivec2 p_texel, float p_stored) {
+	return p_stored > hiding_w(p_view, p_point, p_texel) * p_view.depth_scale ? 0.0 : 1.0;
+}
+
+#endif

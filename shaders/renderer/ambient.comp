@@ -1,0 +1,28 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "renderer/renderer_shared.h"
+#include "shared/frame_shared.h"
+
+// Starts a frame's radiance: ambient and emitted light, and the background.
+layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
+layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_texture;
+layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_color_texture;
+layout(set = 0, binding = RENDERER_BINDING_EMISSIVE) uniform texture2D emissive_texture;
+layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform writeonly image2D radiance_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	vec3 radiance = frame.ambient.rgb * 0.6; // background
+	if (texelFetch(depth_texture, pixel, 0).r > 0.0) {
+		radiance = frame.ambient.rgb * texelFetch(base_color_texture, pixel, 0).rgb +
+				texelFetch(emissive_texture, pixel, 0).rgb;
+	}
+	imageStore(radiance_image, pixel, vec4(radiance * frame.ambient.a, 1.0));
+}

@@ -1,0 +1,28 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "renderer/renderer_shared.h"
+#include "shared/frame_shared.h"
+
+// Shows one texture, stretched over the frame: nearest texel, range mapped to black .. white.
+layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
+layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2DArray shown_texture;
+layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba8) uniform writeonly image2D output_image;
+layout(push_constant) uniform Push {
+	DebugViewPush push;
+};
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	const vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size_px);
+	const ivec2 size = textureSize(shown_texture, 0).xy;
+	const vec4 value = texelFetch(shown_texture, ivec3(ivec2(uv * vec2(size)), push.layer), 0);
+	const vec4 shown = (value - push.shown_range.x) / (push.shown_range.y - push.shown_range.x);
+	imageStore(output_image, pixel, vec4(clamp(shown.rrr, 0.0, 1.0), 1.0));
+}

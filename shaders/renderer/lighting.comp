@@ -1,0 +1,46 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "common/depth_inc.glsl"
+#include "common/light_inc.glsl"
+#include "common/normal_inc.glsl"
+#include "renderer/brdf_inc.glsl"
+#include "renderer/renderer_shared.h"
+
+// Adds one light, times its visibility mask, to the frame's radiance.
+layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
+layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(set = 0, binding = RENDERER_BINDING_LIGHT) uniform Light {
+	LightConstants light;
+};
+layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_texture;
+layout(set = 0, binding = RENDERER_BINDING_SHADING_NORMAL) uniform utexture2D normal_texture;
+layout(set = 0, binding = RENDERER_BINDING_MATERIAL) uniform texture2D material_texture;
+layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_color_texture;
+layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
+layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
+layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform image2D radiance_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	if (texelFetch(receivers_texture, pixel, 0).r == 0.0) {
+		return;
+	}
+	const float visibility = texelFetch(mask_texture, pixel, 0).r;
+	const vec3 position =
+			position_from_depth(frame, pixel, texelFetch(depth_texture, pixel, 0).r);
+	const vec3 to_light = vector_to_light(light, position);
+	const vec4 material = texelFetch(material_texture, pixel, 0);
+	const vec3 reflected = reflect_light(texelFetch(base_color_texture, pixel, 0).rgb, material.a,
+			material.b, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
+			normalize(-position), normalize(to_light));
+	// Exposure before half floats, so that lights of 1e6 cd do not overflow.
+	const vec3 added = reflected * illuminance(light, to_light) * visibility * frame.ambient.a;
+	imageStore(radiance_image, pixel,
+			vec4(imageLoad(radiance_image, pixel).rgb + min(added, vec3(6e4)), 1.0));
+}

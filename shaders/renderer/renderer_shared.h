@@ -1,0 +1,29 @@
+#ifndef RENDERER_SHARED_H
+#define RENDERER_SHARED_H
+#include "shared/shared_begin.h"
+
+// Bindings of the renderer's compute passes (receivers, lighting, tone map, debug view).
+#define RENDERER_BINDING_FRAME 0
+#define RENDERER_BINDING_LIGHT 1
+#define RENDERER_BINDING_DEPTH 2
+#define RENDERER_BINDING_GEOMETRIC_NORMAL 3
+#define RENDERER_BINDING_SHADING_NORMAL 4
+#define RENDERER_BINDING_MATERIAL 5
+#define RENDERER_BINDING_BASE_COLOR 6
+#define RENDERER_BINDING_EMISSIVE 7
+#define RENDERER_BINDING_RECEIVERS 8
+#define RENDERER_BINDING_MASK 9
+#define RENDERER_BINDING_RADIANCE 10
+#define RENDERER_BINDING_OUTPUT 11
+#define RENDERER_GROUP_SIZE 8
+
+/// Push constants of debug_view.comp.
+struct SHARED_ALIGN DebugViewPush {
+	vec2 shown_range; // value shown black, value shown white
+	uint layer;
+	uint padding;
+};
+SHARED_SIZE(DebugViewPush, 16);
+
+#include "shared/shared_end.h"
+#endif

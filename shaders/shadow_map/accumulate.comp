@@ -1,0 +1,28 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_map/bindings_inc.glsl"
+
+// Counts how many light points see each receiver, one point a pass; the last divides. Counts up to
+// 2^24 are exact in a float, so that the result does not depend on the order.
+layout(set = 0, binding = SHADOW_MAP_BINDING_MASK, r32f) uniform image2D mask_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	float seen = 0.0;
+	if (texelFetch(receivers_texture, pixel, 0).r > 0.0) {
+		uint view;
+		const MapPoint point = load_map_point(pixel, view);
+		seen = is_surely_lit(point, view)
+				? 1.0
+				: lookup_hard(map_texture, light_views.views[view], point);
+	}
+	float count = seen + (push.point_index == 0u ? 0.0 : imageLoad(mask_image, pixel).r);
+	if (push.point_index + 1u == push.point_count) {
+		count /= float(push.point_count);
+	}
+	imageStore(mask_image, pixel, vec4(count));
+}

@@ -1,0 +1,28 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_map/bindings_inc.glsl"
+
+layout(set = 0, binding = SHADOW_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 0; // 0 = hard
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	float visibility = 0.0;
+	if (texelFetch(receivers_texture, pixel, 0).r > 0.0) {
+		uint view;
+		const MapPoint point = load_map_point(pixel, view);
+		if (is_surely_lit(point, view)) {
+			visibility = 1.0;
+		} else if (FILTER_WIDTH == 0) {
+			visibility = lookup_hard(map_texture, light_views.views[view], point);
+		} else {
+			visibility =
+					lookup_filtered(map_texture, light_views.views[view], point, FILTER_WIDTH);
+		}
+	}
+	imageStore(mask_image, pixel, vec4(visibility));
+}

@@ -1,0 +1,121 @@
+"""What the tests of the command line share: running the program, and scenes to break.
+
+The program is bin/gnomon, or $GNOMON. Technique ids come from the program itself.
+"""
+
+import copy
+import json
+import os
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+SCENES = os.path.join(ROOT, "demo_project", "scenes")
+CONTACT_BOX = os.path.join(SCENES, "contact_box.gltf")
+THREE_LIGHTS = os.path.join(SCENES, "three_lights.gltf")
+TIMEOUT_S = 180
+SMALL = ("--size", "32x32")
+LIGHTS = "KHR_lights_punctual"
+
+
+def run(*arguments, **environment):
+    """The finished process. A value of None takes the variable out of the environment."""
+    variables = {**os.environ, **environment}
+    variables = {name: value for name, value in variables.items() if value is not None}
+    command = [GNOMON, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, env=variables, check=False)
+
+
+def load_json(*arguments):
+    result = run(*arguments)
+    if result.returncode != 0:
+        raise AssertionError("%s ended with %d: %s" % (" ".join(map(str, arguments)), result.returncode, result.stderr))
+    return json.loads(result.stdout)
+
+
+def find_technique(flag):
+    return next(item["id"] for item in load_json("techniques", "--json") if item[flag])
+
+
+def read_png_size(path):
+    with open(path, "rb") as file:
+        data = file.read(24)
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
+    return struct.unpack(">II", data[16:24])
+
+
+class CommandLineTest(unittest.TestCase):
+    """A folder for each test, and the scene that its inputs are made from."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        with open(CONTACT_BOX, encoding="utf-8") as file:
+            self.scene = json.load(file)
+        shutil.copy(os.path.join(SCENES, "contact_box.bin"), self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, data):
+        with open(self.path(name), "wb") as file:
+            file.write(data if isinstance(data, bytes) else data.encode("utf-8"))
+        return self.path(name)
+
+    def write_scene(self, scene, *replacements):
+        """The scene as a file; replacements (old, new) are made in its text."""
+        text = json.dumps(scene, indent="\t")
+        for old, new in replacements:
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        return self.write("changed.gltf", text)
+
+    def build_glb(self):
+        scene = copy.deepcopy(self.scene)
+        del scene["buffers"][0]["uri"]
+        text = json.dumps(scene).encode("utf-8")
+        text += b" " * (-len(text) % 4)
+        with open(self.path("contact_box.bin"), "rb") as file:
+            binary = file.read()
+        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(binary), 0x004E4942) + binary
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+    def find_node(self, name):
+        return next(node for node in self.scene["nodes"] if node["name"] == name)
+
+    def get_light(self):
+        return self.scene["extensions"][LIGHTS]["lights"][0]
+
+    def compute_mask(self, scene, *arguments, **environment):
+        """visibility with small defaults; returns the process. The output is mask.exr."""
+        return run("visibility", scene, "--technique", self.get_fallback(), "--out", self.path("mask.exr"), *SMALL, *arguments, **environment)
+
+    fallback = None
+
+    def get_fallback(self):
+        if CommandLineTest.fallback is None:
+            CommandLineTest.fallback = find_technique("is_fallback")
+        return CommandLineTest.fallback
+
+    def assert_refused(self, result, *words, code=1):
+        """One ERROR line that has all the words; the exit code; and nothing was written."""
+        lines = result.stderr.splitlines()
+        errors = [line for line in lines if line.startswith("ERROR: ")]
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(len(errors), 1, result.stderr)
+        for word in words:
+            self.assertIn(str(word), errors[0])
+        left = [name for name in os.listdir(self.folder) if name not in self.inputs()]
+        self.assertEqual(left, [], "left behind")
+
+    def inputs(self):
+        return ("changed.gltf", "contact_box.bin", "broken.gltf", "broken.glb", "notes.txt")
+
+    def assert_mask(self, result, name="mask.exr"):
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path(name), "rb") as file:
+            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01", "an EXR begins so")

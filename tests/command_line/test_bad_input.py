@@ -1,0 +1,239 @@
+"""Every bad input is answered by one line that names the object, and leaves no half-written file."""
+
+import json
+import os
+import struct
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from command_line_case import CONTACT_BOX, ROOT, SMALL, CommandLineTest, run  # noqa: E402
+
+
+class BadScenes(CommandLineTest):
+    def test_a_missing_scene_is_named(self):
+        self.assert_refused(self.compute_mask(self.path("gone.gltf")), "gone.gltf")
+
+    def test_a_folder_in_place_of_a_scene_is_named(self):
+        self.assert_refused(self.compute_mask(os.path.join(ROOT, "doc")), "doc")
+
+    def test_a_file_that_is_no_scene_is_named(self):
+        self.assert_refused(self.compute_mask(self.write("notes.txt", "hello")), "notes.txt")
+
+    def test_a_truncated_gltf_is_named(self):
+        text = json.dumps(self.scene)
+        for length in (0, 1, len(text) // 2, len(text) - 1):
+            with self.subTest(length=length):
+                self.assert_refused(self.compute_mask(self.write("broken.gltf", text[:length])), "broken.gltf")
+
+    def test_a_truncated_glb_is_named(self):
+        data = self.build_glb()
+        for length in (0, 3, 11, 20, len(data) // 2, len(data) - 1):
+            with self.subTest(length=length):
+                self.assert_refused(self.compute_mask(self.write("broken.glb", data[:length])), "broken.glb")
+
+    def test_a_whole_glb_is_read(self):
+        self.assert_mask(self.compute_mask(self.write("broken.glb", self.build_glb())))
+
+    def test_a_missing_bin_is_named(self):
+        os.remove(self.path("contact_box.bin"))
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "contact_box.bin")
+
+    def test_a_short_bin_is_named(self):
+        with open(self.path("contact_box.bin"), "r+b") as file:
+            file.truncate(100)
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
+
+    def test_an_accessor_beyond_its_buffer_is_refused(self):
+        self.scene["accessors"][0]["count"] = 1000000
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
+
+    def test_an_index_beyond_the_vertices_is_refused(self):
+        view = self.scene["bufferViews"][2]
+        with open(self.path("contact_box.bin"), "r+b") as file:
+            file.seek(view["byteOffset"])
+            file.write(struct.pack("<I", 4000000000))
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
+
+    def test_a_node_that_is_its_own_child_is_refused(self):
+        self.scene["nodes"][0]["children"] = [0]
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
+
+    def test_a_path_out_of_the_project_is_refused(self):
+        self.scene["buffers"][0]["uri"] = "../../../../../../etc/hostname"
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "hostname")
+
+    def test_an_infinite_transform_is_refused(self):
+        self.find_node("Box")["translation"][0] = 123.5
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene, ("123.5", "1e999"))), "changed.gltf")
+
+    def test_a_transform_of_words_is_refused(self):
+        self.find_node("Box")["translation"] = ["a", "b", "c"]
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
+
+    def test_a_scene_without_camera_says_so(self):
+        del self.find_node("Camera")["camera"]
+        del self.scene["cameras"]
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "camera")
+
+    def test_a_scene_without_light_says_so(self):
+        del self.find_node("Light")["extensions"]
+        del self.scene["extensions"]
+        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "light")
+
+    def test_a_scene_without_meshes_is_all_background(self):
+        for node in self.scene["nodes"]:
+            node.pop("mesh", None)
+        for member in ("meshes", "materials", "accessors", "bufferViews", "buffers"):
+            del self.scene[member]
+        self.assert_mask(self.compute_mask(self.write_scene(self.scene)))
+
+    def test_a_spot_light_without_a_spot_object_has_the_default_cone(self):
+        del self.get_light()["spot"]
+        self.assert_mask(self.compute_mask(self.write_scene(self.scene)))
+
+
+class AbsurdLightValues(CommandLineTest):
+    """Refused with an error line, the default is used and the load goes on."""
+
+    def assert_default_used(self, scene, *words):
+        result = self.compute_mask(scene)
+        self.assert_mask(result)
+        errors = [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
+        self.assertEqual(len(errors), 1, result.stderr)
+        for word in ("changed.gltf", *words):
+            self.assertIn(word, errors[0])
+
+    def test_a_light_size_out_of_range(self):
+        for value in (-3, 1e30, 10001):
+            with self.subTest(value=value):
+                self.get_light()["extras"]["light_size"] = value
+                self.assert_default_used(self.write_scene(self.scene), "light_size", "10000")
+
+    def test_a_light_size_that_is_infinite(self):
+        self.get_light()["extras"]["light_size"] = 123.5
+        self.assert_default_used(self.write_scene(self.scene, ("123.5", "1e999")), "light_size")
+
+    def test_a_light_size_of_words(self):
+        self.get_light()["extras"]["light_size"] = "large"
+        self.assert_default_used(self.write_scene(self.scene), "light_size")
+
+    def test_a_penumbra_width_of_minus_two(self):
+        self.get_light()["extras"]["penumbra_outer_width"] = -2
+        self.assert_default_used(self.write_scene(self.scene), "penumbra_outer_width")
+
+    def test_a_penumbra_width_of_minus_one_is_allowed(self):
+        self.get_light()["extras"]["penumbra_outer_width"] = -1
+        result = self.compute_mask(self.write_scene(self.scene))
+        self.assert_mask(result)
+        self.assertNotIn("ERROR", result.stderr)
+
+    def test_a_technique_that_this_build_lacks_falls_back_with_a_warning(self):
+        self.get_light()["extras"]["shadow_technique"] = "gone"
+        result = run("run", self.write_scene(self.scene), "--headless", *SMALL, "--capture", self.path("a.png"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("gone", result.stderr)
+        self.assertIn("WARNING", result.stderr)
+
+
+class BadArguments(CommandLineTest):
+    def test_an_unknown_technique_is_named_with_the_known_ones(self):
+        result = run("visibility", CONTACT_BOX, "--technique", "gone", "--out", self.path("mask.exr"), *SMALL)
+        self.assert_refused(result, "gone", self.get_fallback())
+
+    def test_an_unknown_light_is_named_with_the_known_ones(self):
+        self.assert_refused(self.compute_mask(CONTACT_BOX, "--light", "Moon"), "Moon", "Light")
+
+    def test_an_unknown_camera_is_named_with_the_known_ones(self):
+        self.assert_refused(self.compute_mask(CONTACT_BOX, "--camera", "Side"), "Side", "Camera")
+
+    def test_an_unknown_device_is_named(self):
+        self.assert_refused(self.compute_mask(CONTACT_BOX, "--device", "no such device"), "no such device")
+        self.assert_refused(self.compute_mask(CONTACT_BOX, "--device", "99"), "99")
+
+    def test_an_output_folder_that_is_missing_is_named(self):
+        target = self.path("gone/mask.exr")
+        self.assert_refused(
+            run("visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", target, *SMALL), "gone"
+        )
+        result = run("run", CONTACT_BOX, "--headless", *SMALL, "--capture", self.path("gone/a.png"))
+        self.assert_refused(result, "gone")
+
+    def test_a_size_that_is_none(self):
+        for size in ("0x64", "64", "64x", "axb", "-4x4", "64x64x64", "1000000x1000000", "1e3x4", ""):
+            with self.subTest(size=size):
+                result = run(
+                    "visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", self.path("mask.exr"),
+                    "--size", size,
+                )  # fmt: skip
+                self.assertIn(result.returncode, (1, 2))
+                self.assert_refused(result, "--size", size, code=result.returncode)
+
+    def test_a_setting_that_is_unknown_or_out_of_range(self):
+        for setting, word in (
+            ("gone=1", "gone"),
+            ("light_size", "light_size"),
+            ("light_size=", "light_size"),
+            ("light_size=-3", "10000"),
+            ("light_size=nan", "light_size"),
+            ("light_size=1e30", "10000"),
+            ("light_size=large", "large"),
+            ("shadow_enabled=perhaps", "perhaps"),
+        ):
+            with self.subTest(setting=setting):
+                result = self.compute_mask(CONTACT_BOX, "--set", setting)
+                self.assertIn(result.returncode, (1, 2))
+                self.assert_refused(result, word, code=result.returncode)
+
+    def test_a_setting_of_a_light_that_is_not_there(self):
+        result = run(
+            "run", CONTACT_BOX, "--headless", *SMALL, "--capture", self.path("a.png"), "--set", "light.Moon.light_size=1"
+        )
+        self.assertIn(result.returncode, (1, 2))
+        self.assert_refused(result, "Moon", code=result.returncode)
+
+    def test_wrong_usage_ends_with_2(self):
+        for arguments in (
+            ("gone",),
+            ("--gone",),
+            ("visibility",),
+            ("visibility", CONTACT_BOX),
+            ("visibility", CONTACT_BOX, "--gone"),
+            ("run", CONTACT_BOX, "--headless", "--frames", "many"),
+            ("run", CONTACT_BOX, "--headless", "--frames", "-1"),
+            ("compare",),
+            ("techniques", "--gone"),
+        ):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(run(*arguments), code=2)
+
+    def test_comparing_what_is_no_mask(self):
+        self.assert_refused(run("compare", self.path("gone.exr"), self.path("gone.exr")), "gone.exr")
+        notes = self.write("notes.txt", "hello")
+        self.assert_refused(run("compare", notes, notes), "notes.txt")
+
+    def test_help_and_version_end_with_0(self):
+        for arguments in (("--help",), ("--version",), ("visibility", "--help")):
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout.strip())
+
+
+class MissingDevices(CommandLineTest):
+    def test_without_a_vulkan_device_the_next_step_is_named(self):
+        nowhere = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"}
+        self.get_fallback()  # asked while there is a device
+        self.assert_refused(self.compute_mask(CONTACT_BOX, **nowhere), "Vulkan")
+
+    def test_without_a_display_a_window_names_headless(self):
+        nowhere = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
+        self.assert_refused(run("run", CONTACT_BOX, **nowhere), "--headless")
+
+    def test_without_a_display_the_editor_says_so(self):
+        result = run("edit", os.path.join(ROOT, "demo_project"), DISPLAY=None, WAYLAND_DISPLAY=None)
+        self.assert_refused(result, "display")
+
+
+if __name__ == "__main__":
+    unittest.main()

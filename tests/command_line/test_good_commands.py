@@ -1,0 +1,165 @@
+"""What good commands write."""
+
+import json
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from command_line_case import (
+    CONTACT_BOX,
+    ROOT,
+    SMALL,
+    THREE_LIGHTS,
+    CommandLineTest,
+    find_technique,
+    load_json,
+    read_png_size,
+    run,
+)  # noqa: E402
+
+
+class GoodCommands(CommandLineTest):
+    def test_masks_are_compared(self):
+        reference = find_technique("is_reference")
+        truth, mask, times = self.path("truth.exr"), self.path("mask.exr"), self.path("time.json")
+        size = ("--size", "128x128")
+        samples = ("--set", "%s_samples=64" % reference)
+        result = run("visibility", CONTACT_BOX, "--technique", reference, "--out", truth, *size, *samples)
+        self.assert_mask(result, "truth.exr")
+        result = run(
+            "visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", mask, *size, "--time", times
+        )
+        self.assert_mask(result)
+        found = load_json("compare", truth, mask)
+        self.assertEqual(set(found), {"pixels", "receiver", "penumbra"})
+        self.assertEqual(set(found["receiver"]), {"mae", "rmse", "p99", "bias"})
+        self.assertEqual(set(found["penumbra"]), {"pixels", "mae", "rmse", "p99", "bias", "umbra_over"})
+        self.assertGreater(found["penumbra"]["pixels"], 100)
+        self.assertLess(found["penumbra"]["pixels"], found["pixels"])
+        self.assertTrue(0.0 < found["receiver"]["mae"] < found["penumbra"]["mae"] < 0.5)
+        self.assertLessEqual(abs(found["penumbra"]["bias"]), found["penumbra"]["mae"])
+        same = load_json("compare", truth, truth)
+        self.assertEqual(same["penumbra"]["mae"], 0)
+        with open(times, encoding="utf-8") as file:
+            cost = json.load(file)
+        self.assertLessEqual(
+            {"device", "driver", "threads", "frames", "triangles", "edges", "passes", "total", "bytes"}, set(cost)
+        )
+        self.assertEqual(set(cost["total"]), {"gpu_ms", "gpu_ms_p90", "wall_ms", "wall_ms_p90"})
+        self.assertEqual(cost["frames"], 20)
+        self.assertEqual(cost["triangles"], 24)
+        self.assertTrue(cost["passes"])
+        for item in cost["passes"]:
+            self.assertLessEqual({"name", "gpu_ms", "wall_ms"}, set(item))
+        for value in cost["total"].values():
+            self.assertTrue(math.isfinite(value) and value > 0.0)
+
+    def test_masks_of_other_sizes_are_not_compared(self):
+        self.assert_mask(self.compute_mask(CONTACT_BOX))
+        other = self.path("other.exr")
+        run("visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", other, "--size", "48x32")
+        result = run("compare", self.path("mask.exr"), other)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("48", result.stderr)
+
+    def test_a_heat_map_and_a_mask_as_png(self):
+        png, heat = self.path("mask.png"), self.path("heat.png")
+        self.assert_mask(self.compute_mask(CONTACT_BOX, "--png", png))
+        self.assertEqual(read_png_size(png), (32, 32))
+        load_json("compare", self.path("mask.exr"), self.path("mask.exr"), "--heatmap", heat)
+        self.assertEqual(read_png_size(heat), (32, 32))
+
+    def test_the_same_command_writes_the_same_bytes(self):
+        written = []
+        for _ in range(2):
+            self.assert_mask(self.compute_mask(CONTACT_BOX))
+            with open(self.path("mask.exr"), "rb") as file:
+                written.append(file.read())
+        self.assertEqual(written[0], written[1])
+
+    def test_an_output_is_replaced_whole(self):
+        self.write("mask.exr", "old")
+        self.assert_mask(self.compute_mask(CONTACT_BOX))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["contact_box.bin", "mask.exr"])
+
+    def test_a_moving_light_writes_one_mask_a_frame(self):
+        result = self.compute_mask(CONTACT_BOX, "--frames", 3, "--motion", "0.1,0,0")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        masks = sorted(name for name in os.listdir(self.folder) if name.endswith(".exr"))
+        self.assertEqual(masks, ["mask.0000.exr", "mask.0001.exr", "mask.0002.exr"])
+        found = load_json("compare", self.path(masks[0]), self.path(masks[0]))
+        self.assertEqual(found["penumbra"]["mae"], 0)
+
+    def test_every_light_of_a_scene_is_found_by_its_name(self):
+        for light in ("Spot", "Omni", "Sun"):
+            with self.subTest(light=light):
+                self.assert_mask(self.compute_mask(THREE_LIGHTS, "--light", light))
+
+    def test_a_headless_run_captures_a_picture(self):
+        path = self.path("a.png")
+        result = run("run", CONTACT_BOX, "--headless", "--size", "48x32", "--frames", 2, "--capture", path, DISPLAY=None)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(read_png_size(path), (48, 32))
+
+    def test_a_project_runs_its_start_scene(self):
+        path = self.path("a.png")
+        result = run("run", os.path.join(ROOT, "demo_project"), "--headless", *SMALL, "--capture", path)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(read_png_size(path), (32, 32))
+
+    def test_switching_a_shadow_off_changes_the_picture(self):
+        pictures = []
+        for number, settings in enumerate(((), ("--set", "light.Light.shadow_enabled=false"))):
+            path = self.path("%d.png" % number)
+            result = run("run", CONTACT_BOX, "--headless", "--size", "64x64", "--capture", path, *settings)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(path, "rb") as file:
+                pictures.append(file.read())
+        self.assertNotEqual(pictures[0], pictures[1])
+
+
+class Listings(CommandLineTest):
+    def test_techniques(self):
+        techniques = load_json("techniques", "--json")
+        keys = {"id", "name", "source", "module", "is_default", "is_fallback", "is_reference", "properties"}
+        for item in techniques:
+            self.assertLessEqual(keys, set(item))
+            for value in item["properties"]:
+                self.assertLessEqual({"name", "type", "default", "range", "unit", "tooltip"}, set(value))
+                self.assertTrue(value["tooltip"], value["name"])
+        for flag in ("is_default", "is_fallback", "is_reference"):
+            self.assertEqual(sum(1 for item in techniques if item[flag]), 1, flag)
+        self.assertEqual(len({item["id"] for item in techniques}), len(techniques))
+
+    def test_modules(self):
+        modules = load_json("modules", "--json")
+        keys = {"name", "description", "source", "version", "doc", "layer", "can_disable", "is_enabled", "dependencies"}
+        names = {item["name"] for item in modules}
+        for item in modules:
+            self.assertLessEqual(keys, set(item))
+            self.assertTrue(item["description"])
+            self.assertLessEqual(set(item["dependencies"]), names)
+            if item["doc"]:
+                self.assertTrue(os.path.isfile(os.path.join(ROOT, item["doc"])), item["doc"])
+
+    def test_info(self):
+        info = load_json("info", "--json")
+        self.assertLessEqual({"version", "devices", "chosen", "cpu", "threads"}, set(info))
+        for item in info["devices"]:
+            self.assertLessEqual(
+                {"index", "name", "driver", "type", "api_version", "memory_bytes", "is_usable", "refusal"}, set(item)
+            )
+        self.assertIn(info["chosen"], [item["index"] for item in info["devices"] if item["is_usable"]])
+
+    def test_listings_for_people(self):
+        for command in ("techniques", "modules", "info"):
+            with self.subTest(command=command):
+                result = run(command)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertTrue(result.stdout.strip())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+"""Rules of doc/coding_style.md on folders, includes and names. Reads files only; no compiler.
+
+    test_layers.py [--root DIR]    checks the tree; one line for each breach
+    test_layers.py --self-test     breaks every rule in a copy and checks that it is noticed
+
+The last line is "N passed, N failed, N skipped"; a rule counts as one.
+"""
+
+import argparse
+import fnmatch
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+TOP_LEVEL = {"SConstruct", "modules", "shaders", "demo_project", "tests", "doc", "README.md", "LICENSE"}
+MODULE_FILES = ("register_types.h", "SCsub", "config.py")
+CPP = (".h", ".cpp")
+SHADERS = (".vert", ".frag", ".geom", ".comp", ".glsl")
+SOURCES = CPP + SHADERS + (".py", ".sh")
+PROJECT_FOLDERS = ("modules/", "shaders/", "tests/", "demo_project/", "doc/")
+# Where a technique may be named, beside its own module and shader folder.
+TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "demo_project/", "doc/")
+WITHOUT_DEVICE = ("scene", "mesh_tools")
+NOTED_LINES, REFUSED_LINES = 400, 800
+VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+REGISTRATION = re.compile(r"ShadowRegistry::add\s*\(\s*\{?\s*(?:ShadowTechniqueInfo\s*)?\{?\s*\"([a-z0-9_]+)\"")
+CLASS_MADE = re.compile(r"make_unique<\s*(?:gnomon::)?([A-Z]\w+)\s*>")
+
+
+class Tree:
+    """The project's files (relative paths) and modules, read once."""
+
+    def __init__(self, root):
+        self.root = root
+        self.files = sorted(self._list_files())
+        self.texts = {}
+        self.configs = {}
+        for path in self.files:
+            parts = path.split("/")
+            if len(parts) == 3 and parts[0] == "modules" and parts[2] == "config.py":
+                if all("modules/%s/%s" % (parts[1], name) in self.files for name in MODULE_FILES):
+                    self.configs[parts[1]] = self._load_config(parts[1])
+
+    def _list_files(self):
+        if os.path.exists(os.path.join(self.root, ".git")):
+            command = ["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+            names = subprocess.run(command, capture_output=True, check=True).stdout.decode().split("\0")
+            return {name for name in names if name and os.path.isfile(os.path.join(self.root, name))}
+        with open(os.path.join(self.root, ".gitignore"), encoding="utf-8") as file:
+            ignored = [line.strip().strip("/") for line in file if line.strip() and not line.startswith("#")]
+        found = set()
+        for folder, folders, names in os.walk(self.root):
+            relative = os.path.relpath(folder, self.root)
+            prefix = "" if relative == "." else relative.replace(os.sep, "/") + "/"
+
+            def is_kept(name):
+                return not any(fnmatch.fnmatch(prefix + name, p) or fnmatch.fnmatch(name, p) for p in ignored)
+
+            folders[:] = [name for name in folders if is_kept(name)]
+            found.update(prefix + name for name in names if is_kept(name))
+        return found
+
+    def _load_config(self, name):
+        path = os.path.join(self.root, "modules", name, "config.py")
+        spec = importlib.util.spec_from_file_location("config_" + name, path)
+        config = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(config)
+        return {"dependencies": list(config.get_dependencies()), "layer": config.get_layer()}
+
+    def get_text(self, path):
+        if path not in self.texts:
+            with open(os.path.join(self.root, path), encoding="utf-8", errors="replace") as file:
+                self.texts[path] = file.read()
+        return self.texts[path]
+
+    def get_includes(self, path):
+        """(line number, bracket, included path) of each include."""
+        text = self.get_text(path)
+        return [(text.count("\n", 0, m.start()) + 1, m.group(1), m.group(2)) for m in INCLUDE.finditer(text)]
+
+    def find_sources(self, suffixes, prefixes=PROJECT_FOLDERS):
+        return [
+            path
+            for path in self.files
+            if path.endswith(suffixes) and path.startswith(prefixes) and "/third_party/" not in path
+        ]
+
+    def get_module(self, path):
+        parts = path.split("/")
+        return parts[1] if parts[0] == "modules" and len(parts) > 2 else None
+
+    def find_techniques(self):
+        """module -> (ids, classes), from its register_types.cpp."""
+        found = {}
+        for name in self.configs:
+            path = "modules/%s/register_types.cpp" % name
+            if path not in self.files:
+                continue
+            ids = set(REGISTRATION.findall(self.get_text(path)))
+            if "ShadowRegistry::add" in self.get_text(path):
+                found[name] = (ids, set(CLASS_MADE.findall(self.get_text(path))))
+        return found
+
+
+def is_generated(name):
+    return ".gen." in name
+
+
+def check_root_relative_includes(tree):
+    """An include in quotes is written from the repository's root (shaders: from shaders/)."""
+    for path in tree.find_sources(CPP, ("modules/", "tests/")):
+        for line, bracket, name in tree.get_includes(path):
+            if bracket == "<" or is_generated(name):
+                continue
+            if name in tree.files or "shaders/" + name in tree.files:
+                continue
+            yield "%s:%d: include %s is not a path from the repository's root" % (path, line, name)
+
+
+def check_listed_dependencies(tree):
+    """A module includes itself and the modules its config.py lists."""
+    for path in tree.find_sources(CPP, ("modules/",)):
+        module = tree.get_module(path)
+        if module not in tree.configs:
+            continue
+        allowed = {module, *tree.configs[module]["dependencies"]}
+        for line, _, name in tree.get_includes(path):
+            included = tree.get_module(name)
+            if included is not None and included not in allowed:
+                yield "%s:%d: includes %s; modules/%s/config.py does not list %s" % (path, line, name, module, included)
+
+
+def check_layers(tree):
+    """A dependency has a lower layer, so that modules of layer 4 never know each other."""
+    for name, config in tree.configs.items():
+        for dependency in config["dependencies"]:
+            if dependency not in tree.configs:
+                yield "modules/%s/config.py: lists %s, which is no module" % (name, dependency)
+            elif tree.configs[dependency]["layer"] >= config["layer"]:
+                yield "modules/%s/config.py: layer %d lists %s of layer %d" % (
+                    name, config["layer"], dependency, tree.configs[dependency]["layer"])  # fmt: skip
+
+
+def check_vulkan(tree):
+    """Vulkan's headers are included by rendering_device alone."""
+    pattern = re.compile(r"(^|/)vulkan[^/]*\.hp*$|^vulkan/")
+    for path in tree.find_sources(CPP):
+        for line, _, name in tree.get_includes(path):
+            if pattern.search(name) and not path.startswith("modules/rendering_device/"):
+                yield "%s:%d: includes %s; only rendering_device may" % (path, line, name)
+
+
+def check_window_library(tree):
+    """GLFW is included by main and editor alone."""
+    for path in tree.find_sources(CPP):
+        for line, _, name in tree.get_includes(path):
+            if re.search(r"GLFW|glfw", name) and not path.startswith(("modules/main/", "modules/editor/")):
+                yield "%s:%d: includes %s; only main and editor may" % (path, line, name)
+
+
+def check_modules_without_device(tree):
+    """scene and mesh_tools are tested without a GPU."""
+    for name in WITHOUT_DEVICE:
+        reached, waiting = set(), [name]
+        while waiting:
+            current = waiting.pop()
+            if current in reached or current not in tree.configs:
+                continue
+            reached.add(current)
+            waiting += tree.configs[current]["dependencies"]
+        if "rendering_device" in reached:
+            yield "modules/%s/config.py: depends on rendering_device" % name
+
+
+def check_registration_is_readable(tree):
+    """register_types.cpp names its ids as literals, so that the next rule knows them."""
+    for module, (ids, classes) in tree.find_techniques().items():
+        if not ids or not classes:
+            yield 'modules/%s/register_types.cpp: write ShadowRegistry::add({ "id", ... make_unique<Class>' % module
+
+
+def check_technique_names(tree):
+    """A technique's id and class occur only where they go when it is deleted."""
+    techniques = tree.find_techniques()
+    shown = SOURCES + ("SCsub", "SConstruct", ".json", ".cfg", ".html")
+    for path in tree.files:
+        is_project = path.startswith(PROJECT_FOLDERS) or path == "SConstruct"
+        if not is_project or not path.endswith(shown) or path.startswith(TECHNIQUE_FOLDERS):
+            continue
+        for module, (ids, classes) in techniques.items():
+            if path.startswith(("modules/%s/" % module, "shaders/%s/" % module)):
+                continue
+            for number, line in enumerate(tree.get_text(path).splitlines(), 1):
+                code = line.split("//")[0] if path.endswith(CPP) else ""
+                for name in sorted(ids):
+                    # A plain word is a technique's id only when it stands alone in quotes; an id
+                    # with an underscore also begins the names of its properties.
+                    ending = r"(_\w+)?" if "_" in name else ""
+                    if re.search(r"[\"']%s%s[\"']" % (name, ending), line):
+                        yield '%s:%d: names technique "%s" of module %s' % (path, number, name, module)
+                for name in sorted(classes):
+                    # A class of one plain word may be that word in comments and shaders.
+                    is_word = len(re.findall("[A-Z]", name)) == 1
+                    if re.search(r"\b%s\b" % name, code if is_word else line):
+                        yield "%s:%d: names class %s of module %s" % (path, number, name, module)
+
+
+def check_shader_includes(tree):
+    """A shader includes its own folder, common/ and shared/."""
+    for path in tree.find_sources(SHADERS + (".h",), ("shaders/",)):
+        own = path.split("/")[1]
+        for line, bracket, name in tree.get_includes(path):
+            if bracket == "<" and not any(file.startswith("shaders/%s/" % name.split("/")[0]) for file in tree.files):
+                continue  # the standard library and GLM, in headers that C++ reads too
+            if name.split("/")[0] not in (own, "common", "shared"):
+                yield "%s:%d: includes %s; allowed are %s/, common/ and shared/" % (path, line, name, own)
+            elif "shaders/" + name not in tree.files:
+                yield "%s:%d: includes %s, which is not below shaders/" % (path, line, name)
+            elif own == "common" and name.split("/")[0] not in ("common", "shared"):
+                yield "%s:%d: common/ includes %s" % (path, line, name)
+
+
+def check_file_names(tree):
+    """No file is named utils, helpers, misc or manager: the name says nothing."""
+    for path in tree.find_sources(SOURCES):
+        stem = os.path.basename(path).split(".")[0]
+        if VAGUE_NAMES.search(stem):
+            yield "%s: name the file after what it holds" % path
+
+
+def check_file_lengths(tree):
+    """No file is longer than 800 lines; above 400 it is noted."""
+    for path in tree.find_sources(SOURCES):
+        count = tree.get_text(path).count("\n")
+        if count > REFUSED_LINES:
+            yield "%s: %d lines, split it (at most %d)" % (path, count, REFUSED_LINES)
+        elif count > NOTED_LINES:
+            print("note: %s has %d lines; above %d, say why in the review" % (path, count, NOTED_LINES))
+
+
+def check_top_level(tree):
+    """The top level holds what doc/architecture.md draws, and nothing else."""
+    files = tree.files
+    if os.path.exists(os.path.join(tree.root, ".git")):
+        # What is not committed yet (a custom.py, notes) is the developer's own.
+        command = ["git", "-C", tree.root, "ls-files", "-z"]
+        files = subprocess.run(command, capture_output=True, check=True).stdout.decode().split("\0")
+    for name in sorted({path.split("/")[0] for path in files if path}):
+        if name not in TOP_LEVEL and not name.startswith("."):
+            yield "%s: is no top-level entry of the layout" % name
+
+
+RULES = (
+    check_root_relative_includes,
+    check_listed_dependencies,
+    check_layers,
+    check_vulkan,
+    check_window_library,
+    check_modules_without_device,
+    check_registration_is_readable,
+    check_technique_names,
+    check_shader_includes,
+    check_file_names,
+    check_file_lengths,
+    check_top_level,
+)
+
+
+def find_breaches(root):
+    """rule name -> its breaches"""
+    tree = Tree(root)
+    if not tree.configs:
+        raise SystemExit("ERROR: %s: no modules found below modules/" % root)
+    return {rule.__name__: list(rule(tree)) for rule in RULES}
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Checks the rules on folders, includes and names.")
+    parser.add_argument("--root", default=ROOT, help="tree to check")
+    parser.add_argument("--self-test", action="store_true", help="check that every rule notices a breach")
+    arguments = parser.parse_args()
+    sys.dont_write_bytecode = True
+    if arguments.self_test:
+        import breaches
+
+        passed, failed = breaches.run_self_test(RULES, find_breaches)
+    else:
+        results = find_breaches(arguments.root)
+        for name, lines in results.items():
+            for line in lines:
+                print("FAILED: %s: %s" % (name, line))
+        failed = sum(1 for lines in results.values() if lines)
+        passed = len(results) - failed
+    print("%d passed, %d failed, 0 skipped" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Deletes a technique's module, shaders and goldens in a copy of the tree: builds and tests stay green.
+
+    test_removal.py [--all] [--module NAME] [--jobs N]
+
+Without options the smallest technique goes, which is the template; --all removes every module that registers a technique, in turn.
+The copy takes the build folder along, so that only the link is new.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+TIMEOUT_S = 3600
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "layers"))
+import test_layers  # noqa: E402
+
+
+def find_smallest(techniques):
+    """The module with the fewest bytes of source."""
+
+    def measure(module):
+        folder = os.path.join(ROOT, "modules", module)
+        return sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder) if name.endswith(".cpp"))
+
+    return min(sorted(techniques), key=measure, default="")
+
+
+def copy_tree(target):
+    """The tracked files as they are now, and the build folder with its times."""
+    names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, check=True).stdout.decode()
+    for name in names.split("\0"):
+        source = os.path.join(ROOT, name)
+        if name and os.path.isfile(source):
+            os.makedirs(os.path.dirname(os.path.join(target, name)), exist_ok=True)
+            shutil.copy2(source, os.path.join(target, name))
+    for name in os.listdir(ROOT):
+        if name.startswith(".sconsign"):
+            shutil.copy2(os.path.join(ROOT, name), target)
+    if os.path.isdir(os.path.join(ROOT, "build", "release")):
+        shutil.copytree(os.path.join(ROOT, "build", "release"), os.path.join(target, "build", "release"))
+
+
+def remove_technique(target, module, ids):
+    shutil.rmtree(os.path.join(target, "modules", module))
+    for folder in ("shaders/" + module, "build/release/modules/" + module, "build/release/shaders/" + module):
+        shutil.rmtree(os.path.join(target, folder), ignore_errors=True)
+    golden = os.path.join(target, "tests", "golden")
+    for folder, _, names in os.walk(golden):
+        for name in names:
+            if name.split(".")[0] in ids and name.endswith(".png"):
+                os.remove(os.path.join(folder, name))
+
+
+def run(target, what, command):
+    """True when the command ends with 0; its output's end is shown otherwise."""
+    result = subprocess.run(
+        command, cwd=target, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=TIMEOUT_S
+    )
+    if result.returncode != 0:
+        print("FAILED: %s: %s ended with %d" % (what, " ".join(command), result.returncode))
+        print("\n".join("    " + line for line in result.stdout.splitlines()[-30:]), flush=True)
+    return result.returncode == 0
+
+
+def test_module(module, ids, jobs):
+    """(passed, failed) of one module."""
+    what = "without " + module
+    with tempfile.TemporaryDirectory() as target:
+        copy_tree(target)
+        remove_technique(target, module, ids)
+        print("removal: %s: build" % what, flush=True)
+        if not run(target, what, ["scons", "-Q", "-j%d" % jobs, "compiledb=no"]):
+            return 0, 1
+        results = [
+            run(target, what, [sys.executable, "tests/layers/test_layers.py"]),
+            run(target, what, ["bin/gnomon_tests"]),
+        ]
+        listed = subprocess.run(["bin/gnomon", "techniques"], cwd=target, capture_output=True, text=True, check=False)
+        still_there = [name for name in ids if re.search(r"(?m)^\W*%s\b" % name, listed.stdout)]
+        if listed.returncode != 0 or still_there:
+            print("FAILED: %s: `gnomon techniques` ended with %d and lists %s" % (what, listed.returncode, still_there))
+        results.append(listed.returncode == 0 and not still_there)
+    return 1 + results.count(True), results.count(False)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Removes techniques and checks that nothing misses them.")
+    parser.add_argument("--all", action="store_true", help="every technique module, in turn")
+    parser.add_argument("--module", help="this module only")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    arguments = parser.parse_args()
+    techniques = {name: ids for name, (ids, _) in test_layers.Tree(ROOT).find_techniques().items()}
+    wanted = sorted(techniques) if arguments.all else [arguments.module or find_smallest(techniques)]
+    passed = failed = 0
+    for module in wanted:
+        if module not in techniques:
+            failed += 1
+            print("FAILED: %s registers no technique. Those that do: %s" % (module, ", ".join(sorted(techniques))))
+            continue
+        module_passed, module_failed = test_module(module, techniques[module], arguments.jobs)
+        passed += module_passed
+        failed += module_failed
+    print("%d passed, %d failed, 0 skipped" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,202 @@
+#!/usr/bin/env bash
+# All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
+set -uo pipefail
+
+PARTS="layers scenes build engine command_line demo removal sanitized sanitized_all threads tables"
+
+usage() {
+    cat <<'TEXT'
+Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
+  --full       beside the quick tests: sanitizers over everything, removal of every technique in
+               turn, tables with 9216 light samples
+  --jobs N     build jobs (default: one a core)
+  --only PART  this part only; may be repeated. Parts: layers scenes build engine command_line demo
+               removal sanitized; with --full also sanitized_all threads tables
+Exit code: 0 all passed, 1 something failed, 2 wrong usage.
+TEXT
+}
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root" || exit 1
+jobs=$(nproc 2>/dev/null || echo 1)
+is_full=no
+only=()
+while [ $# -gt 0 ]; do
+    case $1 in
+        --full) is_full=yes ;;
+        --jobs | --only)
+            if [ $# -lt 2 ]; then
+                echo "ERROR: $1 needs a value. See tests/run_tests.sh --help." >&2
+                exit 2
+            fi
+            if [ "$1" = --jobs ]; then
+                jobs=$2
+            elif [[ " $PARTS " == *" $2 "* ]]; then
+                only+=("$2")
+            else
+                echo "ERROR: unknown part $2, must be one of: $PARTS." >&2
+                exit 2
+            fi
+            shift
+            ;;
+        -h | --help)
+            usage
+            exit 0
+            ;;
+        *)
+            echo "ERROR: unknown option $1. See tests/run_tests.sh --help." >&2
+            exit 2
+            ;;
+    esac
+    shift
+done
+
+# shellcheck source=demo_project/install_packages.sh
+. demo_project/install_packages.sh
+install_packages "${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}" || exit 1
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+# Never the user's own cache; shared by all parts, so that a truth is traced once.
+export GNOMON_CACHE_DIR=$work/cache
+export PYTHONDONTWRITEBYTECODE=1
+mkdir -p "$GNOMON_CACHE_DIR"
+
+passed=0
+failed=0
+skipped=0
+part_lines=()
+
+is_wanted() {
+    local name
+    [ ${#only[@]} -eq 0 ] && return 0
+    for name in "${only[@]}"; do
+        [ "$name" = "$1" ] && return 0
+    done
+    return 1
+}
+
+# add_result PART PASSED FAILED SKIPPED
+add_result() {
+    passed=$((passed + $2))
+    failed=$((failed + $3))
+    skipped=$((skipped + $4))
+    part_lines+=("$(printf '%-16s %5d passed %4d failed %4d skipped  %4d s' "$1" "$2" "$3" "$4" $((SECONDS - part_begin)))")
+}
+
+# run_part PART COMMAND...: adds up the command's own summary line. No such line, or a bad exit
+# code without a failed test, counts as one failure, so that a crash is never silent.
+run_part() {
+    local part=$1 status summary counts
+    shift
+    part_begin=$SECONDS
+    echo "== $part: $*"
+    "$@" 2>&1 | tee "$work/log"
+    status=${PIPESTATUS[0]}
+    summary=$(grep -E '^[0-9]+ passed, [0-9]+ failed, [0-9]+ skipped$' "$work/log" | tail -n 1)
+    read -r -a counts <<<"$(tr -dc '0-9 ' <<<"$summary")"
+    if [ ${#counts[@]} -ne 3 ]; then
+        echo "FAILED: $part ended with $status and without a summary line"
+        add_result "$part" 0 1 0
+    elif [ "$status" -ne 0 ] && [ "${counts[1]}" -eq 0 ]; then
+        echo "FAILED: $part ended with $status"
+        add_result "$part" "${counts[0]}" 1 "${counts[2]}"
+    else
+        add_result "$part" "${counts[@]}"
+    fi
+}
+
+# run_check PART COMMAND...: one test, passed when the command ends with 0.
+run_check() {
+    local part=$1
+    shift
+    part_begin=$SECONDS
+    echo "== $part: $*"
+    if "$@"; then
+        add_result "$part" 1 0 0
+    else
+        echo "FAILED: $part: $*"
+        add_result "$part" 0 1 0
+        return 1
+    fi
+}
+
+finish() {
+    echo
+    printf '%s\n' "${part_lines[@]}"
+    echo "$passed passed, $failed failed, $skipped skipped"
+    [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
+    exit
+}
+
+# Options that leave out what cannot run without a device: the modules that depend on it.
+list_device_options() {
+    python3 - <<'PYTHON'
+import sys
+
+sys.path.insert(0, "modules")
+import modules_builders
+
+needing = {"rendering_device"}
+for module in modules_builders.find_modules("modules"):  # dependencies come first
+    if needing & set(module.dependencies):
+        needing.add(module.name)
+        print("module_%s_enabled=no" % module.name)
+PYTHON
+}
+
+# run_sanitized PART SANITIZERS TEST_OPTION...: modules without a device, built with sanitizers.
+run_sanitized() {
+    local part=$1 sanitizers=$2 suffix=release_${2//,/_} options
+    shift 2
+    mapfile -t options < <(list_device_options)
+    run_check "$part build" scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" \
+        "bin/gnomon_tests.$suffix" canaries || return
+    run_part "$part canary" python3 tests/canaries/test_canaries.py "$sanitizers"
+    run_part "$part" "bin/gnomon_tests.$suffix" '--test-case-exclude=*[GPU]*' "$@"
+}
+
+if is_wanted layers; then
+    run_part layers python3 tests/layers/test_layers.py
+    run_part "layers canary" python3 tests/layers/test_layers.py --self-test
+fi
+if is_wanted scenes; then
+    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_page.py
+fi
+# Every later part runs what this one builds.
+if is_wanted build; then
+    run_check build scons -Q -j"$jobs" || finish
+fi
+if is_wanted engine; then
+    run_part engine bin/gnomon_tests
+fi
+if is_wanted command_line; then
+    run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
+        tests/command_line/test_good_commands.py
+fi
+if is_wanted demo; then
+    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --no-window --out "$work/demo"
+fi
+if is_wanted removal; then
+    if [ "$is_full" = yes ]; then
+        run_part removal python3 tests/removal/test_removal.py --jobs "$jobs" --all
+    else
+        run_part removal python3 tests/removal/test_removal.py --jobs "$jobs"
+    fi
+fi
+if is_wanted sanitized; then
+    run_sanitized sanitized address,undefined
+fi
+if [ "$is_full" = yes ]; then
+    if is_wanted sanitized_all; then
+        run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
+            run_part "all sanitized" bin/gnomon_tests.release_address_undefined
+    fi
+    if is_wanted threads; then
+        run_sanitized threads thread
+    fi
+    if is_wanted tables; then
+        run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
+    fi
+fi
+finish
