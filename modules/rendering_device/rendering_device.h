@@ -129,7 +129,7 @@ public:
 	/// Starts recording. Waits when two submissions are in flight; collects deferred frees.
 	CommandList &begin_commands();
 	/// Submits what was recorded. p_waits: also waits for the end, so that READBACK memory is valid.
-	/// With a swapchain image acquired this frame, the submission waits for it and presents it.
+	/// A swapchain image that the recorded barriers brought to Access::PRESENT is presented.
 	enum class SubmitMode { QUEUE, WAIT };
 	void submit_commands(SubmitMode p_mode);
 	/// Drops what was recorded since begin_commands, for when an Error ends a frame half-way. An

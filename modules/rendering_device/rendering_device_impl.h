@@ -102,7 +102,6 @@ struct SubmissionSlot {
 	std::vector<std::string> span_names;
 	bool has_unread_spans = false;
 	BufferResource breadcrumbs; // word i: the submission in which span i began last
-	VkSemaphore image_acquired = VK_NULL_HANDLE;
 };
 
 /// State of the recording between begin_commands and submit_commands.

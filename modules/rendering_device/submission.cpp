@@ -34,11 +34,10 @@ void RenderingDevice::Impl::create_slots() {
 		.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
 		.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE
 	};
-	VkSemaphoreCreateInfo semaphore_info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
+	const VkSemaphoreCreateInfo semaphore_info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
 		.pNext = &timeline_info };
 	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &timeline), "vkCreateSemaphore");
 	set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "finished submissions");
-	semaphore_info.pNext = nullptr;
 	for (uint32_t index = 0; index < SLOT_COUNT; ++index) {
 		SubmissionSlot &slot = slots[index];
 		const VkCommandPoolCreateInfo pool_info = {
@@ -59,9 +58,6 @@ void RenderingDevice::Impl::create_slots() {
 		slot.uploads = made[1];
 		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, text("commands ", index));
 		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.uploads, text("uploads ", index));
-		check(vkCreateSemaphore(device, &semaphore_info, nullptr, &slot.image_acquired),
-				"vkCreateSemaphore");
-		set_name(VK_OBJECT_TYPE_SEMAPHORE, slot.image_acquired, text("image acquired ", index));
 		slot.breadcrumbs = make_buffer({ .name = text("breadcrumbs ", index),
 				.size_bytes = MAX_BREADCRUMBS * sizeof(uint32_t),
 				.usage = BufferUsage::COPY_TARGET,
@@ -78,7 +74,6 @@ void RenderingDevice::Impl::destroy_slots() {
 		for (VkQueryPool pool : slot.query_pools) {
 			vkDestroyQueryPool(device, pool, nullptr);
 		}
-		vkDestroySemaphore(device, slot.image_acquired, nullptr);
 		destroy(slot.breadcrumbs);
 	}
 	vkDestroySemaphore(device, timeline, nullptr);
@@ -202,9 +197,10 @@ void RenderingDevice::Impl::submit() {
 	}
 	add_commands(slot.commands);
 
-	const bool is_presenting = swapchain && swapchain->acquired_index;
+	const bool is_waiting = swapchain && swapchain->must_wait();
+	const bool is_presenting = swapchain && swapchain->must_present();
 	const VkSemaphoreSubmitInfo wait = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-		.semaphore = is_presenting ? swapchain->acquired_semaphore : VK_NULL_HANDLE,
+		.semaphore = is_waiting ? swapchain->get_acquisition() : VK_NULL_HANDLE,
 		.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
 	VkSemaphoreSubmitInfo signals[2] = {
 		{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
@@ -214,11 +210,11 @@ void RenderingDevice::Impl::submit() {
 	};
 	if (is_presenting) {
 		signals[1] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-			.semaphore = swapchain->get_present_semaphore(),
+			.semaphore = swapchain->get_rendered(),
 			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
 	}
 	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-		.waitSemaphoreInfoCount = is_presenting ? 1u : 0u,
+		.waitSemaphoreInfoCount = is_waiting ? 1u : 0u,
 		.pWaitSemaphoreInfos = &wait,
 		.commandBufferInfoCount = command_count,
 		.pCommandBufferInfos = command_infos,
@@ -232,6 +228,9 @@ void RenderingDevice::Impl::submit() {
 	}
 	pending_uploads.clear();
 	pending_upload_bytes = 0;
+	if (is_waiting) {
+		swapchain->is_acquisition_awaited = true;
+	}
 	if (is_presenting) {
 		swapchain->present();
 	}

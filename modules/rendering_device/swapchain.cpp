@@ -39,7 +39,11 @@ Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_su
 	}
 	try {
 		impl->choose_format();
+		impl->create_semaphores();
 	} catch (const Error &) {
+		for (VkSemaphore semaphore : impl->acquisitions) {
+			vkDestroySemaphore(device.device, semaphore, nullptr);
+		}
 		vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
 		throw;
 	}
@@ -51,12 +55,24 @@ Swapchain::~Swapchain() {
 	vkDeviceWaitIdle(device.device);
 	impl->destroy_images();
 	vkDestroySwapchainKHR(device.device, impl->swapchain, nullptr);
+	for (VkSemaphore semaphore : impl->acquisitions) {
+		vkDestroySemaphore(device.device, semaphore, nullptr);
+	}
 	vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
 	device.swapchain = nullptr;
 }
 
 glm::uvec2 Swapchain::get_size_px() const {
 	return impl->size_px;
+}
+
+void Swapchain::Impl::create_semaphores() {
+	const VkSemaphoreCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
+	for (VkSemaphore &semaphore : acquisitions) {
+		device.check(
+				vkCreateSemaphore(device.device, &info, nullptr, &semaphore), "vkCreateSemaphore");
+		device.set_name(VK_OBJECT_TYPE_SEMAPHORE, semaphore, "window image acquired");
+	}
 }
 
 void Swapchain::Impl::choose_format() {
@@ -162,9 +178,13 @@ bool Swapchain::Impl::recreate(glm::uvec2 p_window_size_px) {
 std::optional<TextureRID> Swapchain::acquire(glm::uvec2 p_window_size_px) {
 	RenderingDevice::Impl &device = impl->device;
 	device.fail_if_lost();
-	device.recording.check_recording("Swapchain::acquire");
 	if (impl->acquired_index) {
-		return impl->images[*impl->acquired_index].texture; // of a frame that was abandoned
+		// The frame before was abandoned, or did not show it.
+		const TextureRID texture = impl->images[*impl->acquired_index].texture;
+		if (!impl->is_acquisition_awaited) {
+			device.textures.get(texture).recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+		}
+		return texture;
 	}
 	if (p_window_size_px.x == 0 || p_window_size_px.y == 0) {
 		return std::nullopt;
@@ -177,10 +197,11 @@ std::optional<TextureRID> Swapchain::acquire(glm::uvec2 p_window_size_px) {
 		if ((impl->is_out_of_date || !impl->swapchain) && !impl->recreate(p_window_size_px)) {
 			return std::nullopt;
 		}
-		const VkSemaphore semaphore = device.get_recording_slot().image_acquired;
+		const size_t next = (impl->acquisition_index + 1) % Impl::ACQUISITION_COUNT;
 		uint32_t index = 0;
 		const VkResult result = vkAcquireNextImageKHR(device.device, impl->swapchain,
-				std::numeric_limits<uint64_t>::max(), semaphore, VK_NULL_HANDLE, &index);
+				std::numeric_limits<uint64_t>::max(), impl->acquisitions[next], VK_NULL_HANDLE,
+				&index);
 		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
 			impl->is_out_of_date = true;
 			continue;
@@ -188,10 +209,25 @@ std::optional<TextureRID> Swapchain::acquire(glm::uvec2 p_window_size_px) {
 		device.check(result, "vkAcquireNextImageKHR");
 		impl->is_out_of_date = result == VK_SUBOPTIMAL_KHR;
 		impl->acquired_index = index;
-		impl->acquired_semaphore = semaphore;
-		return impl->images[index].texture;
+		impl->acquisition_index = next;
+		impl->is_acquisition_awaited = false;
+		const TextureRID texture = impl->images[index].texture;
+		device.textures.get(texture).recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+		return texture;
 	}
 	return std::nullopt;
+}
+
+bool Swapchain::Impl::must_wait() const {
+	return acquired_index && !is_acquisition_awaited &&
+			device.textures.get(images[*acquired_index].texture).recorded_layout !=
+			VK_IMAGE_LAYOUT_UNDEFINED;
+}
+
+bool Swapchain::Impl::must_present() const {
+	return acquired_index &&
+			device.textures.get(images[*acquired_index].texture).recorded_layout ==
+			VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
 }
 
 void Swapchain::Impl::present() {

@@ -19,14 +19,26 @@ struct Swapchain::Impl {
 	};
 	std::vector<Image> images;
 	std::optional<uint32_t> acquired_index; // until it is presented
-	VkSemaphore acquired_semaphore = VK_NULL_HANDLE;
+	bool is_acquisition_awaited = false; // some submission since then waits for the semaphore
+	// One more than submissions in flight: an image may be acquired before begin_commands has
+	// waited for the older one.
+	static constexpr size_t ACQUISITION_COUNT = RenderingDevice::Impl::SLOT_COUNT + 1;
+	VkSemaphore acquisitions[ACQUISITION_COUNT] = {};
+	size_t acquisition_index = 0; // of the image acquired last
 
 	explicit Impl(RenderingDevice &p_owner) : owner(p_owner), device(p_owner.get_impl()) {}
+	void create_semaphores();
 	void choose_format();
 	/// False while the window has no area.
 	bool recreate(glm::uvec2 p_window_size_px);
 	void destroy_images();
-	VkSemaphore get_present_semaphore() const { return images[*acquired_index].rendered; }
+
+	/// What a submission has to do for the image, seen from the barriers recorded so far: wait for
+	/// it when it is touched for the first time, signal and present when it has Access::PRESENT.
+	bool must_wait() const;
+	bool must_present() const;
+	VkSemaphore get_acquisition() const { return acquisitions[acquisition_index]; }
+	VkSemaphore get_rendered() const { return images[*acquired_index].rendered; }
 	void present();
 };
 
