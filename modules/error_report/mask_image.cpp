@@ -97,7 +97,39 @@ void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
 	}
 }
 
+/// OpenEXR believes the length of a header's attribute and takes up to 2 GiB before it reads.
+/// Layout: magic, version and flags, then name, type, length and bytes of each attribute, then a
+/// zero.
+void check_header_lengths(std::span<const uint8_t> p_bytes, const std::string &p_name) {
+	constexpr uint8_t DEEP_OR_MULTI_PART = 0x18; // of the second byte of version and flags
+	size_t position = 8;
+	if (p_bytes.size() > position && (p_bytes[5] & DEEP_OR_MULTI_PART) != 0) {
+		fail("Mask ", p_name, ": has several parts or deep pixels; a mask has one flat part.");
+	}
+	const auto skip_text = [&] {
+		while (position < p_bytes.size() && p_bytes[position] != 0) {
+			++position;
+		}
+		++position;
+	};
+	while (position < p_bytes.size() && p_bytes[position] != 0) {
+		skip_text();
+		skip_text();
+		uint64_t length = 0;
+		for (size_t i = 0; i < 4 && position + i < p_bytes.size(); ++i) {
+			length |= static_cast<uint64_t>(p_bytes[position + i]) << (8 * i);
+		}
+		position += 4 + length;
+	}
+	if (position >= p_bytes.size()) {
+		fail("Mask ", p_name,
+				": not an OpenEXR file, or damaged, or cut short: its header goes beyond its ",
+				p_bytes.size(), " bytes. Write it again.");
+	}
+}
+
 MaskImage decode(std::span<const uint8_t> p_bytes, const std::string &p_name) {
+	check_header_lengths(p_bytes, p_name);
 	MemoryInput stream(p_bytes);
 	Imf::InputFile file(stream, 0); // no threads of OpenEXR's own
 	check_channel(file.header().channels(), VISIBILITY_CHANNEL, p_name);

@@ -73,9 +73,9 @@ void check_options(const VisibilityOptions &p_options) {
 /// `end`.
 struct DiscView {
 	glm::vec3 origin;
-	glm::vec3 centre;  // relative to the origin
-	glm::vec3 basis_x; // length: the disc's radius
-	glm::vec3 basis_y;
+	glm::vec3 centre;					 // relative to the origin
+	glm::vec3 basis_x = glm::vec3(0.0f); // length: the disc's radius
+	glm::vec3 basis_y = glm::vec3(0.0f);
 	float end = RAY_END;
 };
 
@@ -85,13 +85,13 @@ uint32_t count_visible(const EmbreeScene &p_scene, const DiscView &p_view,
 	const uint32_t scramble_u = static_cast<uint32_t>(p_hash);
 	const uint32_t scramble_v = static_cast<uint32_t>(p_hash >> 32);
 	uint32_t visible_count = 0;
-	DiscSamples::Packet packet;
+	DiscSamples::Packet packet = {};
+	alignas(32) RTCRay8 rays = {};
 	for (uint32_t index = 0; index < p_samples.get_packet_count(); ++index) {
 		p_samples.compute_packet(index, scramble_u, scramble_v, packet);
 		const uint32_t lane_count = std::min(
 				DiscSamples::PACKET_SIZE, p_samples.get_count() - index * DiscSamples::PACKET_SIZE);
 		alignas(32) int valid[DiscSamples::PACKET_SIZE];
-		alignas(32) RTCRay8 rays;
 		for (uint32_t i = 0; i < DiscSamples::PACKET_SIZE; ++i) {
 			valid[i] = i < lane_count ? -1 : 0;
 			rays.org_x[i] = p_view.origin.x;

@@ -13,12 +13,12 @@ namespace gnomon {
 /// The rays of one call start at one point and keep close together.
 inline void find_occluded_8(RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays) {
 #if RTC_VERSION_MAJOR >= 4
-	RTCOccludedArguments arguments;
+	RTCOccludedArguments arguments = {};
 	rtcInitOccludedArguments(&arguments);
 	arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
 	rtcOccluded8(p_valid, p_scene, &r_rays, &arguments);
 #else
-	RTCIntersectContext context;
+	RTCIntersectContext context = {};
 	rtcInitIntersectContext(&context);
 	context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 	rtcOccluded8(p_valid, p_scene, &context, &r_rays);
