@@ -17,10 +17,26 @@ const uint64_t MAX_DECODED_COUNT = 16 * GLTF_MAX_INDEX_COUNT;
 const uint64_t MAX_ZERO_COUNT = uint64_t(1) << 22;
 const char NEXT_STEP[] = "Export the file again.";
 
-bool is_integer_type(uint64_t p_component_type) {
-	return p_component_type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
-			p_component_type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT &&
-			p_component_type != TINYGLTF_COMPONENT_TYPE_INT;
+bool is_vector_type(uint64_t p_component_type) {
+	return p_component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+			(p_component_type >= TINYGLTF_COMPONENT_TYPE_BYTE &&
+					p_component_type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+}
+
+bool is_index_type(uint64_t p_component_type) {
+	return p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+			p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+			p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+uint64_t read_component_type(const GltfObject &p_object, bool (*p_is_allowed)(uint64_t)) {
+	const uint64_t type = p_object.require_integer(
+			"componentType", TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
+	if (!p_is_allowed(type)) {
+		p_object.fail_value("componentType",
+				p_is_allowed == is_index_type ? "5121, 5123 or 5125" : "5120..5123 or 5126");
+	}
+	return type;
 }
 
 template <typename T> T load(const uint8_t *p_bytes) {
@@ -63,12 +79,6 @@ uint32_t read_index(const uint8_t *p_bytes, uint64_t p_component_type) {
 	}
 }
 
-bool is_index_type(uint64_t p_component_type) {
-	return p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-			p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-			p_component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-}
-
 } // namespace
 
 struct GltfAccessors::Layout {
@@ -107,23 +117,19 @@ void GltfAccessors::Layout::find_bytes(
 GltfAccessors::GltfAccessors(const GltfObject &p_root, GltfBuffers &p_buffers) :
 		root(p_root), buffers(p_buffers) {}
 
-GltfAccessors::Layout GltfAccessors::read_layout(
-		const GltfObject &p_accessor, const char *p_type, size_t p_component_count) {
-	if (p_accessor.get_text("type") != p_type) {
-		p_accessor.fail_value("type", std::string("\"") + p_type + "\"");
+GltfAccessors::Layout GltfAccessors::read_layout(const GltfObject &p_accessor, Content p_content) {
+	const char *type = p_content == Content::VECTORS ? "VEC3" : "SCALAR";
+	if (p_accessor.get_text("type") != type) {
+		p_accessor.fail_value("type", std::string("\"") + type + "\"");
 	}
 	Layout layout;
 	layout.count = p_accessor.require_integer("count", 1, GLTF_MAX_INDEX_COUNT);
-	layout.component_type = p_accessor.require_integer(
-			"componentType", TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
-	if (layout.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT &&
-			!is_integer_type(layout.component_type)) {
-		p_accessor.fail_value("componentType", "5120..5123, 5125 or 5126");
-	}
+	layout.component_type = read_component_type(
+			p_accessor, p_content == Content::VECTORS ? is_vector_type : is_index_type);
 	layout.is_normalized = p_accessor.read_bool("normalized", false);
 	layout.component_bytes = static_cast<size_t>(
 			tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(layout.component_type)));
-	layout.element_bytes = layout.component_bytes * p_component_count;
+	layout.element_bytes = layout.component_bytes * (p_content == Content::VECTORS ? 3 : 1);
 	decoded_count += layout.count;
 	if (decoded_count > MAX_DECODED_COUNT) {
 		p_accessor.fail_at("count",
@@ -152,11 +158,7 @@ void GltfAccessors::read_elements(
 	Layout targets;
 	const GltfObject indices = sparse->require_object("indices");
 	targets.count = sparse->require_integer("count", 1, p_layout.count);
-	targets.component_type = indices.require_integer(
-			"componentType", TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
-	if (!is_index_type(targets.component_type)) {
-		indices.fail_value("componentType", "5121, 5123 or 5125");
-	}
+	targets.component_type = read_component_type(indices, is_index_type);
 	targets.element_bytes = static_cast<size_t>(
 			tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(targets.component_type)));
 	targets.find_bytes(root, buffers, indices);
@@ -180,10 +182,7 @@ std::shared_ptr<const std::vector<glm::vec3>> GltfAccessors::read_vectors(size_t
 		}
 	}
 	const GltfObject accessor = root.get_element("accessors", p_accessor_index);
-	const Layout layout = read_layout(accessor, "VEC3", 3);
-	if (layout.component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-		accessor.fail_value("componentType", "5120..5123 or 5126");
-	}
+	const Layout layout = read_layout(accessor, Content::VECTORS);
 	if (layout.count > GLTF_MAX_VERTEX_COUNT) {
 		accessor.fail_value("count", text("1..", GLTF_MAX_VERTEX_COUNT));
 	}
@@ -209,10 +208,7 @@ std::shared_ptr<const std::vector<glm::vec3>> GltfAccessors::read_vectors(size_t
 
 std::vector<uint32_t> GltfAccessors::read_indices(size_t p_accessor_index, size_t p_vertex_count) {
 	const GltfObject accessor = root.get_element("accessors", p_accessor_index);
-	const Layout layout = read_layout(accessor, "SCALAR", 1);
-	if (!is_index_type(layout.component_type)) {
-		accessor.fail_value("componentType", "5121, 5123 or 5125");
-	}
+	const Layout layout = read_layout(accessor, Content::INDICES);
 	std::vector<uint32_t> indices(layout.count, 0);
 	read_elements(accessor, layout, [&](size_t p_index, const uint8_t *p_bytes) {
 		indices[p_index] = p_bytes ? read_index(p_bytes, layout.component_type) : 0;

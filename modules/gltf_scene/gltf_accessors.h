@@ -26,7 +26,8 @@ public:
 
 private:
 	struct Layout; // of one accessor or its sparse part, all bounds checked
-	Layout read_layout(const GltfObject &p_accessor, const char *p_type, size_t p_component_count);
+	enum class Content { VECTORS, INDICES };
+	Layout read_layout(const GltfObject &p_accessor, Content p_content);
 	template <typename Convert>
 	void read_elements(
 			const GltfObject &p_accessor, const Layout &p_layout, const Convert &p_convert);

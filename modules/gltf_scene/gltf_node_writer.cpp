@@ -43,11 +43,16 @@ private:
 	/// Definitions that nodes share: written once per value.
 	using Written = std::map<size_t, Json>;
 
+	/// The node in the document. Fetched anew after every change elsewhere: a key that is added to
+	/// an ordered object moves all its values.
+	Json &get_node(const Entry &p_entry) { return json["nodes"][p_entry.index]; }
 	std::optional<size_t> assign(const Node3D &p_node, const Entry *p_parent);
 	bool is_part(const Node3D &p_node, const Entry *p_parent) const;
 	void write_entry(const Entry &p_entry);
 	void write_children(const Entry &p_entry, Json &r_node) const;
 	void write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance);
+	std::optional<size_t> find_or_append_mesh(
+			const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key);
 	void write_light_of(const Entry &p_entry, const Light3D &p_light);
 	void write_camera(const Entry &p_entry, const Camera3D &p_camera);
 	Json *own_area_light(Json &r_node);
@@ -127,7 +132,7 @@ std::optional<size_t> NodeWriter::assign(const Node3D &p_node, const Entry *p_pa
 
 void NodeWriter::write_entry(const Entry &p_entry) {
 	const Node3D &node = *p_entry.node;
-	Json &target = json["nodes"][p_entry.index];
+	Json &target = get_node(p_entry);
 	if (!p_entry.is_part) {
 		const GltfNodeState fresh;
 		const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
@@ -160,35 +165,41 @@ void NodeWriter::write_children(const Entry &p_entry, Json &r_node) const {
 
 void NodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance) {
 	mesh_nodes.insert(p_entry.index);
-	Json &target = json["nodes"][p_entry.index];
 	const auto key = GltfDocument::make_key(p_instance.surfaces);
 	const bool had_mesh = !p_entry.is_new && document->node_surfaces.contains(p_entry.index);
 	if (!had_mesh || document->node_surfaces.at(p_entry.index) != key) {
-		target.erase("mesh");
-		const bool has_triangles = std::any_of(
-				p_instance.surfaces.begin(), p_instance.surfaces.end(), [](const auto &p_surface) {
-					return p_surface.mesh && !p_surface.mesh->indices.empty();
-				});
-		if (has_triangles) {
-			auto found = mesh_indices.find(key);
-			if (found == mesh_indices.end()) {
-				const std::string &name = p_instance.surfaces.size() == 1
-						? p_instance.surfaces[0].mesh->name
-						: p_instance.name;
-				found = mesh_indices.emplace(key, meshes.append_mesh(name, p_instance.surfaces))
-								.first;
-			}
-			target["mesh"] = found->second;
+		const std::optional<size_t> mesh_index = find_or_append_mesh(p_instance, key);
+		get_node(p_entry).erase("mesh");
+		if (mesh_index) {
+			get_node(p_entry)["mesh"] = *mesh_index;
 		}
 	}
 	const GltfNodeState fresh;
 	const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
 	if (p_instance.casts_shadow != before.casts_shadow) {
-		require_extras(target)["casts_shadow"] = p_instance.casts_shadow;
+		require_extras(get_node(p_entry))["casts_shadow"] = p_instance.casts_shadow;
 	}
 	if (p_instance.is_planar_receiver != before.is_planar_receiver) {
-		require_extras(target)["shadow_planar_receiver"] = p_instance.is_planar_receiver;
+		require_extras(get_node(p_entry))["shadow_planar_receiver"] = p_instance.is_planar_receiver;
 	}
+}
+
+std::optional<size_t> NodeWriter::find_or_append_mesh(
+		const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key) {
+	if (const auto found = mesh_indices.find(p_key); found != mesh_indices.end()) {
+		return found->second;
+	}
+	const auto &surfaces = p_instance.surfaces;
+	const bool has_triangles =
+			std::any_of(surfaces.begin(), surfaces.end(), [](const auto &p_surface) {
+				return p_surface.mesh && !p_surface.mesh->indices.empty();
+			});
+	if (!has_triangles) {
+		return std::nullopt;
+	}
+	const bool has_own_name = surfaces.size() == 1 && !surfaces[0].mesh->name.empty();
+	const std::string &name = has_own_name ? surfaces[0].mesh->name : p_instance.name;
+	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
 }
 
 /// Puts a changed definition in the place of the old one, or behind the others where another node
@@ -228,7 +239,6 @@ Json *NodeWriter::own_area_light(Json &r_node) {
 
 void NodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
 	light_nodes.insert(p_entry.index);
-	Json &target = json["nodes"][p_entry.index];
 	const bool had_light = !p_entry.is_new && document->lights.contains(p_entry.index);
 	const GltfLightState *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
 	Json definition = Json::object();
@@ -236,6 +246,7 @@ void NodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
 	std::vector<Json *> places;
 	Json *area = nullptr;
 	if (before) {
+		Json &target = get_node(p_entry);
 		old_index = target["extensions"][PUNCTUAL]["light"].get<size_t>();
 		definition = document->container.json["extensions"][PUNCTUAL]["lights"][*old_index];
 		places.push_back(&target);
@@ -254,19 +265,18 @@ void NodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
 	const size_t index = place_definition(
 			json["extensions"][PUNCTUAL]["lights"], lights, old_index, std::move(definition));
 	if (index != old_index) {
-		target["extensions"][PUNCTUAL]["light"] = index;
+		get_node(p_entry)["extensions"][PUNCTUAL]["light"] = index;
 	}
 }
 
 void NodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera) {
 	camera_nodes.insert(p_entry.index);
-	Json &target = json["nodes"][p_entry.index];
 	const bool had_camera = !p_entry.is_new && document->cameras.contains(p_entry.index);
 	const std::pair<float, float> values = { p_camera.vertical_fov_rad, p_camera.near_m };
 	Json definition = { { "type", "perspective" }, { "perspective", Json::object() } };
 	std::optional<size_t> old_index;
 	if (had_camera) {
-		old_index = target["camera"].get<size_t>();
+		old_index = get_node(p_entry)["camera"].get<size_t>();
 		definition = document->container.json["cameras"][*old_index];
 	}
 	if (!had_camera || document->cameras.at(p_entry.index).first != values.first) {
@@ -278,7 +288,7 @@ void NodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera) {
 	const size_t index =
 			place_definition(json["cameras"], cameras, old_index, std::move(definition));
 	if (index != old_index) {
-		target["camera"] = index;
+		get_node(p_entry)["camera"] = index;
 	}
 }
 

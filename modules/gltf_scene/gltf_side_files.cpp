@@ -83,7 +83,8 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 		const GltfObject buffer = root.get_element("buffers", index);
 		Json &json = r_container.json["buffers"][index];
 		if (index == 0 && p_form == GltfForm::BINARY && !bin_chunk && buffer.find("uri")) {
-			const auto bytes = GltfBuffers(root, p_document.place, nullptr).load_buffer(index);
+			GltfBuffers buffers(root, p_document.place, nullptr);
+			const auto bytes = buffers.load_buffer(index);
 			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
 			json.erase("uri");
 		} else if (index == 0 && p_form == GltfForm::TEXT && bin_chunk && !buffer.find("uri")) {
