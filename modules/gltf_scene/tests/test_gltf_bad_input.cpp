@@ -127,8 +127,9 @@ TEST_CASE("[GltfBadInput] sparse parts are checked like all others") {
 	check_refused(folder, json, "/accessors/0/sparse/count", 4, "sparse.count is 4, must be");
 	check_refused(folder, json, "/accessors/0/sparse/values/byteOffset", 28, "byteOffset is 28");
 	check_refused(folder, json, "/accessors/0/sparse/indices/componentType", 5122, "5121, 5123");
-	check_refused(
-			folder, json, "/accessors/0/sparse/indices/bufferView", 0, "sparse.indices[0] is");
+	check_refused(folder, json, "/accessors/0/sparse/indices",
+			{ { "bufferView", 0 }, { "byteOffset", 14 }, { "componentType", GLTF_TEST_USHORT } },
+			"accessors[0].sparse.indices[0] is 16256, must be 0..2");
 	check_refused(folder, json, "/accessors/0/sparse/indices/bufferView", 5, "must be 0..1");
 }
 
