@@ -1,0 +1,46 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_buffers.h"
+#include "modules/gltf_scene/gltf_json.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// Reads accessors, checking types, counts, strides and bounds, whatever the file claims. Sparse
+/// ones and the integer formats of KHR_mesh_quantization are included.
+class GltfAccessors {
+public:
+	/// Both must outlive it.
+	GltfAccessors(const GltfObject &p_root, GltfBuffers &p_buffers);
+
+	/// A VEC3 of floats or of integers of 8 or 16 bits, normalized or not. Shared with the caller
+	/// as exporters like to let many primitives share one vertex array.
+	std::shared_ptr<const std::vector<glm::vec3>> read_vectors(size_t p_accessor_index);
+	/// A SCALAR of unsigned integers, each below p_vertex_count.
+	std::vector<uint32_t> read_indices(size_t p_accessor_index, size_t p_vertex_count);
+
+private:
+	struct Layout; // of one accessor or its sparse part, all bounds checked
+	enum class Content { VECTORS, INDICES };
+	Layout read_layout(const GltfObject &p_accessor, Content p_content);
+	template <typename Convert>
+	void read_elements(
+			const GltfObject &p_accessor, const Layout &p_layout, const Convert &p_convert);
+
+	GltfObject root;
+	GltfBuffers &buffers;
+	uint64_t decoded_count = 0;
+	struct CacheEntry {
+		size_t accessor_index = SIZE_MAX;
+		std::shared_ptr<const std::vector<glm::vec3>> vectors;
+	};
+	CacheEntry cache[2]; // positions and normals of the primitive before
+	size_t oldest_entry = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,175 @@
+#include "modules/gltf_scene/gltf_buffers.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+
+#include <tiny_gltf.h>
+
+#include <cctype>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::optional<int> parse_hex_digit(char p_digit) {
+	if (p_digit >= '0' && p_digit <= '9') {
+		return p_digit - '0';
+	}
+	const char lower = static_cast<char>(p_digit | 0x20);
+	if (lower >= 'a' && lower <= 'f') {
+		return lower - 'a' + 10;
+	}
+	return std::nullopt;
+}
+
+/// Undoes %20 and the like; nothing when an escape is wrong.
+std::optional<std::string> decode_percent(std::string_view p_uri) {
+	std::string decoded;
+	for (size_t place = 0; place < p_uri.size(); ++place) {
+		if (p_uri[place] != '%') {
+			decoded += p_uri[place];
+			continue;
+		}
+		if (place + 2 >= p_uri.size()) {
+			return std::nullopt;
+		}
+		const std::optional<int> high = parse_hex_digit(p_uri[place + 1]);
+		const std::optional<int> low = parse_hex_digit(p_uri[place + 2]);
+		if (!high || !low) {
+			return std::nullopt;
+		}
+		decoded += static_cast<char>(*high * 16 + *low);
+		place += 2;
+	}
+	return decoded;
+}
+
+/// "http:", "file:": letters, digits, + - . before the first colon (RFC 3986, 3.1).
+bool has_scheme(std::string_view p_uri) {
+	const size_t colon = p_uri.find(':');
+	if (colon == std::string_view::npos || colon == 0 || !std::isalpha(uint8_t(p_uri[0]))) {
+		return false;
+	}
+	for (const char character : p_uri.substr(0, colon)) {
+		if (!std::isalnum(uint8_t(character)) && !std::strchr("+-.", character)) {
+			return false;
+		}
+	}
+	return true;
+}
+
+} // namespace
+
+bool is_data_uri(std::string_view p_uri) {
+	return p_uri.starts_with("data:");
+}
+
+fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const GltfObject &p_object) {
+	const auto refuse = [&](const char *p_problem) {
+		p_object.fail_at("uri",
+				text("is \"", to_one_line(p_uri), "\", ", p_problem,
+						". Put the file beside the scene and name it alone."));
+	};
+	if (has_scheme(p_uri)) {
+		refuse("must be a file's relative path");
+	}
+	const std::optional<std::string> decoded = decode_percent(p_uri);
+	if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos) {
+		refuse("must be a path with valid % escapes");
+	}
+	const fs::path relative(*decoded);
+	if (relative.is_absolute()) {
+		refuse("must not be an absolute path");
+	}
+	const fs::path path = p_place.folder / relative;
+	if (!is_inside_folder(path, p_place.project_folder)) {
+		refuse("which leads out of the project folder");
+	}
+	return path;
+}
+
+std::string encode_uri(std::string_view p_file_name) {
+	const char DIGITS[] = "0123456789ABCDEF";
+	std::string uri;
+	for (const char character : p_file_name) {
+		const uint8_t byte = static_cast<uint8_t>(character);
+		if (std::isalnum(byte) || (character != '\0' && std::strchr("-._~", character))) {
+			uri += character;
+		} else {
+			uri += { '%', DIGITS[byte >> 4], DIGITS[byte & 15] };
+		}
+	}
+	return uri;
+}
+
+GltfBuffers::GltfBuffers(const GltfObject &p_root, const GltfPlace &p_place,
+		const std::vector<uint8_t> *p_bin_chunk) :
+		root(p_root),
+		place(p_place), bin_chunk(p_bin_chunk) {}
+
+std::span<const uint8_t> GltfBuffers::load_buffer(size_t p_index) {
+	const GltfObject buffer = root.get_element("buffers", p_index);
+	const uint64_t length_bytes = buffer.require_integer("byteLength", 1, GLTF_MAX_BUFFER_BYTES);
+	const Json *uri = buffer.find("uri");
+	std::span<const uint8_t> bytes;
+	if (uri) {
+		if (!uri->is_string()) {
+			buffer.fail_value("uri", "text");
+		}
+		if (!loaded.contains(p_index)) {
+			std::vector<uint8_t> made = load_uri(buffer, uri->get_ref<const std::string &>());
+			loaded_bytes += made.size();
+			if (loaded_bytes > GLTF_MAX_BUFFER_BYTES) {
+				buffer.fail_at("uri",
+						text("makes more than ", GLTF_MAX_BUFFER_BYTES,
+								" bytes of buffers. Split the scene."));
+			}
+			loaded.emplace(p_index, std::move(made));
+		}
+		bytes = loaded.at(p_index);
+	} else if (p_index == 0 && bin_chunk) {
+		bytes = *bin_chunk;
+	} else {
+		buffer.fail_value("uri", "a file's relative path");
+	}
+	if (bytes.size() < length_bytes) {
+		buffer.fail_at("byteLength",
+				text("is ", length_bytes, ", must be at most ", bytes.size(),
+						", the bytes there are. Export the file again."));
+	}
+	return bytes.first(length_bytes);
+}
+
+std::span<const uint8_t> GltfBuffers::load_view(const GltfObject &p_view) {
+	const auto bytes = load_buffer(p_view.require_index("buffer", root.get_count("buffers")));
+	const uint64_t offset = p_view.find_integer("byteOffset", 0, bytes.size() - 1).value_or(0);
+	const uint64_t length = p_view.require_integer("byteLength", 1, bytes.size() - offset);
+	return bytes.subspan(offset, length);
+}
+
+std::vector<uint8_t> GltfBuffers::load_uri(
+		const GltfObject &p_buffer, const std::string &p_uri) const {
+	if (!is_data_uri(p_uri)) {
+		const fs::path path = resolve_uri(p_uri, place, p_buffer);
+		try {
+			return load_file(path, GLTF_MAX_FILE_BYTES);
+		} catch (const Error &error) {
+			p_buffer.fail_at("uri", text("cannot be read: ", error.what()));
+		}
+	}
+	// tinygltf knows the encoding for a fixed set of media types only; the type means nothing here.
+	const size_t comma = p_uri.find(',');
+	std::vector<uint8_t> bytes;
+	std::string media_type;
+	if (comma == std::string::npos ||
+			!std::string_view(p_uri).substr(0, comma).ends_with(";base64") ||
+			!tinygltf::DecodeDataURI(&bytes, media_type,
+					"data:application/octet-stream;base64," + p_uri.substr(comma + 1), 0, false)) {
+		p_buffer.fail_at("uri", "is no base64 data. Export the file again.");
+	}
+	return bytes;
+}
+
+} // namespace gnomon

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_json.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+/// Where a file's URIs point to.
+struct GltfPlace {
+	std::filesystem::path folder;		  // URIs are relative to it
+	std::filesystem::path project_folder; // and may not leave this one
+};
+
+bool is_data_uri(std::string_view p_uri);
+/// The file that a relative URI names. Another scheme, an absolute path, a wrong escape or a file
+/// outside the project folder: fails at p_object's "uri".
+std::filesystem::path resolve_uri(
+		std::string_view p_uri, const GltfPlace &p_place, const GltfObject &p_object);
+/// A file name as a URI.
+std::string encode_uri(std::string_view p_file_name);
+
+/// The bytes of a document's buffers, loaded when first asked for: a file that only images need
+/// may be missing.
+class GltfBuffers {
+public:
+	/// All must outlive it. p_bin_chunk is null for the text form.
+	GltfBuffers(const GltfObject &p_root, const GltfPlace &p_place,
+			const std::vector<uint8_t> *p_bin_chunk);
+
+	/// Exactly byteLength bytes, valid as long as this object; fewer there: fails.
+	std::span<const uint8_t> load_buffer(size_t p_index);
+	/// The bytes of a buffer view; outside its buffer: fails.
+	std::span<const uint8_t> load_view(const GltfObject &p_view);
+
+private:
+	std::vector<uint8_t> load_uri(const GltfObject &p_buffer, const std::string &p_uri) const;
+
+	GltfObject root;
+	const GltfPlace &place;
+	const std::vector<uint8_t> *bin_chunk;
+	std::map<size_t, std::vector<uint8_t>> loaded;
+	uint64_t loaded_bytes = 0;
+};
+
+} // namespace gnomon

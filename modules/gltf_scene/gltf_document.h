@@ -1,0 +1,72 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_buffers.h"
+#include "modules/gltf_scene/gltf_container.h"
+#include "modules/scene/nodes.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon {
+
+/// What a light of the scene says, without its place.
+struct GltfLightState {
+	LightType type = LightType::OMNI;
+	glm::vec3 color = glm::vec3(1.0f);
+	float intensity = 1.0f;
+	float range_m = 0.0f;
+	float inner_cone_rad = 0.0f;
+	float outer_cone_rad = 0.785398163f;
+	PropertyValues properties;
+
+	explicit GltfLightState(const Light3D &p_light) :
+			type(p_light.type), color(p_light.color), intensity(p_light.intensity),
+			range_m(p_light.range_m), inner_cone_rad(p_light.inner_cone_rad),
+			outer_cone_rad(p_light.outer_cone_rad), properties(p_light.properties) {}
+	bool operator==(const GltfLightState &) const = default;
+};
+
+/// A node as it was loaded. What still equals it is not written.
+struct GltfNodeState {
+	bool is_loaded = false; // false: in no scene, or in another one
+	std::string name;
+	glm::dmat4 parent_from_node = glm::dmat4(1.0);
+	bool casts_shadow = true;
+	bool is_planar_receiver = false;
+};
+
+/// A file as it was read, kept by its scene: saving patches a copy of it.
+class GltfDocument : public SceneDocument {
+public:
+	/// Meshes of one node, as pointers that name them.
+	using SurfaceKey = std::vector<std::pair<const Mesh *, const Material *>>;
+
+	std::string file; // as the user named it
+	GltfPlace place;
+	GltfContainer container;
+	std::optional<size_t> scene_index; // none: the file has no scenes
+	double scene_size_m = 0;
+	std::vector<GltfNodeState> nodes;				   // by index in the file
+	std::map<size_t, GltfLightState> lights;		   // by index of their node
+	std::map<size_t, std::pair<float, float>> cameras; // likewise: field of view, near plane
+	/// Where a light's properties stand besides its node: see find_blender_owner.
+	std::map<size_t, size_t> blender_owners;
+	std::map<SurfaceKey, size_t> mesh_indices;
+	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
+	std::map<const Material *, size_t> material_indices;
+	/// Keep the meshes alive whose pointers stand above.
+	std::vector<std::vector<MeshInstance3D::Surface>> kept_surfaces;
+
+	static SurfaceKey make_key(const std::vector<MeshInstance3D::Surface> &p_surfaces) {
+		SurfaceKey key;
+		for (const MeshInstance3D::Surface &surface : p_surfaces) {
+			key.emplace_back(surface.mesh.get(), surface.material.get());
+		}
+		return key;
+	}
+};
+
+} // namespace gnomon

@@ -1,0 +1,345 @@
+#include "modules/gltf_scene/gltf_json.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+const char NEXT_STEP[] = "Correct it or export the file again.";
+const size_t MAX_MESSAGE_LENGTH = 300;
+const size_t MAX_VALUE_LENGTH = 60;
+
+/// Whole numbers may be written with a fraction of zero ("3.0").
+std::optional<uint64_t> to_integer(const Json &p_value) {
+	if (p_value.is_number_unsigned()) {
+		return p_value.get<uint64_t>();
+	}
+	if (p_value.is_number_float()) {
+		const double number = p_value.get<double>();
+		if (number >= 0 && number <= 9007199254740992.0 && std::floor(number) == number) {
+			return static_cast<uint64_t>(number);
+		}
+	}
+	return std::nullopt;
+}
+
+std::string describe_integers(uint64_t p_minimum, uint64_t p_maximum) {
+	return text("a whole number in ", p_minimum, "..", p_maximum);
+}
+
+std::string describe_indices(size_t p_count) {
+	return p_count == 0 ? "absent, as there is nothing to refer to" : text("0..", p_count - 1);
+}
+
+/// Refuses text whose parsed form would be too deep, too wide or too large. It need not be JSON
+/// yet: brackets outside of quotes are all that counts.
+void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) {
+	std::vector<uint64_t> comma_counts; // of the arrays and objects that are open
+	std::vector<char> brackets;
+	uint64_t value_count = 0;
+	for (size_t place = 0; place < p_text.size(); ++place) {
+		const char character = p_text[place];
+		if (character == '"') {
+			++place;
+			while (place < p_text.size() && p_text[place] != '"') {
+				place += p_text[place] == '\\' ? 2 : 1;
+			}
+		} else if (character == '{' || character == '[') {
+			brackets.push_back(character);
+			comma_counts.push_back(0);
+			++value_count;
+			if (brackets.size() > GLTF_MAX_JSON_DEPTH) {
+				throw Error(p_messages.describe("JSON",
+						text("is nested deeper than ", GLTF_MAX_JSON_DEPTH, " levels. ",
+								NEXT_STEP)));
+			}
+		} else if ((character == '}' || character == ']') && !brackets.empty()) {
+			brackets.pop_back();
+			comma_counts.pop_back();
+		} else if (character == ',' && !brackets.empty()) {
+			++value_count;
+			if (++comma_counts.back() >= GLTF_MAX_JSON_KEY_COUNT && brackets.back() == '{') {
+				throw Error(p_messages.describe("JSON",
+						text("has an object of more than ", GLTF_MAX_JSON_KEY_COUNT, " keys. ",
+								NEXT_STEP)));
+			}
+		}
+		if (value_count > GLTF_MAX_JSON_VALUE_COUNT) {
+			throw Error(p_messages.describe("JSON",
+					text("has more than ", GLTF_MAX_JSON_VALUE_COUNT,
+							" values. Split the scene into several files.")));
+		}
+	}
+}
+
+} // namespace
+
+void GltfMessages::report(const std::string &p_line) {
+	if (shown.insert(p_line).second) {
+		log_error(p_line);
+	}
+}
+
+void GltfMessages::warn(const char *p_kind, std::string_view p_path, std::string_view p_problem) {
+	if (shown.insert(p_kind).second) {
+		log_warning(describe(p_path, p_problem));
+	}
+}
+
+std::string GltfMessages::describe(std::string_view p_path, std::string_view p_problem) const {
+	return to_one_line(text("\"", file, "\": ", p_path, " ", p_problem));
+}
+
+std::string to_one_line(std::string_view p_text) {
+	std::string line;
+	for (const char character : p_text.substr(0, MAX_MESSAGE_LENGTH)) {
+		const bool is_control = static_cast<unsigned char>(character) < 0x20 || character == 0x7f;
+		line += is_control ? ' ' : character;
+	}
+	return p_text.size() > MAX_MESSAGE_LENGTH ? line + "..." : line;
+}
+
+std::string describe_json(const Json &p_value) {
+	if (p_value.is_array()) {
+		return text("an array of ", p_value.size());
+	}
+	if (p_value.is_object()) {
+		return "an object";
+	}
+	std::string words = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
+	if (words.size() > MAX_VALUE_LENGTH) {
+		words = words.substr(0, MAX_VALUE_LENGTH) + "...";
+	}
+	return words;
+}
+
+Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages) {
+	check_json_limits(p_text, p_messages);
+	Json json;
+	try {
+		json = Json::parse(p_text.begin(), p_text.end());
+	} catch (const Json::exception &error) {
+		// "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
+		const std::string_view what = error.what();
+		const size_t prefix = what.find("] ");
+		throw Error(p_messages.describe("JSON",
+				text("cannot be parsed: ",
+						to_one_line(prefix == what.npos ? what : what.substr(prefix + 2)), ". ",
+						NEXT_STEP)));
+	}
+	if (!json.is_object()) {
+		throw Error(p_messages.describe(
+				"JSON", text("is ", describe_json(json), ", must be an object. ", NEXT_STEP)));
+	}
+	return json;
+}
+
+GltfObject::GltfObject(const Json &p_json, std::string p_path, GltfMessages &p_messages) :
+		json(&p_json), path(std::move(p_path)), messages(&p_messages) {
+	if (!json->is_object()) {
+		throw Error(messages->describe(
+				path, text("is ", describe_json(*json), ", must be an object. ", NEXT_STEP)));
+	}
+}
+
+std::string GltfObject::path_of(std::string_view p_key) const {
+	const bool needs_dot = !path.empty() && !p_key.starts_with('[');
+	return path + (needs_dot ? "." : "") + std::string(p_key);
+}
+
+const Json *GltfObject::find(std::string_view p_key) const {
+	for (auto item = json->begin(); item != json->end(); ++item) {
+		if (item.key() == p_key) {
+			return item->is_null() ? nullptr : &*item;
+		}
+	}
+	return nullptr;
+}
+
+std::optional<GltfObject> GltfObject::find_object(std::string_view p_key) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return std::nullopt;
+	}
+	return GltfObject(*value, path_of(p_key), *messages);
+}
+
+GltfObject GltfObject::require_object(std::string_view p_key) const {
+	const std::optional<GltfObject> object = find_object(p_key);
+	if (!object) {
+		fail_at(p_key, text("is missing, must be an object. ", NEXT_STEP));
+	}
+	return *object;
+}
+
+std::optional<GltfObject> GltfObject::find_extension(std::string_view p_name) const {
+	const std::optional<GltfObject> extensions = find_object("extensions");
+	return extensions ? extensions->find_object(p_name) : std::nullopt;
+}
+
+size_t GltfObject::get_count(std::string_view p_key) const {
+	const Json *value = find(p_key);
+	if (value && !value->is_array()) {
+		fail_value(p_key, "an array");
+	}
+	return value ? value->size() : 0;
+}
+
+GltfObject GltfObject::get_element(std::string_view p_key, size_t p_index) const {
+	return GltfObject((*find(p_key))[p_index], path_of(p_key) + "[" + std::to_string(p_index) + "]",
+			*messages);
+}
+
+std::optional<uint64_t> GltfObject::find_integer(
+		std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return std::nullopt;
+	}
+	const std::optional<uint64_t> integer = to_integer(*value);
+	if (!integer || *integer < p_minimum || *integer > p_maximum) {
+		fail_value(p_key, describe_integers(p_minimum, p_maximum));
+	}
+	return integer;
+}
+
+uint64_t GltfObject::require_integer(
+		std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const {
+	const std::optional<uint64_t> integer = find_integer(p_key, p_minimum, p_maximum);
+	if (!integer) {
+		fail_value(p_key, describe_integers(p_minimum, p_maximum));
+	}
+	return *integer;
+}
+
+std::optional<size_t> GltfObject::find_index(std::string_view p_key, size_t p_count) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return std::nullopt;
+	}
+	const std::optional<uint64_t> index = to_integer(*value);
+	if (!index || *index >= p_count) {
+		fail_value(p_key, describe_indices(p_count));
+	}
+	return *index;
+}
+
+size_t GltfObject::require_index(std::string_view p_key, size_t p_count) const {
+	const std::optional<size_t> index = find_index(p_key, p_count);
+	if (!index) {
+		fail_value(p_key, describe_indices(p_count));
+	}
+	return *index;
+}
+
+size_t GltfObject::require_index_at(
+		std::string_view p_key, size_t p_position, size_t p_count) const {
+	const Json &value = (*find(p_key))[p_position];
+	const std::optional<uint64_t> index = to_integer(value);
+	if (!index || *index >= p_count) {
+		fail_at(text(p_key, "[", p_position, "]"),
+				text("is ", describe_json(value), ", must be ", describe_indices(p_count), ". ",
+						NEXT_STEP));
+	}
+	return *index;
+}
+
+bool GltfObject::find_numbers(std::string_view p_key, std::span<double> r_numbers) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return false;
+	}
+	bool is_good = value->is_array() && value->size() == r_numbers.size();
+	for (size_t index = 0; is_good && index < r_numbers.size(); ++index) {
+		is_good = (*value)[index].is_number();
+		r_numbers[index] = is_good ? (*value)[index].get<double>() : 0.0;
+		is_good = is_good && std::isfinite(r_numbers[index]);
+	}
+	if (!is_good) {
+		fail_value(p_key, text(r_numbers.size(), " finite numbers"));
+	}
+	return true;
+}
+
+std::string GltfObject::get_text(std::string_view p_key) const {
+	const Json *value = find(p_key);
+	return value && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+double GltfObject::read_number(std::string_view p_key, double p_default, double p_minimum,
+		double p_maximum, std::string_view p_unit) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return p_default;
+	}
+	const double number = value->is_number() ? value->get<double>() : NAN;
+	if (!(number >= p_minimum && number <= p_maximum)) {
+		const std::string unit = p_unit.empty() ? "" : " " + std::string(p_unit);
+		report_value(p_key, text(p_minimum, "..", p_maximum, unit), text(p_default));
+		return p_default;
+	}
+	return number;
+}
+
+bool GltfObject::read_color(
+		std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return false;
+	}
+	// baseColorFactor has alpha as its fourth.
+	bool is_good = value->is_array() && (value->size() == 3 || value->size() == 4);
+	float color[3] = {};
+	for (size_t index = 0; is_good && index < 3; ++index) {
+		const double number = (*value)[index].is_number() ? (*value)[index].get<double>() : NAN;
+		is_good = number >= 0 && number <= p_maximum;
+		color[index] = is_good ? static_cast<float>(number) : 0.0f;
+	}
+	if (!is_good) {
+		report_value(p_key, text("three numbers in 0..", p_maximum), "the default");
+		return false;
+	}
+	std::memcpy(r_color.data(), color, sizeof(color));
+	return true;
+}
+
+bool GltfObject::read_bool(std::string_view p_key, bool p_default) const {
+	const Json *value = find(p_key);
+	if (!value) {
+		return p_default;
+	}
+	if (value->is_boolean()) {
+		return value->get<bool>();
+	}
+	if (value->is_number() && (*value == 0 || *value == 1)) {
+		return *value == 1;
+	}
+	report_value(p_key, "true or false", p_default ? "true" : "false");
+	return p_default;
+}
+
+void GltfObject::fail_at(std::string_view p_key, std::string_view p_problem) const {
+	throw Error(messages->describe(path_of(p_key), p_problem));
+}
+
+void GltfObject::fail_value(std::string_view p_key, std::string_view p_range) const {
+	const Json *value = find(p_key);
+	fail_at(p_key,
+			text(value ? "is " + describe_json(*value) : "is missing", ", must be ", p_range, ". ",
+					NEXT_STEP));
+}
+
+void GltfObject::report_value(
+		std::string_view p_key, std::string_view p_range, std::string_view p_default) const {
+	const Json *value = find(p_key);
+	messages->report(messages->describe(path_of(p_key),
+			text("is ", value ? describe_json(*value) : "missing", ", must be ", p_range, "; ",
+					p_default, " is used. Correct it in the file.")));
+}
+
+} // namespace gnomon

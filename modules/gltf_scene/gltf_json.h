@@ -1,0 +1,109 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+/// Keeps the order of keys, so that a saved file differs only where it changed.
+using Json = nlohmann::ordered_json;
+
+/// Counts that no scene needs and every machine survives; beyond them a file is refused.
+const uint64_t GLTF_MAX_FILE_BYTES = uint64_t(1) << 30;
+const uint64_t GLTF_MAX_BUFFER_BYTES = uint64_t(1) << 31; // all buffers of a file together
+const uint64_t GLTF_MAX_NODE_COUNT = 1000000;
+const uint64_t GLTF_MAX_NODE_DEPTH = 1000;				  // the tree is walked recursively
+const uint64_t GLTF_MAX_VERTEX_COUNT = uint64_t(1) << 25; // of all meshes; 0.8 GB
+const uint64_t GLTF_MAX_INDEX_COUNT = uint64_t(1) << 27;  // of all meshes; 0.5 GB
+const uint64_t GLTF_MAX_JSON_DEPTH = 256;			 // copying and writing a value is recursive
+const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; looked up one by one
+const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed
+
+/// Where messages about one file go.
+struct GltfMessages {
+	std::string file;			 // as the user named it
+	std::set<std::string> shown; // lines and kinds: a value read twice is reported once
+
+	/// Logs the line as an error, unless it was logged before.
+	void report(const std::string &p_line);
+	/// Logs a warning, unless one of this kind was logged before: one per file is enough.
+	void warn(const char *p_kind, std::string_view p_path, std::string_view p_problem);
+	/// `"desk.gltf": nodes[3].mesh is 7, must be 0..1. <next step>`, always one line.
+	std::string describe(std::string_view p_path, std::string_view p_problem) const;
+};
+
+/// The text without line breaks and other control characters, cut where it gets too long to read.
+std::string to_one_line(std::string_view p_text);
+/// A value for a message: numbers and short texts as they are, "an array", "an object".
+std::string describe_json(const Json &p_value);
+
+/// Parses a file's JSON. Text that is not JSON, or exceeds the limits above, is an Error.
+Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
+
+/// An object of a document and where it stands; every access is checked. The document must outlive
+/// it. "Fails" below: throws Error with file, path, value and range.
+class GltfObject {
+public:
+	GltfObject(const Json &p_json, std::string p_path, GltfMessages &p_messages);
+
+	const Json &get_json() const { return *json; }
+	const std::string &get_path() const { return path; }
+	GltfMessages &get_messages() const { return *messages; }
+	/// "nodes[3].mesh"
+	std::string path_of(std::string_view p_key) const;
+
+	/// The value, or null when absent or JSON's null.
+	const Json *find(std::string_view p_key) const;
+	/// Absent: nothing. Not an object: fails.
+	std::optional<GltfObject> find_object(std::string_view p_key) const;
+	GltfObject require_object(std::string_view p_key) const;
+	/// `extensions.<name>`; absent: nothing.
+	std::optional<GltfObject> find_extension(std::string_view p_name) const;
+	/// The length of an array; 0 when absent. Not an array: fails.
+	size_t get_count(std::string_view p_key) const;
+	/// An array's element, which must be an object. p_index is below get_count.
+	GltfObject get_element(std::string_view p_key, size_t p_index) const;
+
+	/// A whole number in p_minimum..p_maximum, else fails.
+	std::optional<uint64_t> find_integer(
+			std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
+	uint64_t require_integer(std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
+	/// An index into an array of p_count elements, else fails.
+	std::optional<size_t> find_index(std::string_view p_key, size_t p_count) const;
+	size_t require_index(std::string_view p_key, size_t p_count) const;
+	/// An index as an element of the array p_key, else fails.
+	size_t require_index_at(std::string_view p_key, size_t p_position, size_t p_count) const;
+	/// Exactly as many finite numbers as the span holds, else fails. False when absent.
+	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
+	/// Text; absent or not text: empty, as no text decides whether a file can be drawn.
+	std::string get_text(std::string_view p_key) const;
+
+	/// A number in p_minimum..p_maximum; any other value is reported and the default returned.
+	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
+			std::string_view p_unit = "") const;
+	/// Three numbers in 0..p_maximum, likewise.
+	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
+	/// True, false, 1 or 0 (Blender writes flags as numbers), likewise.
+	bool read_bool(std::string_view p_key, bool p_default) const;
+
+	[[noreturn]] void fail_at(std::string_view p_key, std::string_view p_problem) const;
+	/// Fails with "is <value>, must be <range>".
+	[[noreturn]] void fail_value(std::string_view p_key, std::string_view p_range) const;
+	/// Logs "is <value>, must be <range>; <default> is used" as an error.
+	void report_value(
+			std::string_view p_key, std::string_view p_range, std::string_view p_default) const;
+
+private:
+	const Json *json;
+	std::string path;
+	GltfMessages *messages;
+};
+
+} // namespace gnomon

@@ -1,0 +1,221 @@
+#include "modules/gltf_scene/gltf_lights.h"
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const double DEGREES_PER_RADIAN = 57.295779513082321;
+const float DEFAULT_OUTER_CONE_RAD = 0.785398163f; // KHR_lights_punctual: pi / 4
+const float MAX_CONE_RAD = 1.57079637f;			   // the float nearest to pi / 2
+
+const GltfPropertyAlias ALIASES[] = {
+	{ "light_size", "radius", 1.0 },
+	{ "light_size", "shadow_soft_size", 1.0 },				   // Blender: radius of the light
+	{ "light_angular_distance", "angle", DEGREES_PER_RADIAN }, // Blender: full apparent diameter
+};
+/// What a node's extras hold for meshes, and a light does not take for a technique's property.
+const std::string_view NODE_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
+
+/// Extras may be any value; only objects hold properties.
+std::optional<GltfObject> find_extras(const GltfObject &p_object) {
+	const Json *extras = p_object.find("extras");
+	return extras && extras->is_object() ? p_object.find_object("extras") : std::nullopt;
+}
+
+/// Bools, numbers and texts as they stand; other values are no properties.
+std::optional<PropertyValue> to_property(const Json &p_value) {
+	if (p_value.is_boolean()) {
+		return p_value.get<bool>();
+	}
+	if (p_value.is_number_integer() && (!p_value.is_number_unsigned() || p_value <= INT64_MAX)) {
+		return p_value.get<int64_t>();
+	}
+	if (p_value.is_number()) {
+		return p_value.get<double>();
+	}
+	if (p_value.is_string()) {
+		return p_value.get<std::string>();
+	}
+	return std::nullopt;
+}
+
+/// Takes the value at p_extras[p_key] into the property, or reports why not.
+void take_property(const GltfObject &p_extras, std::string_view p_key, const PropertyInfo &p_info,
+		double p_factor, PropertyValues &r_properties) {
+	std::optional<PropertyValue> value = to_property(*p_extras.find(p_key));
+	if (value && p_info.type == PropertyType::BOOL && value->index() == 1 &&
+			(std::get<int64_t>(*value) | 1) == 1) {
+		value = std::get<int64_t>(*value) == 1; // Blender writes flags as 0 and 1
+	}
+	if (value && p_factor != 1.0) {
+		const int64_t *integer = std::get_if<int64_t>(&*value);
+		const double *number = std::get_if<double>(&*value);
+		if (integer || number) {
+			value = p_factor * (integer ? static_cast<double>(*integer) : *number);
+		}
+	}
+	if (!value || !check_property(p_info, *value).empty()) {
+		std::string range = describe_range(p_info);
+		if (p_factor != 1.0) {
+			range += text(" after multiplication by ", p_factor);
+		}
+		p_extras.report_value(p_key, range, format_property(p_info.default_value));
+		return;
+	}
+	r_properties[p_info.name] = convert_property(p_info, *value);
+}
+
+/// The first place that has the property, under its own name or another, decides.
+void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfObject> &p_extras,
+		PropertyValues &r_properties) {
+	for (const GltfObject &extras : p_extras) {
+		if (extras.find(p_info.name)) {
+			take_property(extras, p_info.name, p_info, 1.0, r_properties);
+			return;
+		}
+		for (const GltfPropertyAlias &alias : ALIASES) {
+			if (alias.property == p_info.name && extras.find(alias.alias)) {
+				take_property(extras, alias.alias, p_info, alias.factor, r_properties);
+				return;
+			}
+		}
+	}
+}
+
+bool is_reserved(std::string_view p_key) {
+	if (Light3D::get_property_list().find(p_key)) {
+		return true;
+	}
+	for (const GltfPropertyAlias &alias : ALIASES) {
+		if (alias.alias == p_key) {
+			return true;
+		}
+	}
+	return std::find(std::begin(NODE_NAMES), std::end(NODE_NAMES), p_key) != std::end(NODE_NAMES);
+}
+
+void read_technique_properties(const std::vector<GltfObject> &p_extras,
+		const GltfLoadOptions &p_options, PropertyValues &r_properties) {
+	std::set<std::string, std::less<>> seen; // a refused value also hides those after it
+	for (const GltfObject &extras : p_extras) {
+		for (auto item = extras.get_json().begin(); item != extras.get_json().end(); ++item) {
+			const std::string &key = item.key();
+			if (item->is_null() || is_reserved(key) || !seen.insert(key).second) {
+				continue;
+			}
+			const PropertyInfo *info = p_options.find_technique_property
+					? p_options.find_technique_property(key)
+					: nullptr;
+			if (info) {
+				take_property(extras, key, *info, 1.0, r_properties);
+			} else if (std::optional<PropertyValue> value = to_property(*item)) {
+				r_properties[key] = std::move(*value);
+			}
+		}
+	}
+}
+
+/// The disc of EXT_lights_area, whose size is its diameter. True when it decides the light's size.
+bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
+	if (p_area.get_text("type") != "disk") {
+		p_area.get_messages().warn("area shape", p_area.path_of("type"),
+				"is not \"disk\"; only discs give a light its size.");
+		return false;
+	}
+	const PropertyInfo &info = *Light3D::get_property_list().find("light_size");
+	const Json *size = p_area.find("size");
+	const double diameter_m = !size ? 1.0 : size->is_number() ? size->get<double>() : NAN;
+	if (!check_property(info, diameter_m / 2).empty()) {
+		p_area.report_value("size", "twice " + describe_range(info), "the default of light_size");
+		return true;
+	}
+	r_properties["light_size"] = diameter_m / 2;
+	return true;
+}
+
+void read_cones(const GltfObject &p_light, Light3D &r_light) {
+	// Without the object that the specification wants, the defaults are meant.
+	const Json *json = p_light.find("spot");
+	if (!json) {
+		return;
+	}
+	if (!json->is_object()) {
+		p_light.report_value("spot", "an object", "the default");
+		return;
+	}
+	const GltfObject spot = *p_light.find_object("spot");
+	// Exporters round pi / 2 up as often as down.
+	const double FILE_MAX_CONE_RAD = MAX_CONE_RAD + 1e-6;
+	const double outer =
+			spot.read_number("outerConeAngle", DEFAULT_OUTER_CONE_RAD, 0, FILE_MAX_CONE_RAD, "rad");
+	const double inner = spot.read_number("innerConeAngle", 0, 0, FILE_MAX_CONE_RAD, "rad");
+	if (!(outer > 0)) {
+		spot.report_value("outerConeAngle", "above 0", text(DEFAULT_OUTER_CONE_RAD));
+		return;
+	}
+	r_light.outer_cone_rad = std::min(static_cast<float>(outer), MAX_CONE_RAD);
+	if (static_cast<float>(inner) >= r_light.outer_cone_rad) {
+		spot.report_value("innerConeAngle", text("below outerConeAngle, ", outer), "0");
+		return;
+	}
+	r_light.inner_cone_rad = static_cast<float>(inner);
+}
+
+} // namespace
+
+std::span<const GltfPropertyAlias> get_gltf_property_aliases() {
+	return ALIASES;
+}
+
+bool read_light(
+		const GltfLightPlaces &p_places, const GltfLoadOptions &p_options, Light3D &r_light) {
+	const GltfObject &light = p_places.light;
+	const std::string type = light.get_text("type");
+	if (type != "point" && type != "spot" && type != "directional") {
+		light.report_value("type", "\"point\", \"spot\" or \"directional\"", "no light");
+		return false;
+	}
+	r_light.type = type == "point" ? LightType::OMNI
+			: type == "spot"	   ? LightType::SPOT
+								   : LightType::DIRECTIONAL;
+	light.read_color("color", FLT_MAX, std::span<float, 3>(&r_light.color[0], 3));
+	r_light.intensity = static_cast<float>(light.read_number("intensity", 1, 0, FLT_MAX));
+	if (const Json *range = light.find("range")) {
+		const float range_m = range->is_number() ? range->get<float>() : NAN;
+		if (range_m > 0 && std::isfinite(range_m)) {
+			r_light.range_m = range_m;
+		} else {
+			light.report_value("range", "a finite number above 0 m", "no limit");
+		}
+	}
+	if (r_light.type == LightType::SPOT) {
+		read_cones(light, r_light);
+	}
+	r_light.file_path = text("lights[", p_places.light_index, "]");
+
+	std::vector<GltfObject> all_extras;
+	if (const auto extras = find_extras(light)) {
+		all_extras.push_back(*extras);
+	}
+	for (const GltfObject &node : p_places.nodes) {
+		if (const auto extras = find_extras(node)) {
+			all_extras.push_back(*extras);
+		}
+	}
+	const bool has_area_size = p_places.area && read_area_size(*p_places.area, r_light.properties);
+	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
+		if (!(has_area_size && info.name == "light_size")) {
+			read_declared_property(info, all_extras, r_light.properties);
+		}
+	}
+	read_technique_properties(all_extras, p_options, r_light.properties);
+	return true;
+}
+
+} // namespace gnomon

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_accessors.h"
+#include "modules/scene/nodes.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// Reads meshes and their materials, each once. Triangles, strips and fans become triangles; points
+/// and lines have no shadow here and are left out with one warning.
+class GltfMeshes {
+public:
+	/// Both must outlive it.
+	GltfMeshes(const GltfObject &p_root, GltfAccessors &p_accessors);
+
+	/// One surface per primitive with triangles.
+	const std::vector<MeshInstance3D::Surface> &load_mesh(size_t p_index);
+	const std::map<size_t, std::shared_ptr<const Material>> &get_materials() const {
+		return materials;
+	}
+
+private:
+	std::shared_ptr<const Mesh> load_primitive(const GltfObject &p_primitive, std::string p_name);
+	std::shared_ptr<const Material> load_material(const GltfObject &p_primitive);
+
+	GltfObject root;
+	GltfAccessors &accessors;
+	std::map<size_t, std::vector<MeshInstance3D::Surface>> meshes;
+	std::map<size_t, std::shared_ptr<const Material>> materials;
+	std::shared_ptr<const Material> default_material = std::make_shared<const Material>();
+	uint64_t vertex_count = 0; // of all meshes so far, as are the indices
+	uint64_t index_count = 0;
+};
+
+/// A material's values; bad ones are reported and replaced by their defaults.
+Material read_material(const GltfObject &p_material);
+
+} // namespace gnomon

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "modules/core/property.h"
+#include "modules/scene/nodes.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace gnomon {
+
+struct GltfLoadOptions {
+	/// Files outside of it are refused, whatever a URI or a link says. Empty = the scene's folder.
+	std::filesystem::path project_folder;
+	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
+	/// that are found are checked and converted; others are kept as they stand. May be empty.
+	std::function<const PropertyInfo *(std::string_view)> find_technique_property;
+};
+
+/// Reads a .gltf or .glb (2.0) file: its default scene, else the first, else all nodes without a
+/// parent. Anything that cannot be drawn as meant is an Error of one line with file, JSON path,
+/// value, range and next step. A refused value of a light, camera or material is logged as an error
+/// in the same words, and its default used. Textures, skins, animations and morph targets are not
+/// read; one warning each says so.
+std::unique_ptr<Scene> load_gltf(
+		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
+
+/// Writes the scene, binary when the name ends in .glb. A scene that came from a file keeps
+/// everything of it that the program does not understand; only what changed is written anew. The
+/// file itself is replaced atomically, after the files it refers to.
+///
+/// Saved in another folder, buffers and images beside the old file are copied beside the new one
+/// (never over a file with other content: the copy then gets a number). A scene without a file gets
+/// its vertices in <name>.bin beside the .gltf, or inside the .glb.
+void save_gltf(const Scene &p_scene, const std::filesystem::path &p_path);
+
+} // namespace gnomon

@@ -1,0 +1,108 @@
+#include "modules/gltf_scene/gltf_side_files.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
+	std::error_code code;
+	return fs::equivalent(p_first, p_second, code);
+}
+
+/// Copies what an element's relative URI names beside the target.
+void copy_uri(const GltfObject &p_object, const GltfPlace &p_place, bool p_is_required,
+		Json &r_json, GltfSideFiles &r_files) {
+	const Json *uri = p_object.find("uri");
+	if (!uri || !uri->is_string() || is_data_uri(uri->get_ref<const std::string &>())) {
+		return;
+	}
+	try {
+		const fs::path path = resolve_uri(uri->get_ref<const std::string &>(), p_place, p_object);
+		std::vector<uint8_t> bytes = load_file(path, GLTF_MAX_FILE_BYTES);
+		r_json["uri"] = encode_uri(r_files.add(path.filename().string(), std::move(bytes)));
+	} catch (const Error &error) {
+		if (p_is_required) {
+			throw;
+		}
+		log_warning("Image not copied: ", error.what());
+	}
+}
+
+} // namespace
+
+GltfSideFiles::GltfSideFiles(fs::path p_folder) : folder(std::move(p_folder)) {}
+
+bool GltfSideFiles::is_taken(const std::string &p_name, const std::vector<uint8_t> &p_bytes) const {
+	if (const auto found = files.find(p_name); found != files.end()) {
+		return found->second != p_bytes;
+	}
+	std::error_code code;
+	const fs::path path = folder / p_name;
+	if (!fs::exists(fs::symlink_status(path, code))) {
+		return false;
+	}
+	return fs::file_size(path, code) != p_bytes.size() || code ||
+			load_file(path, GLTF_MAX_BUFFER_BYTES) != p_bytes;
+}
+
+std::string GltfSideFiles::add(const std::string &p_wanted_name, std::vector<uint8_t> p_bytes) {
+	const fs::path wanted(p_wanted_name);
+	std::string name = p_wanted_name;
+	for (int number = 2; is_taken(name, p_bytes); ++number) {
+		name = text(wanted.stem().string(), "_", number, wanted.extension().string());
+	}
+	files[name] = std::move(p_bytes);
+	return name;
+}
+
+void GltfSideFiles::replace(const std::string &p_name, std::vector<uint8_t> p_bytes) {
+	files[p_name] = std::move(p_bytes);
+}
+
+void GltfSideFiles::save() const {
+	for (const auto &[name, bytes] : files) {
+		save_file_atomically(folder / name, bytes);
+	}
+}
+
+void relocate_container(const GltfDocument &p_document, const fs::path &p_target, GltfForm p_form,
+		GltfContainer &r_container, GltfSideFiles &r_files) {
+	GltfMessages messages{ p_document.file, {} };
+	const GltfObject root(p_document.container.json, "", messages);
+	const size_t buffer_count = root.get_count("buffers");
+	const auto &bin_chunk = p_document.container.bin_chunk;
+	const fs::path folder = fs::absolute(p_target).parent_path();
+	const bool is_moved = !is_same_folder(folder, p_document.place.folder);
+	for (size_t index = 0; index < buffer_count; ++index) {
+		const GltfObject buffer = root.get_element("buffers", index);
+		Json &json = r_container.json["buffers"][index];
+		if (index == 0 && p_form == GltfForm::BINARY && !bin_chunk && buffer.find("uri")) {
+			GltfBuffers buffers(root, p_document.place, nullptr);
+			const auto bytes = buffers.load_buffer(index);
+			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
+			json.erase("uri");
+		} else if (index == 0 && p_form == GltfForm::TEXT && bin_chunk && !buffer.find("uri")) {
+			const std::string name = p_target.stem().string() + ".bin";
+			json["uri"] = encode_uri(r_files.add(name, *bin_chunk));
+		} else if (is_moved) {
+			copy_uri(buffer, p_document.place, true, json, r_files);
+		}
+	}
+	if (p_form == GltfForm::TEXT) {
+		r_container.bin_chunk.reset();
+		r_container.other_chunks.clear();
+	}
+	const size_t image_count = is_moved ? root.get_count("images") : 0;
+	for (size_t index = 0; index < image_count; ++index) {
+		copy_uri(root.get_element("images", index), p_document.place, false,
+				r_container.json["images"][index], r_files);
+	}
+}
+
+} // namespace gnomon

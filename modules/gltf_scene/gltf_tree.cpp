@@ -1,0 +1,111 @@
+#include "modules/gltf_scene/gltf_tree.h"
+
+#include "modules/core/error.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+void read_children(const GltfObject &p_root, size_t p_index, GltfTree &r_tree) {
+	const GltfObject node = p_root.get_element("nodes", p_index);
+	const size_t count = node.get_count("children");
+	for (size_t place = 0; place < count; ++place) {
+		const size_t child = node.require_index_at("children", place, r_tree.parents.size());
+		if (r_tree.parents[child] != GltfTree::NONE) {
+			node.fail_at(text("children[", place, "]"),
+					text("is ", child, ", which is a child of nodes[", r_tree.parents[child],
+							"] already. Give it one parent, or export the file again."));
+		}
+		r_tree.parents[child] = p_index;
+		r_tree.children[p_index].push_back(child);
+	}
+}
+
+} // namespace
+
+GltfTree build_gltf_tree(const GltfObject &p_root) {
+	const size_t count = p_root.get_count("nodes");
+	if (count > GLTF_MAX_NODE_COUNT) {
+		p_root.fail_at("nodes",
+				text("has ", count, " elements, must be at most ", GLTF_MAX_NODE_COUNT,
+						". Split the scene."));
+	}
+	GltfTree tree;
+	tree.parents.resize(count, GltfTree::NONE);
+	tree.children.resize(count);
+	for (size_t index = 0; index < count; ++index) {
+		read_children(p_root, index, tree);
+	}
+	for (size_t index = 0; index < count; ++index) {
+		if (tree.parents[index] == GltfTree::NONE) {
+			tree.roots.push_back(index);
+		}
+	}
+	// Level by level from the roots. With one parent each, what is never reached hangs on a cycle.
+	std::vector<bool> is_reached(count, false);
+	std::vector<size_t> level = tree.roots;
+	for (size_t depth = 1; !level.empty(); ++depth) {
+		std::vector<size_t> next;
+		for (const size_t index : level) {
+			is_reached[index] = true;
+			next.insert(next.end(), tree.children[index].begin(), tree.children[index].end());
+		}
+		if (depth > GLTF_MAX_NODE_DEPTH) {
+			p_root.fail_at(text("nodes[", level[0], "]"),
+					text("is nested ", depth, " deep, must be at most ", GLTF_MAX_NODE_DEPTH,
+							". Flatten the hierarchy."));
+		}
+		level = std::move(next);
+	}
+	for (size_t index = 0; index < count; ++index) {
+		if (!is_reached[index]) {
+			p_root.fail_at(text("nodes[", index, "]"),
+					"is its own ancestor. Break the cycle, or export the file again.");
+		}
+	}
+	return tree;
+}
+
+glm::dmat4 read_transform(const GltfObject &p_node) {
+	glm::dmat4 matrix(1.0);
+	if (p_node.find_numbers("matrix", std::span(glm::value_ptr(matrix), 16))) {
+		return matrix;
+	}
+	double translation[3] = { 0, 0, 0 };
+	double rotation[4] = { 0, 0, 0, 1 };
+	double scale[3] = { 1, 1, 1 };
+	p_node.find_numbers("translation", translation);
+	p_node.find_numbers("scale", scale);
+	if (p_node.find_numbers("rotation", rotation)) {
+		const glm::dquat turn(rotation[3], rotation[0], rotation[1], rotation[2]);
+		const double length = glm::length(turn);
+		if (!(length > 1e-6) || !std::isfinite(length)) {
+			p_node.fail_value("rotation", "a unit quaternion");
+		}
+		matrix = glm::mat4_cast(turn / length);
+	}
+	for (int axis = 0; axis < 3; ++axis) {
+		matrix[axis] *= scale[axis];
+		matrix[3][axis] = translation[axis];
+	}
+	return matrix;
+}
+
+std::optional<size_t> find_blender_owner(
+		size_t p_index, const GltfTree &p_tree, const GltfObject &p_root) {
+	const size_t parent = p_tree.parents[p_index];
+	if (parent == GltfTree::NONE) {
+		return std::nullopt;
+	}
+	const std::string name = p_root.get_element("nodes", p_index).get_text("name");
+	const std::string parent_name = p_root.get_element("nodes", parent).get_text("name");
+	const bool is_orientation = !parent_name.empty() && name == parent_name + "_Orientation";
+	return is_orientation ? std::optional(parent) : std::nullopt;
+}
+
+} // namespace gnomon

@@ -1,0 +1,114 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/gltf_scene/gltf_document.h"
+#include "modules/gltf_scene/gltf_light_writer.h"
+#include "modules/gltf_scene/gltf_mesh_writer.h"
+#include "modules/gltf_scene/gltf_node_writer.h"
+#include "modules/gltf_scene/gltf_scene.h"
+#include "modules/gltf_scene/gltf_side_files.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+GltfForm choose_form(const fs::path &p_path) {
+	std::string extension = p_path.extension().string();
+	std::transform(extension.begin(), extension.end(), extension.begin(),
+			[](unsigned char p_letter) { return static_cast<char>(std::tolower(p_letter)); });
+	if (extension != ".gltf" && extension != ".glb") {
+		fail("\"", p_path.string(), "\" must end in .gltf or .glb. Choose another name.");
+	}
+	return extension == ".glb" ? GltfForm::BINARY : GltfForm::TEXT;
+}
+
+Json make_empty_document() {
+	return { { "asset", { { "version", "2.0" }, { "generator", "Gnomon" } } }, { "scene", 0 },
+		{ "scenes", Json::array({ Json::object() }) } };
+}
+
+/// Where new vertices go: behind those in the BIN chunk, or into a buffer of their own.
+struct NewBuffer {
+	size_t index = 0;
+	size_t first_byte = 0;
+	bool is_in_chunk = false;
+};
+
+NewBuffer choose_buffer(const GltfContainer &p_container, GltfForm p_form) {
+	const auto buffers = p_container.json.find("buffers");
+	const size_t count = buffers == p_container.json.end() ? 0 : buffers->size();
+	NewBuffer chosen{ count, 0, false };
+	if (p_form == GltfForm::BINARY && p_container.bin_chunk && count > 0) {
+		chosen = { 0, (p_container.bin_chunk->size() + 3) / 4 * 4, true };
+	} else if (p_form == GltfForm::BINARY && count == 0) {
+		chosen = { 0, 0, true };
+	}
+	return chosen;
+}
+
+void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
+		const fs::path &p_path, bool p_is_generated, GltfContainer &r_container,
+		GltfSideFiles &r_files) {
+	if (p_bytes.empty()) {
+		return;
+	}
+	Json &buffers = r_container.json["buffers"];
+	if (buffers.size() <= p_buffer.index) {
+		buffers.push_back(Json::object());
+	}
+	Json &buffer = buffers[p_buffer.index];
+	buffer["byteLength"] = p_buffer.first_byte + p_bytes.size();
+	if (p_buffer.is_in_chunk) {
+		std::vector<uint8_t> &chunk =
+				r_container.bin_chunk ? *r_container.bin_chunk : r_container.bin_chunk.emplace();
+		chunk.resize(p_buffer.first_byte, 0);
+		chunk.insert(chunk.end(), p_bytes.begin(), p_bytes.end());
+		return;
+	}
+	std::string name = p_path.stem().string() + ".bin";
+	if (p_is_generated) {
+		r_files.replace(name, p_bytes); // the one that a save before this one left
+	} else {
+		name = r_files.add(name, p_bytes);
+	}
+	buffer["uri"] = encode_uri(name);
+}
+
+} // namespace
+
+void save_gltf(const Scene &p_scene, const fs::path &p_path) {
+	const GltfForm form = choose_form(p_path);
+	const auto *document = dynamic_cast<const GltfDocument *>(p_scene.document.get());
+	const GltfMessages messages{ p_path.string(), {} };
+	GltfSideFiles files(fs::absolute(p_path).parent_path());
+	GltfContainer container;
+	try {
+		if (document) {
+			container = document->container;
+			relocate_container(*document, p_path, form, container, files);
+		} else {
+			container.json = make_empty_document();
+		}
+		const NewBuffer buffer = choose_buffer(container, form);
+		GltfMeshWriter meshes(container.json, buffer.index, buffer.first_byte,
+				document ? document->material_indices : std::map<const Material *, size_t>());
+		write_nodes(p_scene, document, container.json, meshes);
+		store_bytes(buffer, meshes.get_bytes(), p_path, !document, container, files);
+	} catch (const Json::exception &error) {
+		// What reading had no need to look at may be of another kind than the format says.
+		fail(messages.describe("JSON",
+				text("cannot be changed as the file it came from is not valid: ", error.what(),
+						". Export that file again.")));
+	}
+	files.save();
+	if (form == GltfForm::BINARY) {
+		save_file_atomically(p_path, build_glb(container, messages));
+	} else {
+		save_file_atomically(p_path, build_gltf_text(container.json));
+	}
+}
+
+} // namespace gnomon

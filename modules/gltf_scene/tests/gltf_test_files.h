@@ -1,0 +1,155 @@
+#pragma once
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/gltf_scene/gltf_container.h"
+#include "modules/gltf_scene/gltf_scene.h"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A folder of files that vanishes with the test.
+struct GltfTestFolder {
+	std::filesystem::path path;
+	GltfTestFolder() {
+		std::string name = (std::filesystem::temp_directory_path() / "gnomon_gltf_XXXXXX").string();
+		path = ::mkdtemp(name.data());
+	}
+	~GltfTestFolder() { std::filesystem::remove_all(path); }
+	GltfTestFolder(const GltfTestFolder &) = delete;
+	GltfTestFolder &operator=(const GltfTestFolder &) = delete;
+
+	/// Writes and loads a file.
+	std::unique_ptr<Scene> load(const Json &p_json, const GltfLoadOptions &p_options = {}) const {
+		write("scene.gltf", p_json.dump());
+		return load_gltf(path / "scene.gltf", p_options);
+	}
+	/// Without the sync to disk of save_file_atomically, which thousands of files would wait for.
+	void write(const std::string &p_name, std::string_view p_text) const {
+		std::ofstream(path / p_name, std::ios::binary) << p_text;
+	}
+	void write(const std::string &p_name, std::span<const uint8_t> p_bytes) const {
+		write(p_name,
+				std::string_view(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size()));
+	}
+	Json read_json(const std::string &p_name) const {
+		return Json::parse(load_text_file(path / p_name));
+	}
+};
+
+/// Collects the log's lines while it lives.
+struct GltfTestLog {
+	std::vector<std::string> errors;
+	std::vector<std::string> warnings;
+	LogSink before;
+	GltfTestLog() {
+		before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
+			(p_level == LogLevel::ERROR ? errors : warnings).push_back(p_line);
+		});
+	}
+	~GltfTestLog() { set_log_sink(before); }
+	GltfTestLog(const GltfTestLog &) = delete;
+	GltfTestLog &operator=(const GltfTestLog &) = delete;
+
+	static bool contains(const std::vector<std::string> &p_lines, std::string_view p_part) {
+		for (const std::string &line : p_lines) {
+			if (line.find(p_part) != std::string::npos) {
+				return true;
+			}
+		}
+		return false;
+	}
+};
+
+/// The message of the Error that loading ends with; empty when it does not.
+inline std::string get_load_error(
+		const GltfTestFolder &p_folder, const Json &p_json, const GltfLoadOptions &p_options = {}) {
+	try {
+		p_folder.load(p_json, p_options);
+	} catch (const Error &error) {
+		return error.what();
+	}
+	return "";
+}
+
+/// Bytes of a buffer, and the JSON of its views and accessors, as they are appended.
+struct GltfTestBuffer {
+	std::vector<uint8_t> bytes;
+	Json views = Json::array();
+	Json accessors = Json::array();
+
+	template <typename T> size_t add_view(const std::vector<T> &p_values, size_t p_stride = 0) {
+		Json view = { { "buffer", 0 }, { "byteOffset", bytes.size() },
+			{ "byteLength", p_values.size() * sizeof(T) } };
+		if (p_stride > 0) {
+			view["byteStride"] = p_stride;
+		}
+		const auto *first = reinterpret_cast<const uint8_t *>(p_values.data());
+		bytes.insert(bytes.end(), first, first + p_values.size() * sizeof(T));
+		bytes.resize((bytes.size() + 3) / 4 * 4);
+		views.push_back(view);
+		return views.size() - 1;
+	}
+	size_t add_accessor(size_t p_view, int p_component_type, const char *p_type, size_t p_count,
+			size_t p_offset = 0) {
+		accessors.push_back({ { "bufferView", p_view }, { "componentType", p_component_type },
+				{ "type", p_type }, { "count", p_count }, { "byteOffset", p_offset } });
+		return accessors.size() - 1;
+	}
+	/// Puts them into the document; the bytes go to "data.bin" in the folder.
+	void store(Json &r_json, const GltfTestFolder &p_folder) const {
+		p_folder.write("data.bin", bytes);
+		r_json["buffers"] = Json::array();
+		r_json["buffers"].push_back({ { "uri", "data.bin" }, { "byteLength", bytes.size() } });
+		r_json["bufferViews"] = views;
+		r_json["accessors"] = accessors;
+	}
+};
+
+const int GLTF_TEST_BYTE = 5120, GLTF_TEST_SHORT = 5122, GLTF_TEST_USHORT = 5123,
+		  GLTF_TEST_UINT = 5125, GLTF_TEST_FLOAT = 5126;
+
+inline Json make_header() {
+	return Json::parse(R"({"asset": {"version": "2.0"}})");
+}
+
+/// A document of one node with a mesh of one triangle, whose buffer is "data.bin".
+inline Json make_triangle(const GltfTestFolder &p_folder) {
+	GltfTestBuffer buffer;
+	const std::vector<float> positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+	buffer.add_accessor(buffer.add_view(positions), GLTF_TEST_FLOAT, "VEC3", 3);
+	buffer.add_accessor(
+			buffer.add_view(std::vector<uint16_t>{ 0, 1, 2 }), GLTF_TEST_USHORT, "SCALAR", 3);
+	Json json = Json::parse(R"({
+		"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+		"nodes": [{"name": "Triangle", "mesh": 0}],
+		"meshes": [{"name": "triangle", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]
+	})");
+	buffer.store(json, p_folder);
+	return json;
+}
+
+/// A document of one spot light, to be changed by the test.
+inline Json make_lamp() {
+	return Json::parse(R"({
+		"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+		"extensionsUsed": ["KHR_lights_punctual"],
+		"extensions": {"KHR_lights_punctual": {"lights": [
+			{"type": "spot", "name": "Bulb", "intensity": 20, "color": [1, 0.5, 0.25],
+			 "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.5}}]}},
+		"nodes": [{"name": "Lamp", "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+	})");
+}
+
+/// What two scenes differ in first, or empty: the trees with all that a renderer would see.
+std::string find_difference(const Scene &p_first, const Scene &p_second);
+
+} // namespace gnomon

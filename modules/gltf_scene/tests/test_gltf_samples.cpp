@@ -1,0 +1,96 @@
+#include "modules/gltf_scene/tests/gltf_test_files.h"
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char MODELS[] = "/usr/share/assimp/models";
+
+/// Files of the package that must be refused: glTF 1.0, extensions that change the geometry, and
+/// those that were broken on purpose.
+const std::set<std::string> REFUSED = {
+	"glTF/BoxTextured-glTF-Binary/BoxTextured.glb",
+	"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf",
+	"glTF/BoxTextured-glTF-MaterialsCommon/BoxTextured.gltf",
+	"glTF/BoxTextured-glTF/BoxTextured.gltf",
+	"glTF/CesiumMilkTruck/CesiumMilkTruck.gltf",
+	"glTF/IncorrectVertexArrays/Cube_v1.gltf",
+	"glTF/TwoBoxes/TwoBoxes.gltf",
+	"glTF2/BoxTextured-glTF-techniqueWebGL/BoxTextured.gltf",
+	"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",
+	"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf",
+	"glTF2/IndexOutOfRange/IndexOutOfRange.gltf",
+	"glTF2/MissingBin/BoxTextured.gltf",
+	"glTF2/RecursiveNodes/RecursiveNodes.gltf",
+	"glTF2/SchemaFailures/sceneWrongType.gltf",
+	"glTF2/draco/2CylinderEngine.gltf",
+	"glTF2/wrongTypes/badArray.gltf",
+	"glTF2/wrongTypes/badObject.gltf",
+};
+
+size_t count_triangles(const Scene &p_scene) {
+	size_t count = 0;
+	for (const MeshInstance3D *instance : p_scene.find_nodes<MeshInstance3D>()) {
+		for (const MeshInstance3D::Surface &surface : instance->surfaces) {
+			count += surface.mesh->get_triangle_count();
+		}
+	}
+	return count;
+}
+
+} // namespace
+
+TEST_CASE("[GltfSamples] every file of assimp-testmodels loads and saves, or is refused by name") {
+	REQUIRE_MESSAGE(fs::is_directory(MODELS),
+			"the sample files are missing: install the package assimp-testmodels");
+	GltfTestLog log;
+	GltfTestFolder folder;
+	size_t loaded_count = 0;
+	size_t refused_count = 0;
+	for (const auto &entry : fs::recursive_directory_iterator(MODELS)) {
+		const std::string extension = entry.path().extension().string();
+		if (extension != ".gltf" && extension != ".glb") {
+			continue;
+		}
+		const std::string name = fs::relative(entry.path(), MODELS).string();
+		CAPTURE(name);
+		try {
+			const auto scene = load_gltf(entry.path());
+			++loaded_count;
+			CHECK_FALSE(REFUSED.contains(name));
+			for (const char *copy : { "copy.gltf", "copy.glb" }) {
+				save_gltf(*scene, folder.path / copy);
+				CHECK(find_difference(*scene, *load_gltf(folder.path / copy)) == "");
+			}
+		} catch (const Error &error) {
+			const std::string message = error.what();
+			CAPTURE(message);
+			++refused_count;
+			CHECK(REFUSED.contains(name));
+			CHECK(message.find(entry.path().filename().string()) != std::string::npos);
+			CHECK(message.find('\n') == std::string::npos);
+		}
+	}
+	CHECK(loaded_count >= 30);
+	CHECK(refused_count == REFUSED.size());
+}
+
+TEST_CASE("[GltfSamples] the engine, the cameras and the primitive modes have what they show") {
+	REQUIRE_MESSAGE(fs::is_directory(MODELS),
+			"the sample files are missing: install the package assimp-testmodels");
+	GltfTestLog log;
+	const fs::path folder = fs::path(MODELS) / "glTF2";
+	CHECK(count_triangles(*load_gltf(
+				  folder / "2CylinderEngine-glTF-Binary" / "2CylinderEngine.glb")) == 121496);
+	CHECK(load_gltf(folder / "cameras" / "Cameras.gltf")->find_nodes<Camera3D>().size() == 1);
+	const fs::path modes = folder / "glTF-Asset-Generator" / "Mesh_PrimitiveMode";
+	for (const char *number : { "04", "05", "06", "11", "12", "13", "14", "15" }) {
+		CHECK(count_triangles(*load_gltf(
+					  modes / ("Mesh_PrimitiveMode_" + std::string(number) + ".gltf"))) == 2);
+	}
+}

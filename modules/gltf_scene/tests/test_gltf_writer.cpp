@@ -1,0 +1,293 @@
+#include "modules/gltf_scene/tests/gltf_test_files.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A lamp above a triangle, with things that the program does not know.
+Json make_desk(const GltfTestFolder &p_folder) {
+	Json json = make_triangle(p_folder);
+	const Json lamp = make_lamp();
+	json["asset"]["copyright"] = "somebody";
+	json["extensions"] = lamp["extensions"];
+	json["extensionsUsed"] = { "KHR_lights_punctual", "ACME_dust" };
+	json["extensions"]["ACME_dust"] = { { "density", 0.125 } };
+	Json &light = json["extensions"]["KHR_lights_punctual"]["lights"][0];
+	light["extras"] = Json::parse(
+			R"({"light_size": 0.2, "shadow_soft_size": 0.2, "note": "kept", "list": [1, [2]]})");
+	light["extensions"] = { { "ACME_filter", { { "gel", 201 } } } };
+	json["nodes"].push_back(lamp["nodes"][0]);
+	json["nodes"][1]["translation"] = { 0, 3, 0 };
+	json["nodes"][1]["extras"] = { { "owner", "lighting" } };
+	json["nodes"][0]["extras"] = "a plain text";
+	json["scenes"][0]["nodes"] = { 0, 1 };
+	json["scenes"][0]["extras"] = { { "weather", "dry" } };
+	json["images"] = Json::parse(R"([{"uri": "wood.png"}])");
+	json["animations"] = Json::array();
+	json["animations"].push_back({ { "channels", Json::array() }, { "samplers", Json::array() } });
+	p_folder.write("wood.png", std::string("not really an image"));
+	return json;
+}
+
+Light3D &get_light(Scene &p_scene) {
+	return *p_scene.find_nodes<Light3D>().at(0);
+}
+
+template <typename T> T *add(Node3D &p_parent, const std::string &p_name) {
+	auto node = std::make_unique<T>();
+	node->name = p_name;
+	return static_cast<T *>(p_parent.add_child(std::move(node)));
+}
+
+std::unique_ptr<Scene> make_generated_scene() {
+	auto scene = std::make_unique<Scene>();
+	scene->scene_size_m = 4;
+	auto *box = add<MeshInstance3D>(*scene->root, "Box");
+	box->parent_from_node = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(0, 1, 0));
+	box->is_planar_receiver = true;
+	auto wax = std::make_shared<Material>();
+	wax->name = "Wax";
+	wax->base_color = glm::vec3(0.1f, 0.2f, 0.3f);
+	wax->metallic = 0.25f;
+	wax->roughness = 0.7f;
+	wax->scatter = 0.6f;
+	wax->scatter_distance_m = 0.03f;
+	wax->emissive = glm::vec3(4, 2, 1);
+	wax->is_double_sided = true;
+	box->surfaces.push_back(
+			{ make_mesh("box", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 }), wax });
+	auto *copy = add<MeshInstance3D>(*box, "Copy");
+	copy->surfaces = box->surfaces;
+	copy->casts_shadow = false;
+	copy->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1e9 + 0.1, 0));
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		auto *light = add<Light3D>(*scene->root, "Light " + std::to_string(int(type)));
+		light->type = type;
+		light->intensity = 12.3f;
+		light->color = glm::vec3(0.1f, 0.7f, 1);
+		light->range_m = type == LightType::OMNI ? 9.9f : 0.0f;
+		light->inner_cone_rad = type == LightType::SPOT ? 0.1f : 0.0f;
+		light->outer_cone_rad = type == LightType::SPOT ? 0.76f : 0.785398163f;
+		light->properties = { { "light_size", 0.4 }, { "shadow_enabled", false },
+			{ "shadow_technique", std::string("pcss") }, { "pcss_taps", int64_t(32) } };
+		light->parent_from_node = glm::inverse(
+				glm::lookAt(glm::dvec3(1.8, 6, 1.2), glm::dvec3(0, 0.4, 0), glm::dvec3(0, 1, 0)));
+	}
+	auto *camera = add<Camera3D>(*scene->root, "Camera");
+	camera->vertical_fov_rad = 0.6435f;
+	camera->near_m = 0.02f;
+	return scene;
+}
+
+} // namespace
+
+TEST_CASE("[GltfWriter] a scene saved unchanged is the same file, value for value") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const Json json = make_desk(folder);
+	const auto scene = folder.load(json);
+	save_gltf(*scene, folder.path / "again.gltf");
+	CHECK(folder.read_json("again.gltf") == json);
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "again.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] moving a light and setting its size changes that and nothing else") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json expected = make_desk(folder);
+	const auto scene = folder.load(expected);
+	Light3D &light = get_light(*scene);
+	light.parent_from_node[3] = glm::dvec4(0.1, 4, -2, 1);
+	light.properties["light_size"] = 0.5;
+	light.properties["penumbra_outer_width"] = -1.0;
+	light.intensity = 0.3f;
+	scene->scene_size_m = 4;
+	save_gltf(*scene, folder.path / "scene.gltf");
+	expected["nodes"][1]["translation"] = { 0.1, 4, -2 };
+	Json &definition = expected["extensions"]["KHR_lights_punctual"]["lights"][0];
+	definition["extras"]["light_size"] = 0.5;
+	definition["extras"]["shadow_soft_size"] = 0.5; // the same thing under another name
+	definition["extras"]["penumbra_outer_width"] = -1.0;
+	definition["intensity"] = 0.3;
+	expected["scenes"][0]["extras"]["scene_size"] = 4.0;
+	CHECK(folder.read_json("scene.gltf") == expected);
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "scene.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] an unset property stays unset after loading, wherever it came from") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_desk(folder);
+	json["nodes"][1]["extras"]["light_size"] = 0.9;
+	const auto scene = folder.load(json);
+	get_light(*scene).properties.erase("light_size");
+	save_gltf(*scene, folder.path / "again.gltf");
+	const auto again = load_gltf(folder.path / "again.gltf");
+	CHECK_FALSE(get_light(*again).properties.contains("light_size"));
+	CHECK(folder.read_json("again.gltf")["nodes"][1]["extras"]["owner"] == "lighting");
+}
+
+TEST_CASE("[GltfWriter] a size that an area disc gave is written to the disc") {
+	GltfTestFolder folder;
+	Json json = make_lamp();
+	json["extensions"]["EXT_lights_area"]["lights"] = Json::array();
+	json["extensions"]["EXT_lights_area"]["lights"].push_back(
+			{ { "type", "disk" }, { "size", 0.6 } });
+	json["nodes"][0]["extensions"]["EXT_lights_area"] = { { "light", 0 } };
+	const auto scene = folder.load(json);
+	get_light(*scene).properties["light_size"] = 0.7;
+	save_gltf(*scene, folder.path / "again.gltf");
+	CHECK(get_light(*load_gltf(folder.path / "again.gltf")).properties ==
+			PropertyValues{ { "light_size", 0.7 } });
+}
+
+TEST_CASE("[GltfWriter] one of two nodes that share a light can be changed alone") {
+	GltfTestFolder folder;
+	Json json = make_lamp();
+	json["nodes"].push_back(json["nodes"][0]);
+	json["scenes"][0]["nodes"] = { 0, 1 };
+	const auto scene = folder.load(json);
+	get_light(*scene).properties["light_size"] = 0.7;
+	save_gltf(*scene, folder.path / "again.gltf");
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "again.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] turned, sheared and scaled nodes come back as they were") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const auto scene = folder.load(make_desk(folder));
+	Light3D &light = get_light(*scene);
+	light.parent_from_node =
+			glm::rotate(glm::dmat4(1.0), 2.9, glm::normalize(glm::dvec3(3, -1, 2))) *
+			glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 2, 1e-3));
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(folder.read_json("a.gltf")["nodes"][1].contains("rotation"));
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
+	light.parent_from_node[0] += light.parent_from_node[1] * 0.3;
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(folder.read_json("a.gltf")["nodes"][1].contains("matrix"));
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] saved elsewhere, buffers and images come along and overwrite nothing") {
+	GltfTestFolder folder;
+	GltfTestFolder other;
+	GltfTestLog log;
+	const auto scene = folder.load(make_desk(folder));
+	other.write("data.bin", std::string("somebody else's"));
+	save_gltf(*scene, other.path / "copy.gltf");
+	CHECK(load_text_file(other.path / "data.bin") == "somebody else's");
+	CHECK(other.read_json("copy.gltf")["buffers"][0]["uri"] == "data_2.bin");
+	CHECK(load_text_file(other.path / "wood.png") == "not really an image");
+	save_gltf(*scene, other.path / "copy.gltf"); // the same again needs no third name
+	CHECK(other.read_json("copy.gltf")["buffers"][0]["uri"] == "data_2.bin");
+	CHECK(find_difference(*scene, *load_gltf(other.path / "copy.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] binary and text form turn into each other, further chunks are kept") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const auto scene = folder.load(make_desk(folder));
+	save_gltf(*scene, folder.path / "desk.glb");
+	fs::remove(folder.path / "data.bin");
+	auto binary = load_gltf(folder.path / "desk.glb");
+	CHECK(find_difference(*scene, *binary) == "");
+	get_light(*binary).properties["light_size"] = 0.6;
+	save_gltf(*binary, folder.path / "desk.glb");
+	CHECK(find_difference(*binary, *load_gltf(folder.path / "desk.glb")) == "");
+	save_gltf(*binary, folder.path / "desk.gltf");
+	CHECK(find_difference(*binary, *load_gltf(folder.path / "desk.gltf")) == "");
+	CHECK(fs::exists(folder.path / "desk.bin"));
+
+	std::vector<uint8_t> bytes = load_file(folder.path / "desk.glb");
+	const std::vector<uint8_t> chunk = { 4, 0, 0, 0, 'N', 'O', 'T', 'E', 1, 2, 3, 4 };
+	bytes.insert(bytes.end(), chunk.begin(), chunk.end());
+	const uint32_t length = static_cast<uint32_t>(bytes.size());
+	std::memcpy(bytes.data() + 8, &length, sizeof(length));
+	folder.write("note.glb", bytes);
+	save_gltf(*load_gltf(folder.path / "note.glb"), folder.path / "note2.glb");
+	CHECK(load_file(folder.path / "note2.glb") == bytes);
+}
+
+TEST_CASE("[GltfWriter] a generated scene is saved in full, in both forms") {
+	GltfTestFolder folder;
+	const auto scene = make_generated_scene();
+	for (const char *name : { "made.gltf", "made.glb", "made.gltf" }) {
+		CAPTURE(name);
+		save_gltf(*scene, folder.path / name);
+		CHECK(find_difference(*scene, *load_gltf(folder.path / name)) == "");
+	}
+	const Json json = folder.read_json("made.gltf");
+	CHECK(json["meshes"].size() == 1); // shared by two nodes
+	CHECK(json["accessors"][0].contains("min"));
+	CHECK(json["extensionsUsed"].size() == 2);
+	CHECK(json["buffers"][0]["uri"] == "made.bin");
+	CHECK(json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"].dump() == "12.3");
+}
+
+TEST_CASE("[GltfWriter] nodes can be added, removed and hung elsewhere") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	for (const char *name : { "again.gltf", "again.glb" }) {
+		CAPTURE(name);
+		const auto scene = folder.load(make_desk(folder));
+		// The light goes below a new mesh; the triangle is removed.
+		auto light = std::move(scene->root->children[1]);
+		light->parent = nullptr;
+		scene->root->children.clear();
+		auto *box = add<MeshInstance3D>(*scene->root, "Box");
+		box->surfaces.push_back(
+				{ make_mesh("box", { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 } }, {}, { 0, 1, 2 }),
+						std::make_shared<Material>() });
+		box->add_child(std::move(light));
+		add<Camera3D>(*scene->root, "Camera");
+		save_gltf(*scene, folder.path / name);
+		const auto again = load_gltf(folder.path / name);
+		CHECK(find_difference(*scene, *again) == "");
+		again->root->children.clear();
+		save_gltf(*again, folder.path / name);
+		CHECK(load_gltf(folder.path / name)->root->children.empty());
+	}
+}
+
+TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and removed") {
+	GltfTestFolder folder;
+	Json json = make_triangle(folder);
+	json["extensions"] = make_lamp()["extensions"];
+	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
+	const auto scene = folder.load(json);
+	Light3D &light = get_light(*scene);
+	light.properties["light_size"] = 0.3;
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(folder.read_json("a.gltf")["nodes"].size() == 1);
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
+	light.parent_from_node[3].y = 2;
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(folder.read_json("a.gltf")["nodes"].size() == 2);
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
+	light.parent->children.clear();
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
+}
+
+TEST_CASE("[GltfWriter] what no file can hold, and where none can be, is refused by name") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const auto scene = folder.load(make_desk(folder));
+	const std::string before = load_text_file(folder.path / "scene.gltf");
+	CHECK_THROWS_WITH_AS(
+			save_gltf(*scene, folder.path / "a.obj"), doctest::Contains(".gltf or .glb"), Error);
+	CHECK_THROWS_AS(save_gltf(*scene, folder.path / "missing" / "a.gltf"), Error);
+	get_light(*scene).intensity = NAN;
+	CHECK_THROWS_WITH_AS(save_gltf(*scene, folder.path / "scene.gltf"),
+			doctest::Contains("Light \"Lamp\": intensity is not finite"), Error);
+	get_light(*scene).intensity = 1;
+	get_light(*scene).parent_from_node[1].y = INFINITY;
+	CHECK_THROWS_WITH_AS(save_gltf(*scene, folder.path / "scene.gltf"),
+			doctest::Contains("Node \"Lamp\""), Error);
+	CHECK(load_text_file(folder.path / "scene.gltf") == before);
+}
