@@ -37,6 +37,7 @@ def make_small_tree(root):
     add_file(root, "modules/scene/node.h", '#include "modules/core/register_types.h"\n#include <vector>\n')
     add_file(root, "modules/rendering_device/device.cpp", "#include <vulkan/vulkan.h>\n")
     add_file(root, "modules/main/window.cpp", "#include <GLFW/glfw3.h>\n")
+    add_file(root, "modules/rendering_device/vulkan_handles.h", "#include <vulkan/vulkan_core.h>\n")
     add_file(root, "shaders/common/depth_inc.glsl", "// moon, Sun and lamp_fan without quotes are words\n")
     add_file(root, "shaders/shared/shared_begin.h", "#include <cstdint>\n")
     add_file(root, "shaders/shadow_lamp/fan.frag", '#include "common/depth_inc.glsl"\n')
@@ -70,6 +71,10 @@ BREACHES = (
      lambda root: break_config(root, "shadow_lamp", ["renderer", "gone"], 4)),
     ("Vulkan in the renderer", "check_vulkan",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <vulkan/vulkan_raii.hpp>\n")),
+    ("Vulkan's handles in the renderer", "check_vulkan",
+     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/vulkan_handles.h"\n')),
+    ("Vulkan in main", "check_vulkan",
+     lambda root: add_file(root, "modules/main/window.cpp", "#include <vulkan/vulkan_core.h>\n")),
     ("Vulkan in a test", "check_vulkan",
      lambda root: add_file(root, "tests/a.cpp", '#include "vulkan.h"\n')),
     ("GLFW in the renderer", "check_window_library",
