@@ -110,7 +110,15 @@ void RenderGraph::execute(Mode p_mode) {
 	cull();
 	compute_lifetimes();
 	allocate();
+	try {
+		run_passes(p_mode);
+	} catch (...) {
+		device.abandon_commands(); // what was recorded so far must not meet the next frame
+		throw;
+	}
+}
 
+void RenderGraph::run_passes(Mode p_mode) {
 	const Clock::time_point start = Clock::now();
 	Clock::time_point pass_start = start;
 	CommandList *commands = nullptr;

@@ -159,6 +159,7 @@ private:
 	void compute_lifetimes();
 	void allocate();
 	void collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &r_barriers);
+	void run_passes(Mode p_mode);
 	void record_pass(Pass &p_pass, CommandList &p_commands);
 	void rest_imported(std::vector<Barrier> &r_barriers);
 	Resource *find_window_image(const Pass &p_pass);

@@ -1,0 +1,198 @@
+#include "modules/core/error.h"
+#include "modules/render_graph/render_graph.h"
+#include "modules/render_graph/transient_pool.h"
+
+#include <cstring>
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+struct GraphFixture {
+	std::unique_ptr<RenderingDevice> device;
+	std::unique_ptr<TransientPool> pool;
+
+	GraphFixture() {
+		DeviceOptions options;
+		options.validation = true;
+		device = RenderingDevice::create(options);
+		pool = std::make_unique<TransientPool>(*device);
+	}
+};
+
+TextureDesc make_desc(const char *p_name, uint32_t p_size_px = 64) {
+	return { p_name, Format::R32_SFLOAT, glm::uvec2(p_size_px), 1,
+		TextureUsage::COPY_SOURCE | TextureUsage::COPY_TARGET | TextureUsage::SAMPLED };
+}
+
+void add_fill(RenderGraph &r_graph, RGTexture p_target, float p_value) {
+	r_graph.add_pass("fill")
+			.writes(p_target, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.clear_color(p_context.get(p_target), glm::vec4(p_value));
+			});
+}
+
+void add_copy(RenderGraph &r_graph, RGTexture p_source, RGTexture p_target) {
+	r_graph.add_pass("copy")
+			.reads(p_source, Access::COPY_READ)
+			.writes(p_target, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.copy_texture(p_context.get(p_source), p_context.get(p_target));
+			});
+}
+
+/// The first texel, read on the CPU; keeps everything before it alive.
+void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value) {
+	const glm::uvec2 size_px = r_graph.get_desc(p_texture).size_px;
+	const RGBuffer buffer = r_graph.create_buffer({ "readback", 4ull * size_px.x * size_px.y,
+			BufferUsage::COPY_TARGET, MemoryKind::READBACK });
+	r_graph.add_pass("read back")
+			.reads(p_texture, Access::COPY_READ)
+			.writes(buffer, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.copy_texture_to_buffer(
+						p_context.get(p_texture), p_context.get(buffer));
+			});
+	r_graph.add_pass("host read")
+			.reads(buffer, Access::HOST_READ)
+			.keep()
+			.execute_on_host([=, &r_value](HostContext &p_context) {
+				std::memcpy(&r_value, p_context.get_mapped(buffer), sizeof(float));
+			});
+}
+
+} // namespace
+
+TEST_CASE("[GPU][RenderGraph] values pass through a chain of copies in every mode") {
+	GraphFixture fixture;
+	for (RenderGraph::Mode mode : { RenderGraph::Mode::WAIT, RenderGraph::Mode::ONE_BY_ONE,
+				 RenderGraph::Mode::QUEUE }) {
+		RenderGraph graph(*fixture.device, *fixture.pool);
+		RGTexture texture = graph.create_texture(make_desc("first"));
+		add_fill(graph, texture, 0.75f);
+		for (int step = 0; step < 5; ++step) {
+			const RGTexture next = graph.create_texture(make_desc("next"));
+			add_copy(graph, texture, next);
+			texture = next;
+		}
+		float value = 0;
+		add_read(graph, texture, value);
+		graph.execute(mode);
+		CHECK(value == 0.75f);
+	}
+}
+
+TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool keeps it") {
+	GraphFixture fixture;
+	uint64_t used_bytes = 0;
+	for (int frame = 0; frame < 3; ++frame) {
+		RenderGraph graph(*fixture.device, *fixture.pool);
+		RGTexture texture = graph.create_texture(make_desc("first"));
+		add_fill(graph, texture, 0.5f);
+		for (int step = 0; step < 7; ++step) {
+			const RGTexture next = graph.create_texture(make_desc("next"));
+			add_copy(graph, texture, next);
+			texture = next;
+		}
+		float value = 0;
+		add_read(graph, texture, value);
+		graph.execute(RenderGraph::Mode::WAIT);
+		CHECK(value == 0.5f);
+		// Eight textures, of which two live at a time.
+		CHECK(graph.get_aliased_bytes() * 3 <= graph.get_unaliased_bytes());
+		if (frame > 0) {
+			CHECK(fixture.device->get_memory_use().used_bytes == used_bytes);
+		}
+		used_bytes = fixture.device->get_memory_use().used_bytes;
+	}
+}
+
+TEST_CASE("[GPU][RenderGraph] a pass whose result nobody uses does not run, nor do its sources") {
+	GraphFixture fixture;
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGTexture unused = graph.create_texture(make_desc("unused"));
+	const RGTexture unused_copy = graph.create_texture(make_desc("unused copy"));
+	const RGTexture used = graph.create_texture(make_desc("used"));
+	add_fill(graph, unused, 1.0f);
+	add_copy(graph, unused, unused_copy);
+	add_fill(graph, used, 2.0f);
+	float value = 0;
+	add_read(graph, used, value);
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(value == 2.0f);
+	CHECK(graph.get_culled_passes() == std::vector<std::string>{ "fill", "copy" });
+	CHECK(graph.to_dot().find("style=dashed") != std::string::npos);
+}
+
+TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame to frame") {
+	GraphFixture fixture;
+	OwnedTexture kept(*fixture.device, fixture.device->create_texture(make_desc("kept")));
+	{
+		RenderGraph graph(*fixture.device, *fixture.pool);
+		add_fill(graph, graph.import_texture(kept.get(), RenderGraph::ImportedContent::NONE), 3.0f);
+		graph.execute(RenderGraph::Mode::QUEUE);
+	}
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGTexture texture =
+			graph.import_texture(kept.get(), RenderGraph::ImportedContent::KEPT);
+	const RGTexture copy = graph.create_texture(make_desc("copy"));
+	add_copy(graph, texture, copy);
+	float value = 0;
+	add_read(graph, copy, value);
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(value == 3.0f);
+}
+
+TEST_CASE("[GPU][RenderGraph] passes have names and times, and wall time when run one by one") {
+	GraphFixture fixture;
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	graph.set_pass_prefix("Lamp: ");
+	const RGTexture texture = graph.create_texture(make_desc("big", 512));
+	add_fill(graph, texture, 1.0f);
+	float value = 0;
+	add_read(graph, texture, value);
+	graph.execute(RenderGraph::Mode::ONE_BY_ONE);
+	REQUIRE(graph.get_timings().size() == 3);
+	CHECK(graph.get_timings()[0].name == "Lamp: fill");
+	CHECK(graph.get_timings()[0].gpu_ms > 0);
+	CHECK(graph.get_timings()[0].wall_ms > 0);
+	CHECK(graph.get_wall_ms() >= graph.get_timings()[0].wall_ms);
+}
+
+TEST_CASE("[GPU][RenderGraph] an error in a pass ends the frame, and the next frame works") {
+	GraphFixture fixture;
+	{
+		RenderGraph graph(*fixture.device, *fixture.pool);
+		const RGTexture texture = graph.create_texture(make_desc("texture"));
+		graph.add_pass("bad").writes(texture, Access::COPY_WRITE).keep().execute([](PassContext &) {
+			fail("Pass: broken on purpose.");
+		});
+		CHECK_THROWS_AS(graph.execute(RenderGraph::Mode::WAIT), Error);
+	}
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGTexture texture = graph.create_texture(make_desc("texture"));
+	add_fill(graph, texture, 4.0f);
+	float value = 0;
+	add_read(graph, texture, value);
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(value == 4.0f);
+}
+
+TEST_CASE("[GPU][RenderGraph] a lost device is reported with the last pass that began") {
+	GraphFixture fixture;
+	fixture.device->inject_device_lost();
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGTexture texture = graph.create_texture(make_desc("texture"));
+	add_fill(graph, texture, 4.0f);
+	float value = 0;
+	add_read(graph, texture, value);
+	std::string message;
+	try {
+		graph.execute(RenderGraph::Mode::WAIT);
+	} catch (const Error &error) {
+		message = error.what();
+	}
+	CHECK_MESSAGE(message.find("read back") != std::string::npos, message);
+}

@@ -1,0 +1,53 @@
+#include "modules/render_graph/transient_pool.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+
+bool overlaps(const PlacedBlock &p_left, const PlacedBlock &p_right) {
+	const bool in_time = p_left.first_pass <= p_right.last_pass &&
+			p_right.first_pass <= p_left.last_pass;
+	const bool in_memory = p_left.offset_bytes < p_right.offset_bytes + p_right.size_bytes &&
+			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
+	return in_time && in_memory;
+}
+
+} // namespace
+
+TEST_CASE("[TransientPool] blocks that live one after the other share their memory") {
+	std::vector<PlacedBlock> blocks = { { 100, 1, 0, 1 }, { 100, 1, 2, 3 }, { 60, 1, 4, 4 } };
+	CHECK(place_blocks(blocks) == 100);
+	CHECK(blocks[0].offset_bytes == blocks[1].offset_bytes);
+}
+
+TEST_CASE("[TransientPool] blocks that live at the same time do not, and offsets are aligned") {
+	std::vector<PlacedBlock> blocks = { { 100, 64, 0, 2 }, { 100, 64, 2, 3 } };
+	CHECK(place_blocks(blocks) == 228);
+	CHECK(blocks[1].offset_bytes % 64 == 0);
+}
+
+TEST_CASE("[TransientPool] no two of 200 random sets of blocks overlap") {
+	std::mt19937 random(7);
+	const auto draw = [&](uint32_t p_limit) { return static_cast<uint32_t>(random() % p_limit); };
+	for (int set = 0; set < 200; ++set) {
+		std::vector<PlacedBlock> blocks(1 + draw(20));
+		uint64_t sum_bytes = 0;
+		for (PlacedBlock &block : blocks) {
+			block.size_bytes = 1 + draw(1000);
+			block.alignment_bytes = uint64_t(1) << draw(9);
+			block.first_pass = draw(30);
+			block.last_pass = block.first_pass + draw(10);
+			sum_bytes += block.size_bytes + block.alignment_bytes;
+		}
+		CHECK(place_blocks(blocks) <= sum_bytes);
+		for (size_t left = 0; left < blocks.size(); ++left) {
+			CHECK(blocks[left].offset_bytes % blocks[left].alignment_bytes == 0);
+			for (size_t right = left + 1; right < blocks.size(); ++right) {
+				CHECK_FALSE(overlaps(blocks[left], blocks[right]));
+			}
+		}
+	}
+}

@@ -1,0 +1,226 @@
+// What every technique must do, asked of each one that is registered; none is named here.
+
+#include "modules/core/embedded_shaders.h"
+#include "modules/core/error.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+#include <limits>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };
+const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
+
+/// Reference rays are few here: these tests ask for rules, not for precision.
+template <typename Function> void for_each_technique(Function p_function) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		CAPTURE(info.id);
+		p_function(info);
+	}
+}
+
+template <typename Function> void for_each_technique_and_type(Function p_function) {
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		for (LightType type : ALL_TYPES) {
+			CAPTURE(TYPE_NAMES[static_cast<int>(type)]);
+			p_function(p_info, type);
+		}
+	});
+}
+
+/// Cheap settings for properties that make a technique slow; by name's ending, not by technique.
+void make_cheap(Light3D &r_light) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		for (const PropertyInfo &property :
+				ShadowRegistry::get_light_properties(info.id).get_properties()) {
+			if (property.name.ends_with("_samples")) {
+				r_light.properties[property.name] = int64_t(64);
+			} else if (property.name.ends_with("_count")) {
+				r_light.properties[property.name] = int64_t(4);
+			} else if (property.name.ends_with("_map_size")) {
+				r_light.properties[property.name] = int64_t(256);
+			}
+		}
+	}
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Techniques] masks are finite, in 0..1, and hold light and shadow") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		const RenderResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(is_valid_mask(result));
+		size_t lit_count = 0;
+		size_t dark_count = 0;
+		for (size_t index = 0; index < result.visibility.size(); ++index) {
+			lit_count += result.receiver[index] > 0 && result.visibility[index] > 0.95f;
+			dark_count += result.receiver[index] > 0 && result.visibility[index] < 0.05f;
+		}
+		CHECK(lit_count > 500);
+		CHECK(dark_count > 30);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] without casters every receiver sees all of the light, exactly") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.ground->casts_shadow = false;
+		scene.box->casts_shadow = false;
+		const RenderResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(count_receivers(result) > 1000);
+		CHECK(result.visibility == result.receiver);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is lit") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		// Wide and near the light; below it are all other receivers.
+		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }),
+				{ 0, 3.7, 0 });
+		const RenderResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(count_receivers(result) > 0);
+		for (size_t index = 0; index < result.visibility.size(); ++index) {
+			CHECK_MESSAGE(result.visibility[index] == 0.0f, "pixel ", index);
+			if (result.visibility[index] != 0.0f) {
+				break;
+			}
+		}
+	});
+}
+
+TEST_CASE("[GPU][Techniques] what is left out does not change one bit of the mask") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.ground->casts_shadow = false; // leaves views without casters
+		const RenderResult all = fixture.render_mask(scene, p_info.id, glm::uvec2(64), false);
+		const RenderResult first = fixture.render_mask(scene, p_info.id);
+		const RenderResult second = fixture.render_mask(scene, p_info.id); // may keep
+		CHECK(all.visibility == first.visibility);
+		CHECK(all.visibility == second.visibility);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] scenes of any size and far from the origin have the same mask") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		const RenderResult result = fixture.render_mask(scene, p_info.id);
+		for (double scale : { 1e-3, 1e3 }) {
+			SmallScene scaled(p_type, scale);
+			make_cheap(*scaled.light);
+			CAPTURE(scale);
+			CHECK(compute_mask_difference(result, fixture.render_mask(scaled, p_info.id)) < 5e-3);
+		}
+		SmallScene moved(p_type, 1.0, { 1e5, -3e4, 7e4 });
+		make_cheap(*moved.light);
+		CHECK(compute_mask_difference(result, fixture.render_mask(moved, p_info.id)) < 5e-3);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		SUBCASE("a light without size") {
+			scene.light->properties["light_size"] = 0.0;
+			scene.light->properties["light_angular_distance"] = 0.0;
+		}
+		SUBCASE("a light larger than the scene") {
+			scene.light->properties["light_size"] = 10.0;
+			scene.light->properties["light_angular_distance"] = 90.0;
+			scene.light->properties["penumbra_outer_width"] = 10.0;
+		}
+		SUBCASE("the light inside the box") {
+			scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 0, 0, 0.01 });
+		}
+		SUBCASE("the light on the ground") {
+			scene.light->parent_from_node = look_at({ 1, 0, 0 }, { 0, 0, 0 });
+		}
+		SUBCASE("the light below everything") {
+			scene.light->parent_from_node = look_at({ 0, -5, 0 }, { 0, -8, 0.1 });
+		}
+		SUBCASE("a caster across the light's near plane") {
+			add_mesh(scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
+					{ 1.2, 3.0, 0.8 });
+		}
+		SUBCASE("slivers, duplicates, zero area and zero normals") {
+			std::vector<glm::vec3> positions = { { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 },
+				{ 0.5f, 2, 1e-7f }, { 0, 2, 0 }, { 0, 2, 1 } };
+			add_mesh(scene.scene, "Odd",
+					make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
+							{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 }),
+					{ 0, 0, 0 });
+		}
+		SUBCASE("coincident receivers and casters") {
+			add_mesh(scene.scene, "Twin",
+					make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)), { 0, 1.0, 0 });
+		}
+		SUBCASE("a narrow cone") {
+			scene.light->outer_cone_rad = 1e-3f;
+		}
+		SUBCASE("a cone of half a sphere") {
+			scene.light->outer_cone_rad = 1.5707963f;
+		}
+		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
+	});
+}
+
+TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are whole") {
+	RenderFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		CHECK(fixture.render_mask(scene, p_info.id, { 1, 1 }).visibility.size() == 1);
+		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, { 67, 13 })));
+	});
+}
+
+TEST_CASE("[GPU][Techniques] every debug view can be shown, and an unknown one is refused") {
+	RenderFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		RenderRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(32);
+		request.technique_override = p_info.id;
+		request.wants_image = true;
+		request.debug_view = "mask";
+		CHECK(fixture.renderer->render(request).image.size() == 32 * 32 * 4);
+		request.debug_view = "no such view";
+		CHECK_THROWS_AS(fixture.renderer->render(request), Error);
+	});
+}
+
+TEST_CASE("[Techniques] every shader file exists, every property has a tooltip and a range") {
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		for (const std::string &file : p_info.make()->get_shader_files()) {
+			CHECK_FALSE(find_embedded_shader(file).empty());
+		}
+		for (const PropertyInfo &property :
+				ShadowRegistry::get_light_properties(p_info.id).get_properties()) {
+			CHECK_MESSAGE(property.tooltip.size() > 10, property.name);
+			CHECK_MESSAGE((property.type == PropertyType::BOOL ||
+								  property.type == PropertyType::STRING ||
+								  property.hint.find(',') != std::string::npos),
+					property.name);
+		}
+		CHECK_FALSE(p_info.name.empty());
+		CHECK_FALSE(p_info.source.empty());
+	});
+}

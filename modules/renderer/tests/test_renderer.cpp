@@ -1,0 +1,180 @@
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+struct CaughtLines {
+	std::vector<std::string> lines;
+	LogSink before;
+	CaughtLines() {
+		before = set_log_sink(
+				[this](LogLevel, const std::string &p_line) { lines.push_back(p_line); });
+	}
+	~CaughtLines() { set_log_sink(before); }
+};
+
+double compute_mean(const RenderResult &p_result) {
+	double sum = 0;
+	for (uint8_t byte : p_result.image) {
+		sum += byte;
+	}
+	return sum / double(p_result.image.size());
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Renderer] a light makes the picture brighter, and its shadow darker again") {
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.light->properties["shadow_enabled"] = false;
+	const RenderResult without_shadow = fixture.render_picture(scene);
+	scene.light->properties["shadow_enabled"] = true;
+	const RenderResult with_shadow = fixture.render_picture(scene);
+	CHECK(compute_mean(with_shadow) < compute_mean(without_shadow));
+	CHECK(without_shadow.plan.is_left_out("Light", "shadow"));
+	CHECK_FALSE(with_shadow.plan.is_left_out("Light", "shadow"));
+}
+
+TEST_CASE("[GPU][Renderer] a light whose range ends before the view is left out, unseen") {
+	RenderFixture fixture;
+	SmallScene scene;
+	Light3D &far_light = scene.add_light(
+			"Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
+	far_light.range_m = 5.0f;
+	const RenderResult lean = fixture.render_picture(scene);
+	const RenderResult whole = fixture.render_picture(scene, "", false);
+	CHECK(lean.plan.is_left_out("Far", "light"));
+	CHECK_FALSE(whole.plan.is_left_out("Far", "light"));
+	CHECK(lean.image == whole.image);
+	CHECK(lean.timings.size() < whole.timings.size());
+}
+
+TEST_CASE("[GPU][Renderer] scenes without lights, with many, and without meshes in view") {
+	RenderFixture fixture;
+	SmallScene scene;
+	for (int index = 0; index < 64; ++index) {
+		const double angle = index * 0.1;
+		scene.add_light(text("Light ", index), index % 2 ? LightType::SPOT : LightType::OMNI,
+				{ 3 * std::cos(angle), 3.0, 3 * std::sin(angle) }, { 0, 0, 0 });
+	}
+	CHECK(fixture.render_picture(scene).image.size() == 64 * 64 * 4);
+	scene.camera->parent_from_node = look_at({ 0, 50, 0 }, { 0, 100, 0.1 });
+	const RenderResult nothing = fixture.render_picture(scene);
+	CHECK(nothing.image.size() == 64 * 64 * 4);
+	SmallScene dark;
+	dark.scene.root->children.pop_back(); // the light
+	RenderRequest request;
+	request.scene = dark.snap();
+	request.size_px = glm::uvec2(16);
+	request.wants_image = true;
+	CHECK(fixture.renderer->render(request).image.size() == 16 * 16 * 4);
+}
+
+TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that names it") {
+	RenderFixture fixture;
+	SmallScene scene;
+	CHECK_THROWS_WITH_AS(fixture.render_picture(scene, "no_such_technique"),
+			doctest::Contains("no_such_technique"), Error);
+	CHECK_THROWS_AS(fixture.render_mask(scene, "", { 0, 4 }), Error);
+	CHECK_THROWS_AS(fixture.render_mask(scene, "", { 100000, 4 }), Error);
+	scene.light->name = "Lamp";
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.mask_light = "Other";
+	CHECK_THROWS_AS(fixture.renderer->render(request), Error);
+	CHECK(fixture.render_picture(scene).image.size() == 64 * 64 * 4); // and goes on
+}
+
+TEST_CASE("[GPU][Renderer] a light whose technique is missing takes the fallback and says so once") {
+	const ShadowTechniqueInfo *fallback = ShadowRegistry::find_fallback();
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.light->properties["shadow_technique"] = std::string("from_another_build");
+	scene.light->properties["from_another_build_quality"] = int64_t(7);
+	CaughtLines log;
+	const RenderResult result = fixture.render_picture(scene);
+	fixture.render_picture(scene);
+	REQUIRE(log.lines.size() == 1);
+	CHECK(log.lines[0].find("from_another_build") != std::string::npos);
+	CHECK(result.plan.is_left_out("Light", fallback ? "from_another_build" : "shadow"));
+	CHECK(scene.light->properties.count("from_another_build_quality") == 1);
+}
+
+TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while frames are drawn") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult before = fixture.render_picture(scene);
+	std::vector<std::string> names;
+	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		if (module.can_disable && module.is_enabled) {
+			names.push_back(module.name);
+		}
+	}
+	CaughtLines log;
+	const size_t technique_count = ShadowRegistry::get_techniques().size();
+	for (const std::string &name : names) {
+		ModuleRegistry::set_enabled(name, false);
+		CHECK(fixture.render_picture(scene).image.size() == before.image.size());
+	}
+	CHECK(ShadowRegistry::get_techniques().empty());
+	const RenderResult none = fixture.render_picture(scene);
+	CHECK(none.plan.is_left_out("Light", "shadow"));
+	for (const std::string &name : names) {
+		ModuleRegistry::set_enabled(name, true);
+	}
+	CHECK(ShadowRegistry::get_techniques().size() == technique_count);
+	CHECK(fixture.render_picture(scene).image == before.image);
+}
+
+TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default is used") {
+	RenderFixture fixture;
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		for (const PropertyInfo &property :
+				ShadowRegistry::get_light_properties(info.id).get_properties()) {
+			if (property.type != PropertyType::INT) {
+				continue;
+			}
+			LightSnapshot light;
+			light.name = "Lamp of " + property.name;
+			light.properties[property.name] = int64_t(-77);
+			CaughtLines log;
+			const PropertyValues values = resolve_light_properties(
+					light, ShadowRegistry::get_light_properties(info.id));
+			resolve_light_properties(light, ShadowRegistry::get_light_properties(info.id));
+			CHECK(values.at(property.name) == property.default_value);
+			REQUIRE(log.lines.size() == 1);
+			CHECK(log.lines[0].find("-77") != std::string::npos);
+		}
+	}
+}
+
+TEST_CASE("[GPU][Renderer] memory is given back when the scene's meshes are gone") {
+	RenderFixture fixture;
+	uint64_t used_bytes = 0;
+	for (int round = 0; round < 3; ++round) {
+		SmallScene scene; // new meshes each time
+		fixture.render_picture(scene);
+		fixture.render_picture(scene);
+		if (round > 0) {
+			CHECK(fixture.device->get_memory_use().used_bytes <= used_bytes + 4096);
+		}
+		used_bytes = fixture.device->get_memory_use().used_bytes;
+	}
+}
+
+TEST_CASE("[GPU][Renderer] mirrored and single-sided meshes show their lit sides") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult plain = fixture.render_mask(scene, "");
+	// A box is its own mirror image.
+	scene.box->parent_from_node =
+			scene.box->parent_from_node * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+	const RenderResult mirrored = fixture.render_mask(scene, "");
+	CHECK(compute_mask_difference(plain, mirrored) < 1e-3);
+}
