@@ -1,5 +1,6 @@
 #include "modules/renderer/lighting.h"
 
+#include "modules/render_graph/compute_pass.h"
 #include "renderer/renderer_shared.h"
 
 namespace gnomon {
@@ -41,24 +42,16 @@ RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 			p_device.get_compute_pipeline({ "receivers", "renderer/receivers.comp", {} });
 	const RGTexture receivers = r_graph.create_texture({ "receivers", Format::R8_UNORM, p_size_px,
 			1, TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	r_graph.add_pass("receivers")
-			.reads(p_frame, Access::UNIFORM_READ)
-			.reads(p_light, Access::UNIFORM_READ)
-			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.geometric_normal, Access::SHADER_READ_COMPUTE)
-			.writes(receivers, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
-						{ RENDERER_BINDING_LIGHT, p_context.get(p_light) },
-						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
-						{ RENDERER_BINDING_GEOMETRIC_NORMAL,
-								p_context.get(p_gbuffer.geometric_normal) },
-						{ RENDERER_BINDING_RECEIVERS, p_context.get(receivers) },
-				});
-				p_context.commands.dispatch_items({ p_size_px, 1 });
-			});
+	add_compute_pass(r_graph, "receivers", pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::constants(RENDERER_BINDING_LIGHT, p_light),
+					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
+					PassBinding::read(
+							RENDERER_BINDING_GEOMETRIC_NORMAL, p_gbuffer.geometric_normal),
+					PassBinding::write(RENDERER_BINDING_RECEIVERS, receivers),
+			},
+			glm::uvec3(p_size_px, 1u));
 	return receivers;
 }
 
@@ -79,23 +72,15 @@ RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 			p_device.get_compute_pipeline({ "ambient", "renderer/ambient.comp", {} });
 	const RGTexture radiance = r_graph.create_texture({ "radiance", Format::RGBA16_SFLOAT,
 			p_size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
-	r_graph.add_pass("ambient")
-			.reads(p_frame, Access::UNIFORM_READ)
-			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.base_color, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.emissive, Access::SHADER_READ_COMPUTE)
-			.writes(radiance, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
-						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
-						{ RENDERER_BINDING_BASE_COLOR, p_context.get(p_gbuffer.base_color) },
-						{ RENDERER_BINDING_EMISSIVE, p_context.get(p_gbuffer.emissive) },
-						{ RENDERER_BINDING_RADIANCE, p_context.get(radiance) },
-				});
-				p_context.commands.dispatch_items({ p_size_px, 1 });
-			});
+	add_compute_pass(r_graph, "ambient", pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
+					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_gbuffer.base_color),
+					PassBinding::read(RENDERER_BINDING_EMISSIVE, p_gbuffer.emissive),
+					PassBinding::write(RENDERER_BINDING_RADIANCE, radiance),
+			},
+			glm::uvec3(p_size_px, 1u));
 	return radiance;
 }
 
@@ -104,32 +89,20 @@ void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GB
 		RGTexture p_radiance, glm::uvec2 p_size_px) {
 	const PipelineRID pipeline =
 			p_device.get_compute_pipeline({ "lighting", "renderer/lighting.comp", {} });
-	r_graph.add_pass("lighting")
-			.reads(p_frame, Access::UNIFORM_READ)
-			.reads(p_light, Access::UNIFORM_READ)
-			.reads(p_gbuffer.depth, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.base_color, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.shading_normal, Access::SHADER_READ_COMPUTE)
-			.reads(p_gbuffer.material, Access::SHADER_READ_COMPUTE)
-			.reads(p_receivers, Access::SHADER_READ_COMPUTE)
-			.reads(p_mask, Access::SHADER_READ_COMPUTE)
-			.writes(p_radiance, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
-						{ RENDERER_BINDING_LIGHT, p_context.get(p_light) },
-						{ RENDERER_BINDING_DEPTH, p_context.get(p_gbuffer.depth) },
-						{ RENDERER_BINDING_SHADING_NORMAL,
-								p_context.get(p_gbuffer.shading_normal) },
-						{ RENDERER_BINDING_MATERIAL, p_context.get(p_gbuffer.material) },
-						{ RENDERER_BINDING_BASE_COLOR, p_context.get(p_gbuffer.base_color) },
-						{ RENDERER_BINDING_RECEIVERS, p_context.get(p_receivers) },
-						{ RENDERER_BINDING_MASK, p_context.get(p_mask) },
-						{ RENDERER_BINDING_RADIANCE, p_context.get(p_radiance) },
-				});
-				p_context.commands.dispatch_items({ p_size_px, 1 });
-			});
+	add_compute_pass(r_graph, "lighting", pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::constants(RENDERER_BINDING_LIGHT, p_light),
+					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
+					PassBinding::read(RENDERER_BINDING_SHADING_NORMAL, p_gbuffer.shading_normal),
+					PassBinding::read(RENDERER_BINDING_MATERIAL, p_gbuffer.material),
+					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_gbuffer.base_color),
+					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),
+					PassBinding::read(RENDERER_BINDING_MASK, p_mask),
+					PassBinding::write(RENDERER_BINDING_RADIANCE, p_radiance,
+							PassBuilder::Content::UPDATE),
+			},
+			glm::uvec3(p_size_px, 1u));
 }
 
 namespace {
@@ -146,19 +119,13 @@ RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGB
 	const PipelineRID pipeline =
 			p_device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} });
 	const RGTexture output = create_output(r_graph, p_size_px);
-	r_graph.add_pass("tone map")
-			.reads(p_frame, Access::UNIFORM_READ)
-			.reads(p_radiance, Access::SHADER_READ_COMPUTE)
-			.writes(output, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
-						{ RENDERER_BINDING_RADIANCE, p_context.get(p_radiance) },
-						{ RENDERER_BINDING_OUTPUT, p_context.get(output) },
-				});
-				p_context.commands.dispatch_items({ p_size_px, 1 });
-			});
+	add_compute_pass(r_graph, "tone map", pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::read(RENDERER_BINDING_RADIANCE, p_radiance),
+					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
+			},
+			glm::uvec3(p_size_px, 1u));
 	return output;
 }
 
@@ -168,21 +135,13 @@ RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, R
 			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
 	const RGTexture output = create_output(r_graph, p_size_px);
 	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, 0 };
-	const RGTexture shown = p_view.texture;
-	r_graph.add_pass("debug view " + p_view.id)
-			.reads(p_frame, Access::UNIFORM_READ)
-			.reads(shown, Access::SHADER_READ_COMPUTE)
-			.writes(output, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ RENDERER_BINDING_FRAME, p_context.get(p_frame) },
-						{ RENDERER_BINDING_MASK, p_context.get(shown) },
-						{ RENDERER_BINDING_OUTPUT, p_context.get(output) },
-				});
-				p_context.commands.push_constants(push);
-				p_context.commands.dispatch_items({ p_size_px, 1 });
-			});
+	add_compute_pass(r_graph, "debug view " + p_view.id, pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::read(RENDERER_BINDING_MASK, p_view.texture),
+					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
+			},
+			p_size_px, push);
 	return output;
 }
 

@@ -43,7 +43,9 @@ public:
 	}
 	/// At most 128 bytes; the size must be what the shader's block has.
 	void push_constants(std::span<const uint8_t> p_bytes);
-	template <typename T> void push_constants(const T &p_block) {
+	template <typename T>
+		requires std::is_trivially_copyable_v<T> && (!std::is_convertible_v<T, std::span<const uint8_t>>)
+	void push_constants(const T &p_block) {
 		push_constants(std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
 	}
 

@@ -8,7 +8,9 @@ namespace gnomon {
 namespace {
 
 constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
-constexpr double GOLDEN_RATIO_FRACTION = 0.6180339887498949;
+// 1 / the plastic number: the golden ratio would run in step with the golden angle, and tie the
+// radius to the direction.
+constexpr double RADIUS_STEP = 0.7548776662466927;
 
 glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
 	const double radius = std::sqrt((p_index + 0.5) / p_count);
@@ -32,7 +34,7 @@ glm::dvec3 compute_ball_point(uint32_t p_index, uint32_t p_count) {
 	// Fibonacci sphere for the direction; the radius runs through its strata in another order.
 	const double z = 1 - 2 * (p_index + 0.5) / p_count;
 	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
-	const double share = std::fmod(0.5 + p_index * GOLDEN_RATIO_FRACTION, 1.0);
+	const double share = std::fmod(0.5 + p_index * RADIUS_STEP, 1.0);
 	const double ring = std::sqrt(std::max(0.0, 1 - z * z));
 	return compute_ball_radius(share) *
 			glm::dvec3(ring * std::cos(angle_rad), ring * std::sin(angle_rad), z);

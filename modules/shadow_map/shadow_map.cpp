@@ -1,6 +1,7 @@
 #include "modules/shadow_map/shadow_map.h"
 
 #include "modules/core/error.h"
+#include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/mesh_store.h"
 #include "shadow_map/shadow_map_shared.h"
@@ -94,35 +95,18 @@ RGTexture ShadowMap::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT,
 			p_inputs.size_px, 1,
 			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	const RGTexture shadow_map = import_map(r_graph);
 	const shader::ShadowMapPush push = { empty_views, 0, 1, 0 };
-	const RGTexture depth = p_inputs.depth;
-	const RGTexture normal = p_inputs.geometric_normal;
-	const RGTexture receivers = p_inputs.receivers;
-	const RGBuffer frame = p_inputs.frame;
-	const glm::uvec2 size_px = p_inputs.size_px;
-	r_graph.add_pass("resolve")
-			.reads(frame, Access::UNIFORM_READ)
-			.reads(view_constants, Access::UNIFORM_READ)
-			.reads(depth, Access::SHADER_READ_COMPUTE)
-			.reads(normal, Access::SHADER_READ_COMPUTE)
-			.reads(receivers, Access::SHADER_READ_COMPUTE)
-			.reads(shadow_map, Access::SHADER_READ_COMPUTE)
-			.writes(mask, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ SHADOW_MAP_BINDING_FRAME, p_context.get(frame) },
-						{ SHADOW_MAP_BINDING_VIEWS, p_context.get(view_constants) },
-						{ SHADOW_MAP_BINDING_DEPTH, p_context.get(depth) },
-						{ SHADOW_MAP_BINDING_NORMAL, p_context.get(normal) },
-						{ SHADOW_MAP_BINDING_RECEIVERS, p_context.get(receivers) },
-						{ SHADOW_MAP_BINDING_MAP, p_context.get(shadow_map) },
-						{ SHADOW_MAP_BINDING_MASK, p_context.get(mask) },
-				});
-				p_context.commands.push_constants(push);
-				p_context.commands.dispatch_items({ size_px, 1 });
-			});
+	add_compute_pass(r_graph, "resolve", pipeline,
+			{
+					PassBinding::constants(SHADOW_MAP_BINDING_FRAME, p_inputs.frame),
+					PassBinding::constants(SHADOW_MAP_BINDING_VIEWS, view_constants),
+					PassBinding::read(SHADOW_MAP_BINDING_DEPTH, p_inputs.depth),
+					PassBinding::read(SHADOW_MAP_BINDING_NORMAL, p_inputs.geometric_normal),
+					PassBinding::read(SHADOW_MAP_BINDING_RECEIVERS, p_inputs.receivers),
+					PassBinding::read(SHADOW_MAP_BINDING_MAP, import_map(r_graph)),
+					PassBinding::write(SHADOW_MAP_BINDING_MASK, mask),
+			},
+			p_inputs.size_px, push);
 	return mask;
 }
 

@@ -1,6 +1,7 @@
 #include "modules/shadow_map/views.h"
 
 #include "modules/core/error.h"
+#include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/mesh_store.h"
 #include "modules/shadow_map/light_points.h"
@@ -70,11 +71,6 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
 	const uint32_t count = static_cast<uint32_t>(p_inputs.views.size()) / views_per_point;
 	const double nearest_m = compute_nearest_distance_m(p_inputs.light, p_inputs.scene);
-	const RGTexture depth = p_inputs.depth;
-	const RGTexture normal = p_inputs.geometric_normal;
-	const RGTexture receivers = p_inputs.receivers;
-	const RGBuffer frame = p_inputs.frame;
-	const glm::uvec2 size_px = p_inputs.size_px;
 	bool is_map_written = false;
 	for (uint32_t point_index = 0; point_index < count; ++point_index) {
 		shader::ShadowMapPush push = { 0, point_index, count, 0 };
@@ -99,30 +95,19 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 				make_light_point(p_inputs.light, point_index, count, nearest_m);
 		const RGBuffer view_constants = r_graph.upload_constants("light point views",
 				compute_light_views_constants(point, p_inputs.scene.camera, views));
-		r_graph.add_pass(text("accumulate point ", point_index))
-				.reads(frame, Access::UNIFORM_READ)
-				.reads(view_constants, Access::UNIFORM_READ)
-				.reads(depth, Access::SHADER_READ_COMPUTE)
-				.reads(normal, Access::SHADER_READ_COMPUTE)
-				.reads(receivers, Access::SHADER_READ_COMPUTE)
-				.reads(map, Access::SHADER_READ_COMPUTE)
-				.writes(mask, Access::SHADER_WRITE_COMPUTE,
-						point_index == 0 ? PassBuilder::Content::FRESH
-										 : PassBuilder::Content::UPDATE)
-				.execute([=](PassContext &p_context) {
-					p_context.commands.bind_pipeline(pipeline);
-					p_context.commands.bind_resources({
-							{ SHADOW_MAP_BINDING_FRAME, p_context.get(frame) },
-							{ SHADOW_MAP_BINDING_VIEWS, p_context.get(view_constants) },
-							{ SHADOW_MAP_BINDING_DEPTH, p_context.get(depth) },
-							{ SHADOW_MAP_BINDING_NORMAL, p_context.get(normal) },
-							{ SHADOW_MAP_BINDING_RECEIVERS, p_context.get(receivers) },
-							{ SHADOW_MAP_BINDING_MAP, p_context.get(map) },
-							{ SHADOW_MAP_BINDING_MASK, p_context.get(mask) },
-					});
-					p_context.commands.push_constants(push);
-					p_context.commands.dispatch_items({ size_px, 1 });
-				});
+		const PassBuilder::Content content =
+				point_index == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE;
+		add_compute_pass(r_graph, text("accumulate point ", point_index), pipeline,
+				{
+						PassBinding::constants(SHADOW_MAP_BINDING_FRAME, p_inputs.frame),
+						PassBinding::constants(SHADOW_MAP_BINDING_VIEWS, view_constants),
+						PassBinding::read(SHADOW_MAP_BINDING_DEPTH, p_inputs.depth),
+						PassBinding::read(SHADOW_MAP_BINDING_NORMAL, p_inputs.geometric_normal),
+						PassBinding::read(SHADOW_MAP_BINDING_RECEIVERS, p_inputs.receivers),
+						PassBinding::read(SHADOW_MAP_BINDING_MAP, map),
+						PassBinding::write(SHADOW_MAP_BINDING_MASK, mask, content),
+				},
+				p_inputs.size_px, push);
 	}
 	return mask;
 }

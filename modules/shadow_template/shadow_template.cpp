@@ -1,6 +1,7 @@
 #include "modules/shadow_template/shadow_template.h"
 
 #include "modules/core/text.h"
+#include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/mesh_store.h"
 #include "shadow_template/shadow_template_shared.h"
 
@@ -53,35 +54,17 @@ RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) 
 	const auto strength =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };
-	// Handles are copied into the pass: the inputs themselves end before it runs.
-	const RGTexture depth = p_inputs.depth;
-	const RGTexture normal = p_inputs.geometric_normal;
-	const RGTexture receivers = p_inputs.receivers;
-	const RGTexture map_of_frame = map;
-	const RGBuffer frame = p_inputs.frame;
-	const glm::uvec2 size_px = p_inputs.size_px;
-	r_graph.add_pass("resolve")
-			.reads(frame, Access::UNIFORM_READ)
-			.reads(view_constants, Access::UNIFORM_READ)
-			.reads(depth, Access::SHADER_READ_COMPUTE)
-			.reads(normal, Access::SHADER_READ_COMPUTE)
-			.reads(receivers, Access::SHADER_READ_COMPUTE)
-			.reads(map_of_frame, Access::SHADER_READ_COMPUTE)
-			.writes(mask, Access::SHADER_WRITE_COMPUTE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.bind_pipeline(pipeline);
-				p_context.commands.bind_resources({
-						{ SHADOW_TEMPLATE_BINDING_FRAME, p_context.get(frame) },
-						{ SHADOW_TEMPLATE_BINDING_VIEWS, p_context.get(view_constants) },
-						{ SHADOW_TEMPLATE_BINDING_DEPTH, p_context.get(depth) },
-						{ SHADOW_TEMPLATE_BINDING_NORMAL, p_context.get(normal) },
-						{ SHADOW_TEMPLATE_BINDING_RECEIVERS, p_context.get(receivers) },
-						{ SHADOW_TEMPLATE_BINDING_MAP, p_context.get(map_of_frame) },
-						{ SHADOW_TEMPLATE_BINDING_MASK, p_context.get(mask) },
-				});
-				p_context.commands.push_constants(push);
-				p_context.commands.dispatch_items({ size_px, 1 });
-			});
+	add_compute_pass(r_graph, "resolve", pipeline,
+			{
+					PassBinding::constants(SHADOW_TEMPLATE_BINDING_FRAME, p_inputs.frame),
+					PassBinding::constants(SHADOW_TEMPLATE_BINDING_VIEWS, view_constants),
+					PassBinding::read(SHADOW_TEMPLATE_BINDING_DEPTH, p_inputs.depth),
+					PassBinding::read(SHADOW_TEMPLATE_BINDING_NORMAL, p_inputs.geometric_normal),
+					PassBinding::read(SHADOW_TEMPLATE_BINDING_RECEIVERS, p_inputs.receivers),
+					PassBinding::read(SHADOW_TEMPLATE_BINDING_MAP, map),
+					PassBinding::write(SHADOW_TEMPLATE_BINDING_MASK, mask),
+			},
+			p_inputs.size_px, push);
 	return mask;
 }
 

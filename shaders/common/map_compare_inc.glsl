@@ -7,9 +7,11 @@
 // The rasteriser snaps corners to 1/256 texel, so that a stored w may be off by the slope over
 // that much; twice it is allowed for.
 const float SNAP_TEXELS = 2.0 / 256.0;
-// Neighbouring facets of a curved surface rise over a receiver's plane by this part of a texel.
-// Smaller shows the facets of "terrain" as lines; larger opens contacts by the same distance.
-const float CURVATURE_TEXELS = 0.15;
+// Neighbouring facets of a curved surface rise over a receiver's plane by this part of a texel where
+// the light falls straight on it. Against the exact hard shadow (400 x 400, map 1024), mean error of
+// "terrain" .0085 with a constant 0.15, .0035 so; "torus_knot" .0026 and .0025; others alike.
+const float CURVATURE_TEXELS = 0.08;
+const float MAX_STRETCH = 40.0;
 // Steeper planes leave the map's resolution: w changes by more than this part within the offset.
 const float MAX_RELATIVE_CHANGE = 0.25;
 
@@ -22,8 +24,11 @@ float hiding_w(LightViewConstants p_view, MapPoint p_point, ivec2 p_texel) {
 	const float limit = MAX_RELATIVE_CHANGE * scale;
 	const float change = clamp(dot(p_point.w_slope, centre - p_point.xy), -limit, limit);
 	const float snap = min(dot(abs(p_point.w_slope), extent) * SNAP_TEXELS, limit);
-	const float curvature = CURVATURE_TEXELS * max(extent.x, extent.y) *
-			(p_view.is_orthographic != 0u ? 1.0 : p_point.w);
+	const float w_unit = p_view.is_orthographic != 0u ? 1.0 : p_point.w;
+	// Grazing light stretches a texel over the surface, and the rise over it once more.
+	const float steepness = length(p_point.w_slope) / w_unit;
+	const float stretch = min(1.0 + steepness * steepness, MAX_STRETCH);
+	const float curvature = CURVATURE_TEXELS * stretch * max(extent.x, extent.y) * w_unit;
 	return p_point.w + change + snap + curvature;
 }
 

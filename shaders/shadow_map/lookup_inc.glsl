@@ -21,6 +21,7 @@ float lookup_filtered(
 	const vec2 low = texels_from_map(p_view, p_point.xy) - 0.5 * float(p_width);
 	const ivec2 first = ivec2(floor(low));
 	float lit = 0.0;
+	float total = 0.0; // in the same order, so that all lit is 1 and all hidden 0 exactly
 	for (int y = 0; y <= p_width; ++y) {
 		for (int x = 0; x <= p_width; ++x) {
 			const ivec2 texel = first + ivec2(x, y);
@@ -34,9 +35,10 @@ float lookup_filtered(
 					: compare_texel(p_view, p_point, texel,
 							  texelFetch(p_map, ivec3(texel, p_view.layer), 0).r);
 			lit += covered.x * covered.y * value;
+			total += covered.x * covered.y;
 		}
 	}
-	return clamp(lit / float(p_width * p_width), 0.0, 1.0);
+	return lit / total;
 }
 
 #endif

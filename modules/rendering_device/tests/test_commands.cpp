@@ -57,7 +57,7 @@ void draw_triangle(CommandList &r_commands, PipelineRID p_pipeline, BufferRID p_
 
 } // namespace
 
-TEST_CASE("[RenderingDevice] a compute pass reads what was uploaded and its result comes back") {
+TEST_CASE("[GPU][RenderingDevice] a compute pass reads what was uploaded and its result comes back") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	std::vector<uint32_t> values(1000);
@@ -94,7 +94,7 @@ TEST_CASE("[RenderingDevice] a compute pass reads what was uploaded and its resu
 	CHECK(device.get_pipeline_count() == 2);
 }
 
-TEST_CASE("[RenderingDevice] an upload made while commands are recorded is there for them") {
+TEST_CASE("[GPU][RenderingDevice] an upload made while commands are recorded is there for them") {
 	DeviceFixture fixture;
 	const OwnedBuffer readback = fixture.make_readback(16);
 	CommandList &commands = fixture.device->begin_commands();
@@ -105,7 +105,7 @@ TEST_CASE("[RenderingDevice] an upload made while commands are recorded is there
 	CHECK(fixture.read<uint32_t>(readback, 4) == std::vector<uint32_t>{ 1, 2, 3, 4 });
 }
 
-TEST_CASE("[RenderingDevice] an upload larger than the staging limit arrives whole") {
+TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrives whole") {
 	DeviceFixture fixture;
 	std::vector<uint32_t> values(18u << 20); // 72 MiB, staged in two parts
 	for (uint32_t index = 0; index < values.size(); ++index) {
@@ -118,7 +118,7 @@ TEST_CASE("[RenderingDevice] an upload larger than the staging limit arrives who
 	CHECK(fixture.read<uint32_t>(readback, values.size()) == values);
 }
 
-TEST_CASE("[RenderingDevice] a resource freed before its upload ran takes the upload with it") {
+TEST_CASE("[GPU][RenderingDevice] a resource freed before its upload ran takes the upload with it") {
 	DeviceFixture fixture;
 	const uint64_t used_before = fixture.device->get_memory_use().used_bytes;
 	fixture.make_buffer("short-lived", std::vector<uint32_t>(1000));
@@ -127,7 +127,7 @@ TEST_CASE("[RenderingDevice] a resource freed before its upload ran takes the up
 	fixture.device->submit_commands(SubmitMode::WAIT);
 }
 
-TEST_CASE("[RenderingDevice] textures of every format keep their texels") {
+TEST_CASE("[GPU][RenderingDevice] textures of every format keep their texels") {
 	DeviceFixture fixture;
 	for (int index = 0; index <= static_cast<int>(Format::D32_SFLOAT); ++index) {
 		const Format format = static_cast<Format>(index);
@@ -148,7 +148,7 @@ TEST_CASE("[RenderingDevice] textures of every format keep their texels") {
 	}
 }
 
-TEST_CASE("[RenderingDevice] every kind of binding reaches the shader") {
+TEST_CASE("[GPU][RenderingDevice] every kind of binding reaches the shader") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer constants = fixture.make_buffer(
@@ -195,7 +195,7 @@ TEST_CASE("[RenderingDevice] every kind of binding reaches the shader") {
 	}
 }
 
-TEST_CASE("[RenderingDevice] a triangle covers its half of the colour and depth targets") {
+TEST_CASE("[GPU][RenderingDevice] a triangle covers its half of the colour and depth targets") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer vertices = fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
@@ -237,7 +237,7 @@ TEST_CASE("[RenderingDevice] a triangle covers its half of the colour and depth 
 	CHECK(depths[63] == 1.0f);
 }
 
-TEST_CASE("[RenderingDevice] culling follows the winding as seen in the image") {
+TEST_CASE("[GPU][RenderingDevice] culling follows the winding as seen in the image") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	// Top left, bottom left, top right of the image: counter-clockwise to the eye.
@@ -262,7 +262,7 @@ TEST_CASE("[RenderingDevice] culling follows the winding as seen in the image") 
 	CHECK(draw(CullMode::NONE, CommandList::Winding::MIRRORED));
 }
 
-TEST_CASE("[RenderingDevice] a depth target that is only tested against keeps its content") {
+TEST_CASE("[GPU][RenderingDevice] a depth target that is only tested against keeps its content") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer vertices = fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
@@ -293,7 +293,7 @@ TEST_CASE("[RenderingDevice] a depth target that is only tested against keeps it
 	CHECK(fixture.read_texture<float>(targets.depth.get(), Access::DEPTH_READ)[0] == 0.1f);
 }
 
-TEST_CASE("[RenderingDevice] fragments can be counted without any target") {
+TEST_CASE("[GPU][RenderingDevice] fragments can be counted without any target") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer vertices = fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
@@ -324,7 +324,7 @@ TEST_CASE("[RenderingDevice] fragments can be counted without any target") {
 	CHECK(found <= 136);
 }
 
-TEST_CASE("[RenderingDevice] a blit converts the format and scales") {
+TEST_CASE("[GPU][RenderingDevice] a blit converts the format and scales") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const std::vector<uint8_t> texel = { 255, 0, 51, 255 };
@@ -353,7 +353,7 @@ TEST_CASE("[RenderingDevice] a blit converts the format and scales") {
 	}
 }
 
-TEST_CASE("[RenderingDevice] copies and clears give what they say") {
+TEST_CASE("[GPU][RenderingDevice] copies and clears give what they say") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const TextureDesc desc = { .name = "target",

@@ -43,7 +43,7 @@ void make_one_pipeline(const TestCacheFolder &) {
 
 } // namespace
 
-TEST_CASE("[RenderingDevice] spans of a finished submission have their names and positive times") {
+TEST_CASE("[GPU][RenderingDevice] spans of a finished submission have their names and positive times") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer buffer = make_filled(device);
@@ -64,7 +64,7 @@ TEST_CASE("[RenderingDevice] spans of a finished submission have their names and
 	}
 }
 
-TEST_CASE("[RenderingDevice] a lost device names the last pass, in every call from then on") {
+TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every call from then on") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer buffer = make_filled(device);
@@ -84,7 +84,7 @@ TEST_CASE("[RenderingDevice] a lost device names the last pass, in every call fr
 	}) == error);
 }
 
-TEST_CASE("[RenderingDevice] the layers notice a deliberate mistake") {
+TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const unsigned count_before = RenderingDevice::get_validation_message_count();
@@ -112,7 +112,7 @@ TEST_CASE("[RenderingDevice] the layers notice a deliberate mistake") {
 	CHECK(RenderingDevice::get_validation_message_count() == count_before);
 }
 
-TEST_CASE("[RenderingDevice] pipelines are kept between runs") {
+TEST_CASE("[GPU][RenderingDevice] pipelines are kept between runs") {
 	TestCacheFolder cache;
 	make_one_pipeline(cache);
 	const std::filesystem::path file = find_cache_file(cache.path);

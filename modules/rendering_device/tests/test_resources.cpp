@@ -17,7 +17,7 @@ BufferDesc make_desc(const std::string &p_name, uint64_t p_size_bytes) {
 
 } // namespace
 
-TEST_CASE("[RenderingDevice] a resource above the budget is an error with the three largest") {
+TEST_CASE("[GPU][RenderingDevice] a resource above the budget is an error with the three largest") {
 	DeviceFixture fixture({ .memory_budget_bytes = 100 * MIB });
 	RenderingDevice &device = *fixture.device;
 	std::vector<OwnedBuffer> buffers;
@@ -45,7 +45,7 @@ TEST_CASE("[RenderingDevice] a resource above the budget is an error with the th
 					"buffer 'part 1'", "buffer 'part 20'", "buffer 'part 40'", "texture 'fits'" });
 }
 
-TEST_CASE("[RenderingDevice] sizes above the device's limits are errors that name them") {
+TEST_CASE("[GPU][RenderingDevice] sizes above the device's limits are errors that name them") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const uint32_t max_size_px = device.get_features().max_texture_size_px;
@@ -69,7 +69,7 @@ TEST_CASE("[RenderingDevice] sizes above the device's limits are errors that nam
 	CHECK(device.get_live_resources().empty());
 }
 
-TEST_CASE("[RenderingDevice] memory of a freed resource is used again after its submission") {
+TEST_CASE("[GPU][RenderingDevice] memory of a freed resource is used again after its submission") {
 	DeviceFixture fixture({ .memory_budget_bytes = 64 * MIB });
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer readback = fixture.make_readback(4);
@@ -91,7 +91,7 @@ TEST_CASE("[RenderingDevice] memory of a freed resource is used again after its 
 	CHECK(device.get_memory_use().peak_bytes < 64 * MIB);
 }
 
-TEST_CASE("[RenderingDevice] blocks of memory return to the driver") {
+TEST_CASE("[GPU][RenderingDevice] blocks of memory return to the driver") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const uint64_t allocated_before = device.get_memory_use().allocated_bytes;
@@ -106,7 +106,7 @@ TEST_CASE("[RenderingDevice] blocks of memory return to the driver") {
 	CHECK(device.get_memory_use().allocated_bytes <= allocated_before + 64 * MIB);
 }
 
-TEST_CASE("[RenderingDevice] what is alive when the device ends is reported by name") {
+TEST_CASE("[GPU][RenderingDevice] what is alive when the device ends is reported by name") {
 	CaughtLog log;
 	{
 		DeviceFixture fixture;
@@ -122,7 +122,7 @@ TEST_CASE("[RenderingDevice] what is alive when the device ends is reported by n
 	CHECK(log.count("Leaked buffer 'lights'") == 1);
 }
 
-TEST_CASE("[RenderingDevice] textures placed in the same memory take turns") {
+TEST_CASE("[GPU][RenderingDevice] textures placed in the same memory take turns") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const TextureDesc color_desc = { .name = "color",
@@ -158,7 +158,7 @@ TEST_CASE("[RenderingDevice] textures placed in the same memory take turns") {
 	CHECK(device.get_live_resources().size() == 4);
 }
 
-TEST_CASE("[RenderingDevice] commands given up leave the device usable") {
+TEST_CASE("[GPU][RenderingDevice] commands given up leave the device usable") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer readback = fixture.make_readback(4);

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "modules/render_graph/render_graph.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// One resource of a compute pass: what the graph must know of it, and where the shader finds it.
+struct PassBinding {
+	uint32_t binding = 0;
+	RGTexture texture;
+	RGBuffer buffer;
+	Access access = Access::SHADER_READ_COMPUTE;
+	PassBuilder::Content content = PassBuilder::Content::FRESH; // of what is written
+
+	/// Sampled or fetched.
+	static PassBinding read(uint32_t p_binding, RGTexture p_texture) {
+		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE };
+	}
+	static PassBinding read(uint32_t p_binding, RGBuffer p_buffer) {
+		return { p_binding, {}, p_buffer, Access::SHADER_READ_COMPUTE };
+	}
+	/// A uniform block.
+	static PassBinding constants(uint32_t p_binding, RGBuffer p_buffer) {
+		return { p_binding, {}, p_buffer, Access::UNIFORM_READ };
+	}
+	/// A storage image or buffer. UPDATE: the shader reads it too, or does not write all of it.
+	static PassBinding write(uint32_t p_binding, RGTexture p_texture,
+			PassBuilder::Content p_content = PassBuilder::Content::FRESH) {
+		return { p_binding, p_texture, {}, Access::SHADER_WRITE_COMPUTE, p_content };
+	}
+	static PassBinding write(uint32_t p_binding, RGBuffer p_buffer,
+			PassBuilder::Content p_content = PassBuilder::Content::FRESH) {
+		return { p_binding, {}, p_buffer, Access::SHADER_WRITE_COMPUTE, p_content };
+	}
+};
+
+/// A pass that runs one compute shader over the items: enough groups of its local size to cover
+/// them. The bindings declare the reads and writes and bind the resources in one. p_push: the
+/// shader's push constants, copied; empty when it has none.
+void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
+		std::vector<PassBinding> p_bindings, glm::uvec3 p_item_count,
+		std::span<const uint8_t> p_push = {});
+
+/// As above over the texels of a picture, with a push-constant block.
+template <typename Push>
+void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
+		std::vector<PassBinding> p_bindings, glm::uvec2 p_size_px, const Push &p_push) {
+	add_compute_pass(r_graph, p_name, p_pipeline, std::move(p_bindings),
+			glm::uvec3(p_size_px, 1u),
+			std::span(reinterpret_cast<const uint8_t *>(&p_push), sizeof(Push)));
+}
+
+} // namespace gnomon
