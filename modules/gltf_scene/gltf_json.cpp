@@ -36,47 +36,6 @@ std::string describe_indices(size_t p_count) {
 	return p_count == 0 ? "absent, as there is nothing to refer to" : text("0..", p_count - 1);
 }
 
-/// Refuses text whose parsed form would be too deep, too wide or too large. It need not be JSON
-/// yet: brackets outside of quotes are all that counts.
-void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) {
-	std::vector<uint64_t> comma_counts; // of the arrays and objects that are open
-	std::vector<char> brackets;
-	uint64_t value_count = 0;
-	for (size_t place = 0; place < p_text.size(); ++place) {
-		const char character = p_text[place];
-		if (character == '"') {
-			++place;
-			while (place < p_text.size() && p_text[place] != '"') {
-				place += p_text[place] == '\\' ? 2 : 1;
-			}
-		} else if (character == '{' || character == '[') {
-			brackets.push_back(character);
-			comma_counts.push_back(0);
-			++value_count;
-			if (brackets.size() > GLTF_MAX_JSON_DEPTH) {
-				throw Error(p_messages.describe("JSON",
-						text("is nested deeper than ", GLTF_MAX_JSON_DEPTH, " levels. ",
-								NEXT_STEP)));
-			}
-		} else if ((character == '}' || character == ']') && !brackets.empty()) {
-			brackets.pop_back();
-			comma_counts.pop_back();
-		} else if (character == ',' && !brackets.empty()) {
-			++value_count;
-			if (++comma_counts.back() >= GLTF_MAX_JSON_KEY_COUNT && brackets.back() == '{') {
-				throw Error(p_messages.describe("JSON",
-						text("has an object of more than ", GLTF_MAX_JSON_KEY_COUNT, " keys. ",
-								NEXT_STEP)));
-			}
-		}
-		if (value_count > GLTF_MAX_JSON_VALUE_COUNT) {
-			throw Error(p_messages.describe("JSON",
-					text("has more than ", GLTF_MAX_JSON_VALUE_COUNT,
-							" values. Split the scene into several files.")));
-		}
-	}
-}
-
 } // namespace
 
 void GltfMessages::report(const std::string &p_line) {
@@ -113,30 +72,10 @@ std::string describe_json(const Json &p_value) {
 	}
 	std::string words = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
 	if (words.size() > MAX_VALUE_LENGTH) {
-		words = words.substr(0, MAX_VALUE_LENGTH) + "...";
+		words.resize(MAX_VALUE_LENGTH);
+		words += "...";
 	}
 	return words;
-}
-
-Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages) {
-	check_json_limits(p_text, p_messages);
-	Json json;
-	try {
-		json = Json::parse(p_text.begin(), p_text.end());
-	} catch (const Json::exception &error) {
-		// "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
-		const std::string_view what = error.what();
-		const size_t prefix = what.find("] ");
-		throw Error(p_messages.describe("JSON",
-				text("cannot be parsed: ",
-						to_one_line(prefix == what.npos ? what : what.substr(prefix + 2)), ". ",
-						NEXT_STEP)));
-	}
-	if (!json.is_object()) {
-		throw Error(p_messages.describe(
-				"JSON", text("is ", describe_json(json), ", must be an object. ", NEXT_STEP)));
-	}
-	return json;
 }
 
 GltfObject::GltfObject(const Json &p_json, std::string p_path, GltfMessages &p_messages) :

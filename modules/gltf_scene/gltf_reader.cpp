@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_document.h"
+#include "modules/gltf_scene/gltf_header.h"
 #include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_meshes.h"
 #include "modules/gltf_scene/gltf_scene.h"
@@ -21,39 +22,6 @@ const double MAX_NEAR_M = 1e9;
 const double MAX_FOV_RAD = 3.14159;
 const double MIN_FOV_RAD = 1e-4; // narrower, and one pixel sees nothing
 const double MIN_NEAR_M = 1e-6;
-
-/// Extensions that change nothing that is read here, or are read.
-bool is_known_extension(std::string_view p_name) {
-	return p_name == PUNCTUAL || p_name == AREA || p_name.starts_with("KHR_materials_") ||
-			p_name == "KHR_texture_transform" || p_name == "KHR_mesh_quantization";
-}
-
-void check_header(const GltfObject &p_root) {
-	const GltfObject asset = p_root.require_object("asset");
-	const std::string version = asset.get_text("version");
-	if (!version.starts_with("2.")) {
-		asset.fail_value("version", "\"2.0\"");
-	}
-	if (asset.find("minVersion") && asset.get_text("minVersion") != "2.0") {
-		asset.fail_value("minVersion", "\"2.0\"");
-	}
-	const size_t required_count = p_root.get_count("extensionsRequired");
-	for (size_t index = 0; index < required_count; ++index) {
-		const Json &name = (*p_root.find("extensionsRequired"))[index];
-		if (!name.is_string() || !is_known_extension(name.get_ref<const std::string &>())) {
-			p_root.fail_at(text("extensionsRequired[", index, "]"),
-					text("is ", describe_json(name),
-							", which is not supported. Export the file without it."));
-		}
-	}
-	GltfMessages &messages = p_root.get_messages();
-	if (p_root.get_count("animations") > 0) {
-		messages.warn("animations", "animations", "are not read.");
-	}
-	if (p_root.get_count("skins") > 0) {
-		messages.warn("skins", "skins", "are not read.");
-	}
-}
 
 /// Gives every node of the scene its own name.
 class UniqueNames {
@@ -105,7 +73,7 @@ private:
 };
 
 void GltfReader::read(Scene &r_scene) {
-	check_header(root);
+	check_gltf_header(root);
 	const GltfTree tree = build_gltf_tree(root);
 	document.nodes.resize(tree.parents.size());
 	// A stack of our own visits children in order: those of a node are pushed last first.

@@ -95,7 +95,7 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 		const NewBuffer buffer = choose_buffer(container, form);
 		GltfMeshWriter meshes(container.json, buffer.index, buffer.first_byte,
 				document ? document->material_indices : std::map<const Material *, size_t>());
-		write_nodes(p_scene, document, container.json, meshes);
+		GltfNodeWriter(document, container.json, meshes).write(p_scene);
 		store_bytes(buffer, meshes.get_bytes(), p_path, !document, container, files);
 	} catch (const Json::exception &error) {
 		// What reading had no need to look at may be of another kind than the format says.

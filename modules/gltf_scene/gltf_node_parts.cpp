@@ -1,0 +1,151 @@
+// What hangs on a node: its mesh, light and camera.
+#include "modules/core/error.h"
+#include "modules/gltf_scene/gltf_light_writer.h"
+#include "modules/gltf_scene/gltf_node_writer.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+const char PUNCTUAL[] = "KHR_lights_punctual";
+const char AREA[] = "EXT_lights_area";
+
+std::optional<PropertyValue> find_size(const PropertyValues &p_properties) {
+	const auto found = p_properties.find("light_size");
+	return found == p_properties.end() ? std::nullopt : std::optional(found->second);
+}
+
+} // namespace
+
+void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance) {
+	mesh_nodes.insert(p_entry.index);
+	const auto key = GltfDocument::make_key(p_instance.surfaces);
+	const bool had_mesh = !p_entry.is_new && document->node_surfaces.contains(p_entry.index);
+	if (!had_mesh || document->node_surfaces.at(p_entry.index) != key) {
+		const std::optional<size_t> mesh_index = find_or_append_mesh(p_instance, key);
+		get_node(p_entry).erase("mesh");
+		if (mesh_index) {
+			get_node(p_entry)["mesh"] = *mesh_index;
+		}
+	}
+	const GltfNodeState fresh;
+	const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
+	if (p_instance.casts_shadow != before.casts_shadow) {
+		require_extras(get_node(p_entry))["casts_shadow"] = p_instance.casts_shadow;
+	}
+	if (p_instance.is_planar_receiver != before.is_planar_receiver) {
+		require_extras(get_node(p_entry))["shadow_planar_receiver"] = p_instance.is_planar_receiver;
+	}
+}
+
+std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
+		const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key) {
+	if (const auto found = mesh_indices.find(p_key); found != mesh_indices.end()) {
+		return found->second;
+	}
+	const auto &surfaces = p_instance.surfaces;
+	const bool has_triangles =
+			std::any_of(surfaces.begin(), surfaces.end(), [](const auto &p_surface) {
+				return p_surface.mesh && !p_surface.mesh->indices.empty();
+			});
+	if (!has_triangles) {
+		return std::nullopt;
+	}
+	const bool has_own_name = surfaces.size() == 1 && !surfaces[0].mesh->name.empty();
+	const std::string &name = has_own_name ? surfaces[0].mesh->name : p_instance.name;
+	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
+}
+
+/// Puts a changed definition in the place of the old one, or behind the others where another node
+/// has put a different one there. Returns its index.
+size_t GltfNodeWriter::place_definition(
+		Json &r_list, Written &r_written, std::optional<size_t> p_index, Json p_definition) {
+	if (p_index) {
+		const auto [found, is_first] = r_written.try_emplace(*p_index, p_definition);
+		if (is_first) {
+			r_list[*p_index] = std::move(p_definition);
+			return *p_index;
+		}
+		if (found->second == p_definition) {
+			return *p_index;
+		}
+	}
+	r_list.push_back(std::move(p_definition));
+	return r_list.size() - 1;
+}
+
+/// The area light of a node, as its own copy: other nodes may share the definition.
+Json *GltfNodeWriter::own_area_light(Json &r_node) {
+	const auto extensions = r_node.find("extensions");
+	if (extensions == r_node.end() || !extensions->contains(AREA)) {
+		return nullptr;
+	}
+	Json &list = json["extensions"][AREA]["lights"];
+	Json &index = (*extensions)[AREA]["light"];
+	Json copy = list[index.get<size_t>()];
+	if (copy.value("type", "") != "disk") {
+		return nullptr;
+	}
+	list.push_back(std::move(copy));
+	index = list.size() - 1;
+	return &list.back();
+}
+
+void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
+	light_nodes.insert(p_entry.index);
+	const bool had_light = !p_entry.is_new && document->lights.contains(p_entry.index);
+	const GltfLightState *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
+	Json definition = Json::object();
+	std::optional<size_t> old_index;
+	std::vector<Json *> places;
+	Json *area = nullptr;
+	if (before) {
+		Json &target = get_node(p_entry);
+		old_index = target["extensions"][PUNCTUAL]["light"].get<size_t>();
+		definition = document->container.json["extensions"][PUNCTUAL]["lights"][*old_index];
+		places.push_back(&target);
+		if (const auto owner = document->blender_owners.find(p_entry.index);
+				owner != document->blender_owners.end()) {
+			places.push_back(&json["nodes"][owner->second]);
+		}
+		if (find_size(before->properties) != find_size(p_light.properties)) {
+			area = own_area_light(target);
+		}
+	} else {
+		definition["name"] = p_light.name;
+		declare_extension(json, PUNCTUAL);
+	}
+	write_light(p_light, before, definition, places, area);
+	const size_t index = place_definition(
+			json["extensions"][PUNCTUAL]["lights"], lights, old_index, std::move(definition));
+	if (index != old_index) {
+		get_node(p_entry)["extensions"][PUNCTUAL]["light"] = index;
+	}
+}
+
+void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera) {
+	camera_nodes.insert(p_entry.index);
+	const bool had_camera = !p_entry.is_new && document->cameras.contains(p_entry.index);
+	const std::pair<float, float> values = { p_camera.vertical_fov_rad, p_camera.near_m };
+	Json definition = { { "type", "perspective" }, { "perspective", Json::object() } };
+	std::optional<size_t> old_index;
+	if (had_camera) {
+		old_index = get_node(p_entry)["camera"].get<size_t>();
+		definition = document->container.json["cameras"][*old_index];
+	}
+	if (!had_camera || document->cameras.at(p_entry.index).first != values.first) {
+		definition["perspective"]["yfov"] = to_json_number(values.first);
+	}
+	if (!had_camera || document->cameras.at(p_entry.index).second != values.second) {
+		definition["perspective"]["znear"] = to_json_number(values.second);
+	}
+	const size_t index =
+			place_definition(json["cameras"], cameras, old_index, std::move(definition));
+	if (index != old_index) {
+		get_node(p_entry)["camera"] = index;
+	}
+}
+
+} // namespace gnomon
