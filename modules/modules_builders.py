@@ -135,6 +135,8 @@ def write_registration(target, source, env):
 
 def add_builders(env, modules):
     """Adds `add_module_sources`, the precompiled header and the registration generator to env."""
+    from SCons.Script import Action  # not env.Action, which would expand $SOURCE at once
+
     env["GNOMON_MODULES"] = modules
     for module in modules:
         getattr(module.config, "configure", lambda env: None)(env)
@@ -145,7 +147,7 @@ def add_builders(env, modules):
     env["PRECOMPILED"] = env.Command(
         env["BUILD_FOLDER"] + "/pch/pch.h.gch",
         header,
-        env.Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
+        Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
     )
     env.Depends(env["PRECOMPILED"], env["BUILD_FOLDER"] + "/pch/pch.h")
 
