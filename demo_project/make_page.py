@@ -178,8 +178,8 @@ class Page:
         if not means:
             return ""
         rows = [
-            "<tr><td>%s</td><td>%.4f</td><td>%s</td><td>%d</td></tr>"
-            % (escape(self.name_of(name)), error, format_value(milliseconds, "time"), count)
+            '<tr><td>%s</td><td>%.4f</td><td>%s</td><td>%d</td><td class="text">%s</td></tr>'
+            % (escape(name), error, format_value(milliseconds, "time"), count, escape(self.name_of(name)))
             for name, error, milliseconds, count in means
         ]
         return (
@@ -187,7 +187,8 @@ class Page:
             "<p>Lower is closer to the exact shadow, left is faster. Small dots are single lights, large ones their mean"
             " (of the times: the geometric mean).</p>"
             '<div class="table">%s</div>'
-            '<div class="table"><table><tr><th>technique</th><th>penumbra MAE</th><th>GPU ms</th><th>lights</th></tr>%s'
+            '<div class="table"><table><tr><th>technique</th><th>penumbra MAE</th><th>GPU ms</th><th>lights</th>'
+            '<th class="text">name</th></tr>%s'
             "</table></div></section>" % (self.build_plot(means), "".join(rows))
         )
 
@@ -204,12 +205,13 @@ class Page:
             best.append(min(values) if values and kind != "share" else None)
         rows = []
         for row in light["techniques"]:
-            label = escape(self.name_of(row["id"]))
+            label = escape(row["id"])
             if row["mask"] and row["heat"]:
-                label = '<button data-mask="%s" data-heat="%s" aria-pressed="%s">%s</button>' % (
+                label = '<button data-mask="%s" data-heat="%s" aria-pressed="%s" data-name="%s">%s</button>' % (
                     self.image_source(row["mask"]),
                     self.image_source(row["heat"]),
                     "true" if row is self.choose_shown(light) else "false",
+                    escape(self.name_of(row["id"])),
                     label,
                 )
             if row["failure"]:

@@ -46,6 +46,7 @@ th, td { padding: 6px 10px; text-align: right; white-space: nowrap; border-botto
 th { font-weight: 600; color: var(--soft); }
 th:first-child, td:first-child { text-align: left; position: sticky; left: 0; background: var(--card); }
 td.best { background: var(--best); font-weight: 600; }
+th.text, td.text { text-align: left; }
 td.failure { text-align: left; white-space: normal; min-width: 240px; }
 button { all: unset; cursor: pointer; border-bottom: 1px dotted var(--soft); }
 button:hover, button:focus-visible { color: var(--accent); border-color: var(--accent); }
@@ -73,7 +74,7 @@ document.querySelectorAll('button[data-mask]').forEach(function (button) {
     });
     light.querySelector('img.mask').src = button.dataset.mask;
     light.querySelector('img.heat').src = button.dataset.heat;
-    light.querySelector('.shown').textContent = button.textContent;
+    light.querySelector('.shown').textContent = button.dataset.name;
   });
 });
 """
