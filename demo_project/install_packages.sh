@@ -7,13 +7,13 @@ BUILD_PACKAGES=(
     build-essential pkg-config python3 scons
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libembree-dev
-    libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev
+    libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev libxxhash-dev
 )
 # The mesh of the bunny scene.
 DEMO_PACKAGES=(glmark2-data)
 # What the tests use beside that.
 TEST_PACKAGES=(
-    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps
+    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps assimp-testmodels
 )
 
 is_package_installed() {

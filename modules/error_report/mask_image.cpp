@@ -23,6 +23,7 @@ constexpr const char *RECEIVER_CHANNEL = "receiver";
 /// Deflate packs at most 1032 to 1 and a pixel has at least 4 bytes (two half floats): a header
 /// that promises more than this for the bytes that follow is a lie, found before memory is taken.
 constexpr uint64_t MAX_PIXELS_PER_BYTE = 512;
+constexpr uint8_t DEEP_OR_MULTI_PART = 0x18; // of the second byte of version and flags
 constexpr uint64_t FILE_LIMIT_BYTES = uint64_t(1) << 32;
 
 class MemoryOutput : public Imf::OStream {
@@ -101,7 +102,6 @@ void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
 /// Layout: magic, version and flags, then name, type, length and bytes of each attribute, then a
 /// zero.
 void check_header_lengths(std::span<const uint8_t> p_bytes, const std::string &p_name) {
-	constexpr uint8_t DEEP_OR_MULTI_PART = 0x18; // of the second byte of version and flags
 	size_t position = 8;
 	if (p_bytes.size() > position && (p_bytes[5] & DEEP_OR_MULTI_PART) != 0) {
 		fail("Mask ", p_name, ": has several parts or deep pixels; a mask has one flat part.");

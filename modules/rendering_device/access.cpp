@@ -10,8 +10,7 @@ constexpr VkPipelineStageFlags2 DEPTH_STAGES =
 		VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 // Covers the geometry stage where the device has one, without asking for the feature.
 constexpr VkPipelineStageFlags2 VERTEX_STAGES = VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT;
-constexpr VkAccessFlags2 SHADER_ACCESS =
-		VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
+constexpr VkAccessFlags2 SHADER_ACCESS = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_WRITE_BIT |
 		VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
 		VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
@@ -115,8 +114,8 @@ Dependency compute_dependency(const Barrier &p_barrier) {
 	if (!is_write(p_barrier.before) && !is_write(p_barrier.after)) {
 		// A later reader in another stage still has to be chained to the write that the first
 		// reader waited for.
-		const bool is_covered = (after.stages & ~before.stages) == 0 &&
-				(after.access & ~before.access) == 0;
+		const bool is_covered =
+				(after.stages & ~before.stages) == 0 && (after.access & ~before.access) == 0;
 		const bool keeps_layout = !is_texture || before.layout == after.layout;
 		dependency.is_needed = !is_covered || !keeps_layout;
 	}

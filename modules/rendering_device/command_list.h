@@ -63,13 +63,12 @@ public:
 	/// Tightly packed rows. Depth textures give their depth.
 	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0);
 	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer = 0);
+	/// Any sizes and colour formats, nearest texel; brings a picture into a window. Layer 0, from
+	/// COPY_READ to COPY_WRITE. sRGB formats are decoded and encoded, so values that are encoded
+	/// already belong into RGBA8_UNORM. Integer formats only to integer formats; not for depth.
+	void blit_texture(TextureRID p_source, TextureRID p_target);
 	/// Same size and format.
 	void copy_texture(TextureRID p_source, TextureRID p_target);
-	/// Layer 0 of the source into layer 0 of the target, converted to its format as Vulkan's blit does
-	/// (sRGB formats are decoded and encoded) and scaled to its size: linear when sizes differ. Not
-	/// for depth; integer formats only to integer formats. COPY_READ to COPY_WRITE. The way to bring
-	/// an RGBA8_UNORM texture of encoded values into a swapchain image.
-	void blit_texture(TextureRID p_source, TextureRID p_target);
 	/// The texture has Access::COPY_WRITE; of UINT formats: the value is converted.
 	void clear_color(TextureRID p_texture, glm::vec4 p_value);
 

@@ -12,8 +12,8 @@ uint64_t get_layer_bytes(const TextureDesc &p_desc) {
 
 VkImageSubresourceLayers make_layers(
 		const TextureDesc &p_desc, uint32_t p_layer, uint32_t p_layer_count) {
-	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name,
-			"' has ", p_desc.layer_count, " layers, ", p_layer, " was asked for");
+	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name, "' has ",
+			p_desc.layer_count, " layers, ", p_layer, " was asked for");
 	return { get_aspect(p_desc.format), 0, p_layer, p_layer_count };
 }
 
@@ -35,8 +35,8 @@ void CommandList::Impl::check_copy(const char *p_call) const {
 
 void CommandList::fill_buffer(BufferRID p_buffer, uint32_t p_value) {
 	impl.check_copy("fill_buffer");
-	vkCmdFillBuffer(impl.commands, impl.device->buffers.get(p_buffer).buffer, 0, VK_WHOLE_SIZE,
-			p_value);
+	vkCmdFillBuffer(
+			impl.commands, impl.device->buffers.get(p_buffer).buffer, 0, VK_WHOLE_SIZE, p_value);
 }
 
 void CommandList::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
@@ -105,11 +105,8 @@ void CommandList::blit_texture(TextureRID p_source, TextureRID p_target) {
 		.srcOffsets = { {}, get_end(source.desc) },
 		.dstSubresource = make_layers(target.desc, 0, 1),
 		.dstOffsets = { {}, get_end(target.desc) } };
-	const bool is_scaled = source.desc.size_px != target.desc.size_px;
-	const bool is_linear = is_scaled && !is_uint_format(source.desc.format);
 	vkCmdBlitImage(impl.commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
-			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-			is_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
 }
 
 } // namespace gnomon

@@ -52,8 +52,8 @@ void CommandList::begin_rendering_without_targets(glm::uvec2 p_size_px) {
 	begin_rendering_of_size(p_size_px, {}, nullptr);
 }
 
-void CommandList::begin_rendering_of_size(glm::uvec2 p_size_px,
-		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+void CommandList::begin_rendering_of_size(
+		glm::uvec2 p_size_px, std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
 	impl.check_recording("begin_rendering");
 	GNOMON_ASSERT(!impl.is_rendering, "begin_rendering before end_rendering");
 	RenderingDevice::Impl &device = *impl.device;
@@ -66,12 +66,12 @@ void CommandList::begin_rendering_of_size(glm::uvec2 p_size_px,
 				p_size_px.x, " x ", p_size_px.y);
 		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::COLOR_ATTACHMENT), "target '",
 				texture.desc.name, "' lacks the usage COLOR_ATTACHMENT");
-		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
-				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-				.imageView = device.get_view(texture, target.layer, false),
-				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-				.loadOp = get_load_op(target.load),
-				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
+		VkRenderingAttachmentInfo &info = colors.emplace_back(
+				VkRenderingAttachmentInfo{ .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+						.imageView = device.get_view(texture, target.layer, false),
+						.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+						.loadOp = get_load_op(target.load),
+						.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		impl.target_color_formats.push_back(texture.desc.format);
 		GNOMON_ASSERT(texture.format == get_vulkan_format(texture.desc.format),
@@ -89,8 +89,8 @@ void CommandList::begin_rendering_of_size(glm::uvec2 p_size_px,
 				texture.desc.name, "' lacks the usage DEPTH_ATTACHMENT");
 		impl.is_target_depth_read_only =
 				texture.recorded_layout == VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
-		GNOMON_ASSERT(!impl.is_target_depth_read_only || p_depth->load == LoadOp::KEEP,
-				"target '", texture.desc.name, "' has Access::DEPTH_READ and must be kept");
+		GNOMON_ASSERT(!impl.is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
+				texture.desc.name, "' has Access::DEPTH_READ and must be kept");
 		depth.imageView = device.get_view(texture, p_depth->layer, false);
 		depth.imageLayout = impl.is_target_depth_read_only
 				? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
@@ -163,8 +163,8 @@ void CommandList::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {
 
 void CommandList::bind_index_buffer(BufferRID p_buffer) {
 	impl.check_recording("bind_index_buffer");
-	vkCmdBindIndexBuffer(impl.commands, impl.device->buffers.get(p_buffer).buffer, 0,
-			VK_INDEX_TYPE_UINT32);
+	vkCmdBindIndexBuffer(
+			impl.commands, impl.device->buffers.get(p_buffer).buffer, 0, VK_INDEX_TYPE_UINT32);
 	impl.is_index_buffer_bound = true;
 }
 
@@ -212,8 +212,8 @@ void CommandList::clear_color(TextureRID p_texture, glm::vec4 p_value) {
 	const VkImageSubresourceRange range = { .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
 		.levelCount = 1,
 		.layerCount = texture.desc.layer_count };
-	vkCmdClearColorImage(impl.commands, texture.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value,
-			1, &range);
+	vkCmdClearColorImage(
+			impl.commands, texture.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
 }
 
 } // namespace gnomon

@@ -93,9 +93,8 @@ private:
 			const bool is_storage = p_slot.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 			GNOMON_ASSERT(has_usage(texture.desc.usage,
 								  is_storage ? TextureUsage::STORAGE : TextureUsage::SAMPLED),
-					"pipeline '", pipeline.name, "': texture '", texture.desc.name,
-					"' at binding ", p_binding.binding, " lacks the usage ",
-					is_storage ? "STORAGE" : "SAMPLED");
+					"pipeline '", pipeline.name, "': texture '", texture.desc.name, "' at binding ",
+					p_binding.binding, " lacks the usage ", is_storage ? "STORAGE" : "SAMPLED");
 			info.imageView = device.get_view(texture, p_binding.layer, p_slot.is_arrayed);
 			info.imageLayout = p_layout;
 		}
@@ -182,8 +181,8 @@ void CommandList::bind_resources(std::span<const Binding> p_bindings) {
 	}
 	vkUpdateDescriptorSets(device.device, static_cast<uint32_t>(writer.writes.size()),
 			writer.writes.data(), 0, nullptr);
-	vkCmdBindDescriptorSets(impl.commands, pipeline.bind_point, pipeline.layout, 0, 1, &writer.set,
-			0, nullptr);
+	vkCmdBindDescriptorSets(
+			impl.commands, pipeline.bind_point, pipeline.layout, 0, 1, &writer.set, 0, nullptr);
 }
 
 } // namespace gnomon

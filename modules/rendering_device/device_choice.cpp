@@ -147,8 +147,8 @@ bool has_device_extension(VkPhysicalDevice p_device, const char *p_name) {
 	vkEnumerateDeviceExtensionProperties(p_device, nullptr, &count, nullptr);
 	std::vector<VkExtensionProperties> extensions(count);
 	vkEnumerateDeviceExtensionProperties(p_device, nullptr, &count, extensions.data());
-	return std::any_of(extensions.begin(), extensions.end(),
-			[&](const VkExtensionProperties &p_extension) {
+	return std::any_of(
+			extensions.begin(), extensions.end(), [&](const VkExtensionProperties &p_extension) {
 				return std::strcmp(p_extension.extensionName, p_name) == 0;
 			});
 }
@@ -198,9 +198,9 @@ const PhysicalDevice &choose_device(
 	if (!p_wanted.empty()) {
 		const PhysicalDevice *device = find_named_device(p_devices, p_wanted);
 		if (!device) {
-			fail("Vulkan device \"", p_wanted, "\" does not exist. There are: ",
-					list_devices_in_words(p_devices), ". Give an index or a part of a name to ",
-					"--device.");
+			fail("Vulkan device \"", p_wanted,
+					"\" does not exist. There are: ", list_devices_in_words(p_devices),
+					". Give an index or a part of a name to ", "--device.");
 		}
 		if (!device->info.is_usable) {
 			fail("Vulkan device \"", device->info.name, "\" cannot be used: it ",

@@ -108,8 +108,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 		}
 		return is_present;
 	};
-	const bool has_conditional =
-			enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
+	const bool has_conditional = enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
 	const bool has_budget = enable_if_present(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
 	if (p_options.needs_surface) {
 		enable_if_present(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
@@ -133,12 +132,11 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	features.subgroup_size = subgroup.subgroupSize;
 
 	const float priority = 1.0f;
-	const VkDeviceQueueCreateInfo queue_info = {
-		.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+	const VkDeviceQueueCreateInfo queue_info = { .sType =
+														 VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
 		.queueFamilyIndex = physical.queue_family,
 		.queueCount = 1,
-		.pQueuePriorities = &priority
-	};
+		.pQueuePriorities = &priority };
 	const VkDeviceCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
 		.pNext = &wanted.v10,
 		.queueCreateInfoCount = 1,

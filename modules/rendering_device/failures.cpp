@@ -41,8 +41,7 @@ void RenderingDevice::Impl::fail_as_lost(const std::string &p_span_name) {
 	if (lost_text.empty()) {
 		lost_text = p_span_name.empty()
 				? "The device was lost before any pass began. "
-				: "The device was lost during pass '" + p_span_name +
-						"' (last pass that began). ";
+				: "The device was lost during pass '" + p_span_name + "' (last pass that began). ";
 		lost_text += "Restart the program; if it happens again, lower the sizes this pass works "
 					 "with, update the driver, or choose another device with --device.";
 	}

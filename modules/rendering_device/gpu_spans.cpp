@@ -36,8 +36,7 @@ void RenderingDevice::Impl::begin_span(const std::string &p_name) {
 	}
 	// "All commands" at both ends: a span begins when what was recorded before it is done, so that
 	// the spans of a frame do not overlap and add up.
-	vkCmdWriteTimestamp2(
-			slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
+	vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
 }
 
 void RenderingDevice::Impl::end_span() {

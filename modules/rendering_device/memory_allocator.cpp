@@ -76,8 +76,8 @@ uint32_t MemoryAllocator::find_memory_type(uint32_t p_type_bits, MemoryKind p_ki
 			best_type = type;
 		}
 	}
-	GNOMON_ASSERT(best_rating >= 0, "no memory type for kind ", static_cast<int>(p_kind), " in bits ",
-			p_type_bits);
+	GNOMON_ASSERT(best_rating >= 0, "no memory type for kind ", static_cast<int>(p_kind),
+			" in bits ", p_type_bits);
 	return best_type;
 }
 

@@ -63,7 +63,8 @@ public:
 	uint64_t get_largest_heap_bytes() const;
 
 private:
-	MemoryBlock *create_block(const MemoryRequest &p_request, uint32_t p_type, uint64_t p_size_bytes);
+	MemoryBlock *create_block(
+			const MemoryRequest &p_request, uint32_t p_type, uint64_t p_size_bytes);
 	void destroy_block(MemoryBlock *p_block);
 	void refresh_heap_budgets();
 	Allocation take(MemoryBlock &r_block, const MemoryRequest &p_request);

@@ -19,7 +19,8 @@ bool is_made_by(std::span<const uint8_t> p_bytes, const VkPhysicalDeviceProperti
 	std::memcpy(&header, p_bytes.data(), sizeof(header));
 	return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
 			header.vendorID == p_properties.vendorID && header.deviceID == p_properties.deviceID &&
-			std::memcmp(header.pipelineCacheUUID, p_properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+			std::memcmp(header.pipelineCacheUUID, p_properties.pipelineCacheUUID, VK_UUID_SIZE) ==
+			0;
 }
 
 } // namespace
@@ -42,7 +43,8 @@ void RenderingDevice::Impl::load_pipeline_cache() {
 	vkGetPhysicalDeviceProperties(physical.handle, &properties);
 	std::vector<uint8_t> bytes = load_cache_entry(get_cache_name());
 	if (!bytes.empty() && !is_made_by(bytes, properties)) {
-		log_info("Pipeline cache ", get_cache_name(), " was made by another driver; it is ignored.");
+		log_info(
+				"Pipeline cache ", get_cache_name(), " was made by another driver; it is ignored.");
 		bytes.clear();
 	}
 	saved_cache_hash = bytes.empty() ? 0 : compute_hash(bytes);

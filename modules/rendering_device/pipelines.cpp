@@ -1,7 +1,5 @@
-#include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"
-#include "modules/rendering_device/formats.h"
-#include "modules/rendering_device/rendering_device_impl.h"
+#include "modules/rendering_device/pipeline_stages.h"
 
 #include <algorithm>
 
@@ -10,152 +8,6 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t PUSH_CONSTANT_GRANULARITY = 16; // C++ blocks are padded to it
-
-/// VkSpecializationInfo with what it points to. Constants that a shader lacks are ignored by Vulkan.
-struct Specialization {
-	std::vector<VkSpecializationMapEntry> entries;
-	std::vector<uint32_t> values;
-	VkSpecializationInfo info = {};
-
-	explicit Specialization(const std::vector<SpecializationConstant> &p_constants) {
-		for (const SpecializationConstant &constant : p_constants) {
-			entries.push_back({ constant.constant_id,
-					static_cast<uint32_t>(values.size() * sizeof(uint32_t)), sizeof(uint32_t) });
-			values.push_back(constant.value);
-		}
-		info = { static_cast<uint32_t>(entries.size()), entries.data(),
-			values.size() * sizeof(uint32_t), values.data() };
-	}
-	Specialization(const Specialization &) = delete;
-	Specialization &operator=(const Specialization &) = delete;
-};
-
-/// Destroyed once the pipeline is made.
-struct ShaderModule {
-	VkDevice device = VK_NULL_HANDLE;
-	VkShaderModule module = VK_NULL_HANDLE;
-
-	ShaderModule() = default;
-	ShaderModule(ShaderModule &&p_other) noexcept :
-			device(p_other.device), module(std::exchange(p_other.module, VK_NULL_HANDLE)) {}
-	ShaderModule &operator=(ShaderModule &&) = delete;
-	~ShaderModule() {
-		if (module) {
-			vkDestroyShaderModule(device, module, nullptr);
-		}
-	}
-};
-
-ShaderModule create_module(
-		RenderingDevice::Impl &r_device, const std::string &p_name, std::span<const uint32_t> p_words) {
-	const VkShaderModuleCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-		.codeSize = p_words.size_bytes(),
-		.pCode = p_words.data() };
-	ShaderModule made;
-	made.device = r_device.device;
-	r_device.check(vkCreateShaderModule(r_device.device, &info, nullptr, &made.module),
-			"vkCreateShaderModule");
-	r_device.set_name(VK_OBJECT_TYPE_SHADER_MODULE, made.module, p_name);
-	return made;
-}
-
-std::string describe_constants(const std::vector<SpecializationConstant> &p_constants) {
-	std::string description;
-	for (const SpecializationConstant &constant : p_constants) {
-		description += text(" ", constant.constant_id, "=", constant.value);
-	}
-	return description;
-}
-
-std::string describe(const ComputePipelineDesc &p_desc) {
-	return p_desc.shader + describe_constants(p_desc.constants);
-}
-
-/// Everything but the name, which changes nothing.
-std::string describe(const RasterPipelineDesc &p_desc) {
-	std::string description = text(p_desc.vertex_shader, " ", p_desc.geometry_shader, " ",
-			p_desc.fragment_shader, describe_constants(p_desc.constants), " attributes");
-	for (const VertexAttribute &attribute : p_desc.attributes) {
-		description += text(" ", attribute.location, ":", attribute.buffer_index, ":",
-				static_cast<int>(attribute.format), ":", attribute.component_count, ":",
-				attribute.offset_bytes);
-	}
-	description += " strides";
-	for (const uint32_t stride : p_desc.vertex_strides_bytes) {
-		description += text(" ", stride);
-	}
-	description += text(" topology ", static_cast<int>(p_desc.topology), " colors");
-	for (const Format format : p_desc.color_formats) {
-		description += text(" ", get_format_name(format));
-	}
-	return description +
-			text(" blend ", static_cast<int>(p_desc.blend), " depth ", p_desc.has_depth,
-					p_desc.writes_depth, p_desc.clamps_depth, " ",
-					static_cast<int>(p_desc.depth_compare), " ", p_desc.depth_bias_constant, " ",
-					p_desc.depth_bias_slope);
-}
-
-VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_format) {
-	VkPipelineColorBlendAttachmentState state = {
-		.blendEnable = p_mode != BlendMode::OFF && !is_uint_format(p_format),
-		.srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-		.dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
-		.colorBlendOp = VK_BLEND_OP_ADD,
-		.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-		.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-		.alphaBlendOp = VK_BLEND_OP_ADD,
-		.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-				VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT
-	};
-	if (p_mode == BlendMode::ALPHA) {
-		state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-		state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-		state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-	} else if (p_mode == BlendMode::MINIMUM) {
-		state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_MIN;
-	} else if (p_mode == BlendMode::MAXIMUM) {
-		state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_MAX;
-	}
-	return state;
-}
-
-VkPrimitiveTopology get_vulkan_topology(Topology p_topology) {
-	switch (p_topology) {
-		case Topology::TRIANGLES:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-		case Topology::TRIANGLES_WITH_ADJACENCY:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY;
-		case Topology::TRIANGLE_STRIP:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-		case Topology::LINES:
-			return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-		case Topology::POINTS:
-			return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-	}
-	return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-}
-
-/// The entry points of a pipeline, ready for its create info.
-struct Stages {
-	std::vector<ShaderModule> modules;
-	std::vector<ReflectedShader> reflected;
-	std::vector<VkPipelineShaderStageCreateInfo> infos;
-
-	void add(RenderingDevice::Impl &r_device, const std::string &p_shader,
-			const std::vector<SpecializationConstant> &p_constants,
-			const VkSpecializationInfo &p_specialization, VkShaderStageFlagBits p_expected_stage) {
-		const std::span<const uint32_t> words = find_embedded_shader(p_shader);
-		reflected.push_back(reflect_spirv(p_shader, words, p_constants));
-		GNOMON_ASSERT(reflected.back().stage == p_expected_stage, "shader ", p_shader,
-				" is of stage ", reflected.back().stage, ", expected ", p_expected_stage);
-		modules.push_back(create_module(r_device, p_shader, words));
-		infos.push_back({ .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-				.stage = p_expected_stage,
-				.module = modules.back().module,
-				.pName = "main",
-				.pSpecializationInfo = &p_specialization });
-	}
-};
 
 void merge_bindings(const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders,
 		std::vector<ReflectedBinding> &r_bindings) {
@@ -222,13 +74,12 @@ void RenderingDevice::Impl::create_layout(
 	set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, r_pipeline.set_layout, r_pipeline.name);
 	const VkPushConstantRange range = { r_pipeline.push_constant_stages, 0,
 		r_pipeline.push_constant_bytes };
-	const VkPipelineLayoutCreateInfo info = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+	const VkPipelineLayoutCreateInfo info = { .sType =
+													  VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
 		.setLayoutCount = 1,
 		.pSetLayouts = &r_pipeline.set_layout,
 		.pushConstantRangeCount = r_pipeline.push_constant_bytes > 0 ? 1u : 0u,
-		.pPushConstantRanges = &range
-	};
+		.pPushConstantRanges = &range };
 	check(vkCreatePipelineLayout(device, &info, nullptr, &r_pipeline.layout),
 			"vkCreatePipelineLayout");
 	set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, r_pipeline.layout, r_pipeline.name);
@@ -266,186 +117,26 @@ uint32_t RenderingDevice::get_pipeline_count() const {
 
 PipelineRID RenderingDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc) {
 	impl->fail_if_lost();
-	const std::string description = describe(p_desc);
+	const std::string description = p_desc.shader + describe_constants(p_desc.constants);
 	if (const PipelineRID found = impl->find_pipeline(description)) {
 		return found;
 	}
-	const Specialization specialization(p_desc.constants);
-	Stages stages;
-	stages.add(*impl, p_desc.shader, p_desc.constants, specialization.info,
-			VK_SHADER_STAGE_COMPUTE_BIT);
+	PipelineStages stages(*impl, p_desc.constants);
+	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);
 	PipelineResource pipeline;
 	pipeline.name = p_desc.name.empty() ? p_desc.shader : p_desc.name;
 	pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-	pipeline.local_size = stages.reflected[0].local_size;
+	pipeline.local_size = stages.get_reflected()[0].local_size;
 	try {
-		impl->create_layout(pipeline, stages.reflected);
+		impl->create_layout(pipeline, stages.get_reflected());
 		const VkComputePipelineCreateInfo info = {
 			.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-			.stage = stages.infos[0],
+			.stage = stages.get_infos()[0],
 			.layout = pipeline.layout
 		};
 		impl->check(vkCreateComputePipelines(impl->device, impl->pipeline_cache, 1, &info, nullptr,
 							&pipeline.pipeline),
-				"vkCreateComputePipelines");
-	} catch (const Error &) {
-		impl->destroy(pipeline);
-		throw;
-	}
-	return impl->add_pipeline(description, std::move(pipeline));
-}
-
-void RenderingDevice::Impl::check_raster_features(const RasterPipelineDesc &p_desc) const {
-	const bool has_adjacency = p_desc.topology == Topology::TRIANGLES_WITH_ADJACENCY;
-	if ((has_adjacency || !p_desc.geometry_shader.empty()) && !features.geometry_shader) {
-		fail("Pipeline '", p_desc.name, "' needs geometry shaders, which device \"",
-				physical.info.name, "\" lacks. Choose another method or another device.");
-	}
-	if (p_desc.clamps_depth && !features.depth_clamp) {
-		fail("Pipeline '", p_desc.name, "' needs depth clamping, which device \"",
-				physical.info.name, "\" lacks. Choose another method or another device.");
-	}
-	for (const Format format : p_desc.color_formats) {
-		VkFormatProperties properties;
-		vkGetPhysicalDeviceFormatProperties(
-				physical.handle, get_vulkan_format(format), &properties);
-		const bool can_blend = (properties.optimalTilingFeatures &
-									   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
-		if (p_desc.blend != BlendMode::OFF && !is_uint_format(format) && !can_blend) {
-			fail("Pipeline '", p_desc.name, "' blends into ", get_format_name(format),
-					", which device \"", physical.info.name,
-					"\" cannot. Use a 16-bit format, or choose another device with --device.");
-		}
-	}
-}
-
-VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDesc &p_desc,
-		VkPipelineLayout p_layout, std::span<const VkPipelineShaderStageCreateInfo> p_stages) {
-	std::vector<VkVertexInputBindingDescription> vertex_buffers;
-	for (uint32_t index = 0; index < p_desc.vertex_strides_bytes.size(); ++index) {
-		vertex_buffers.push_back(
-				{ index, p_desc.vertex_strides_bytes[index], VK_VERTEX_INPUT_RATE_VERTEX });
-	}
-	std::vector<VkVertexInputAttributeDescription> attributes;
-	for (const VertexAttribute &attribute : p_desc.attributes) {
-		GNOMON_ASSERT(attribute.buffer_index < vertex_buffers.size(), "pipeline '", p_desc.name,
-				"': attribute ", attribute.location, " reads vertex buffer ",
-				attribute.buffer_index, " of ", vertex_buffers.size());
-		attributes.push_back({ attribute.location, attribute.buffer_index,
-				get_attribute_format(attribute), attribute.offset_bytes });
-	}
-	const VkPipelineVertexInputStateCreateInfo vertex_input = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-		.vertexBindingDescriptionCount = static_cast<uint32_t>(vertex_buffers.size()),
-		.pVertexBindingDescriptions = vertex_buffers.data(),
-		.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size()),
-		.pVertexAttributeDescriptions = attributes.data()
-	};
-	const VkPipelineInputAssemblyStateCreateInfo input_assembly = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-		.topology = get_vulkan_topology(p_desc.topology)
-	};
-	const VkPipelineViewportStateCreateInfo viewport = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-		.viewportCount = 1,
-		.scissorCount = 1
-	};
-	const bool has_bias = p_desc.depth_bias_constant != 0.0f || p_desc.depth_bias_slope != 0.0f;
-	const VkPipelineRasterizationStateCreateInfo rasterization = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-		.depthClampEnable = p_desc.clamps_depth,
-		.polygonMode = VK_POLYGON_MODE_FILL,
-		.depthBiasEnable = has_bias,
-		.depthBiasConstantFactor = p_desc.depth_bias_constant,
-		.depthBiasSlopeFactor = p_desc.depth_bias_slope,
-		.lineWidth = 1.0f
-	};
-	const VkPipelineMultisampleStateCreateInfo multisample = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-		.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT
-	};
-	const VkPipelineDepthStencilStateCreateInfo depth_stencil = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-		.depthTestEnable = p_desc.has_depth,
-		.depthWriteEnable = p_desc.has_depth && p_desc.writes_depth,
-		.depthCompareOp = static_cast<VkCompareOp>(p_desc.depth_compare) // same order as CompareOp
-	};
-	std::vector<VkPipelineColorBlendAttachmentState> blend_states;
-	std::vector<VkFormat> color_formats;
-	for (const Format format : p_desc.color_formats) {
-		blend_states.push_back(make_blend_state(p_desc.blend, format));
-		color_formats.push_back(get_vulkan_format(format));
-	}
-	const VkPipelineColorBlendStateCreateInfo blend = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-		.attachmentCount = static_cast<uint32_t>(blend_states.size()),
-		.pAttachments = blend_states.data()
-	};
-	const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE };
-	const VkPipelineDynamicStateCreateInfo dynamic = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-		.dynamicStateCount = static_cast<uint32_t>(std::size(dynamic_states)),
-		.pDynamicStates = dynamic_states
-	};
-	const VkPipelineRenderingCreateInfo targets = {
-		.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-		.colorAttachmentCount = static_cast<uint32_t>(color_formats.size()),
-		.pColorAttachmentFormats = color_formats.data(),
-		.depthAttachmentFormat =
-				p_desc.has_depth ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED
-	};
-	const VkGraphicsPipelineCreateInfo info = {
-		.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-		.pNext = &targets,
-		.stageCount = static_cast<uint32_t>(p_stages.size()),
-		.pStages = p_stages.data(),
-		.pVertexInputState = &vertex_input,
-		.pInputAssemblyState = &input_assembly,
-		.pViewportState = &viewport,
-		.pRasterizationState = &rasterization,
-		.pMultisampleState = &multisample,
-		.pDepthStencilState = &depth_stencil,
-		.pColorBlendState = &blend,
-		.pDynamicState = &dynamic,
-		.layout = p_layout
-	};
-	VkPipeline pipeline = VK_NULL_HANDLE;
-	check(vkCreateGraphicsPipelines(device, pipeline_cache, 1, &info, nullptr, &pipeline),
-			"vkCreateGraphicsPipelines");
-	return pipeline;
-}
-
-PipelineRID RenderingDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
-	impl->fail_if_lost();
-	const std::string description = describe(p_desc);
-	if (const PipelineRID found = impl->find_pipeline(description)) {
-		return found;
-	}
-	impl->check_raster_features(p_desc);
-	const Specialization specialization(p_desc.constants);
-	Stages stages;
-	stages.add(*impl, p_desc.vertex_shader, p_desc.constants, specialization.info,
-			VK_SHADER_STAGE_VERTEX_BIT);
-	if (!p_desc.geometry_shader.empty()) {
-		stages.add(*impl, p_desc.geometry_shader, p_desc.constants, specialization.info,
-				VK_SHADER_STAGE_GEOMETRY_BIT);
-	}
-	if (!p_desc.fragment_shader.empty()) {
-		stages.add(*impl, p_desc.fragment_shader, p_desc.constants, specialization.info,
-				VK_SHADER_STAGE_FRAGMENT_BIT);
-	}
-	PipelineResource pipeline;
-	pipeline.name = p_desc.name.empty() ? p_desc.vertex_shader : p_desc.name;
-	pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
-	pipeline.color_formats = p_desc.color_formats;
-	pipeline.has_depth = p_desc.has_depth;
-	pipeline.writes_depth = p_desc.has_depth && p_desc.writes_depth;
-	pipeline.vertex_buffer_count = static_cast<uint32_t>(p_desc.vertex_strides_bytes.size());
-	try {
-		impl->create_layout(pipeline, stages.reflected);
-		pipeline.pipeline =
-				impl->create_raster_pipeline(p_desc, pipeline.layout, stages.infos);
+				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
 	} catch (const Error &) {
 		impl->destroy(pipeline);
 		throw;

@@ -26,8 +26,7 @@ RenderingDevice::PlacementNeeds RenderingDevice::compute_placement_needs(
 	return { needs.size, needs.alignment };
 }
 
-MemoryRID RenderingDevice::create_texture_memory(
-		const std::string &p_name, uint64_t p_size_bytes) {
+MemoryRID RenderingDevice::create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) {
 	impl->fail_if_lost();
 	GNOMON_ASSERT(p_size_bytes > 0, "memory '", p_name, "' has no bytes");
 	// The types that colour, storage and depth images agree on.
@@ -39,11 +38,11 @@ MemoryRID RenderingDevice::create_texture_memory(
 		{ "", Format::D32_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::DEPTH_ATTACHMENT },
 	};
-	MemoryRequest request = { .needs = { .size = p_size_bytes,
-									  .alignment = 1,
-									  .memoryTypeBits = ~0u },
+	MemoryRequest request = {
+		.needs = { .size = p_size_bytes, .alignment = 1, .memoryTypeBits = ~0u },
 		.kind = MemoryKind::GPU,
-		.tiling = Tiling::OPTIMAL };
+		.tiling = Tiling::OPTIMAL
+	};
 	for (const TextureDesc &sample : samples) {
 		const VkMemoryRequirements needs =
 				compute_image_needs(impl->device, impl->make_image_info(sample));
@@ -65,8 +64,8 @@ TextureRID RenderingDevice::create_placed_texture(
 	vkGetImageMemoryRequirements(impl->device, texture.image, &needs);
 	const MemoryBlock &block = *memory.memory.block;
 	const uint64_t offset = memory.memory.offset_bytes + p_offset_bytes;
-	GNOMON_ASSERT(offset % needs.alignment == 0 &&
-					p_offset_bytes + needs.size <= memory.desc.size_bytes,
+	GNOMON_ASSERT(
+			offset % needs.alignment == 0 && p_offset_bytes + needs.size <= memory.desc.size_bytes,
 			"texture '", p_desc.name, "' of ", needs.size, " bytes, alignment ", needs.alignment,
 			", does not fit into memory '", memory.desc.name, "' of ", memory.desc.size_bytes,
 			" bytes at ", p_offset_bytes);

@@ -12,8 +12,8 @@ RangeAllocator::RangeAllocator(uint64_t p_size_bytes) :
 std::optional<uint64_t> RangeAllocator::allocate(
 		uint64_t p_size_bytes, uint64_t p_alignment_bytes) {
 	GNOMON_ASSERT(p_size_bytes > 0, "size ", p_size_bytes);
-	GNOMON_ASSERT((p_alignment_bytes & (p_alignment_bytes - 1)) == 0, "alignment ",
-			p_alignment_bytes);
+	GNOMON_ASSERT(
+			(p_alignment_bytes & (p_alignment_bytes - 1)) == 0, "alignment ", p_alignment_bytes);
 	for (auto gap = gaps.begin(); gap != gaps.end(); ++gap) {
 		const auto [begin, size] = *gap;
 		const uint64_t offset = (begin + p_alignment_bytes - 1) & ~(p_alignment_bytes - 1);

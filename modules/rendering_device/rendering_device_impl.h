@@ -34,7 +34,7 @@ struct TextureResource {
 	TextureDesc desc;
 	VkImage image = VK_NULL_HANDLE;
 	VkFormat format = VK_FORMAT_UNDEFINED; // differs from desc.format for some swapchain images
-	Allocation memory; // empty when placed, or the swapchain's
+	Allocation memory;					   // empty when placed, or the swapchain's
 	MemoryRID placed_in;
 	bool is_swapchain = false;
 	/// After the commands recorded so far. Lets an attachment be read-only without saying so twice.
@@ -230,7 +230,7 @@ struct RenderingDevice::Impl {
 	void end_span();
 	void read_spans(SubmissionSlot &r_slot);
 
-	// pipelines.cpp, pipeline_cache_file.cpp
+	// pipelines.cpp, raster_pipelines.cpp, pipeline_cache_file.cpp
 	PipelineRID find_pipeline(const std::string &p_description) const;
 	const PipelineResource &get_pipeline(PipelineRID p_pipeline) const;
 	PipelineRID add_pipeline(const std::string &p_description, PipelineResource &&p_pipeline);

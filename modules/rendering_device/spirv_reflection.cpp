@@ -364,9 +364,9 @@ private:
 	VkShaderStageFlagBits stage = VK_SHADER_STAGE_FLAG_BITS_MAX_ENUM;
 	glm::uvec3 local_size = glm::uvec3(1);
 	std::optional<glm::uvec3> local_size_ids;
-	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations; // id, decoration -> operand
+	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations;	// id, decoration -> operand
 	std::map<std::array<uint32_t, 3>, uint32_t> member_decorations; // type, member, decoration
-	std::map<uint32_t, Instruction> definitions; // types and constants
+	std::map<uint32_t, Instruction> definitions;					// types and constants
 	std::map<uint32_t, Variable> variables;
 };
 

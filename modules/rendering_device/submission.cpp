@@ -97,8 +97,7 @@ void RenderingDevice::Impl::wait_for(uint64_t p_submission_number) {
 void RenderingDevice::Impl::collect() {
 	const uint64_t finished = get_finished_number();
 	while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
-		std::visit([&](auto &r_resource) { destroy(r_resource); },
-				deferred_frees.front().resource);
+		std::visit([&](auto &r_resource) { destroy(r_resource); }, deferred_frees.front().resource);
 		deferred_frees.pop_front();
 	}
 	SubmissionSlot *newest = nullptr;
@@ -185,9 +184,8 @@ void RenderingDevice::Impl::submit() {
 	VkCommandBufferSubmitInfo command_infos[2] = {};
 	uint32_t command_count = 0;
 	const auto add_commands = [&](VkCommandBuffer p_commands) {
-		command_infos[command_count++] = {
-			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = p_commands
-		};
+		command_infos[command_count++] = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+			.commandBuffer = p_commands };
 	};
 	if (!pending_uploads.empty()) {
 		check(vkBeginCommandBuffer(slot.uploads, &BEGIN_INFO), "vkBeginCommandBuffer");

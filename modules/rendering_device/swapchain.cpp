@@ -30,8 +30,7 @@ Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_su
 	vkGetPhysicalDeviceSurfaceSupportKHR(
 			device.physical.handle, device.physical.queue_family, impl->surface, &is_supported);
 	VkSurfaceCapabilitiesKHR capabilities = {};
-	vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
-			device.physical.handle, impl->surface, &capabilities);
+	vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical.handle, impl->surface, &capabilities);
 	if (!is_supported || (capabilities.supportedUsageFlags & IMAGE_USAGE) != IMAGE_USAGE) {
 		vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
 		fail("Device \"", device.physical.info.name, "\" cannot show this window. Choose another ",
@@ -89,7 +88,8 @@ void Swapchain::Impl::choose_format() {
 			}
 		}
 	}
-	fail("Device \"", device.physical.info.name, "\" offers no window format of 8 bits per channel. ",
+	fail("Device \"", device.physical.info.name,
+			"\" offers no window format of 8 bits per channel. ",
 			"Choose another with --device, or run with --headless.");
 }
 

@@ -19,7 +19,7 @@ struct Swapchain::Impl {
 	};
 	std::vector<Image> images;
 	std::optional<uint32_t> acquired_index; // until it is presented
-	bool is_acquisition_awaited = false; // some submission since then waits for the semaphore
+	bool is_acquisition_awaited = false;	// some submission since then waits for the semaphore
 	// One more than submissions in flight: an image may be acquired before begin_commands has
 	// waited for the older one.
 	static constexpr size_t ACQUISITION_COUNT = RenderingDevice::Impl::SLOT_COUNT + 1;

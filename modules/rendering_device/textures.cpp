@@ -126,8 +126,8 @@ TextureRID RenderingDevice::create_texture_with_data(
 		TextureDesc p_desc, std::span<const uint8_t> p_bytes) {
 	const uint64_t layer_bytes =
 			uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
-	GNOMON_ASSERT(p_bytes.size() == layer_bytes ||
-					p_bytes.size() == layer_bytes * p_desc.layer_count,
+	GNOMON_ASSERT(
+			p_bytes.size() == layer_bytes || p_bytes.size() == layer_bytes * p_desc.layer_count,
 			"texture '", p_desc.name, "' needs ", layer_bytes, " bytes per layer, got ",
 			p_bytes.size());
 	p_desc.usage = p_desc.usage | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET;
@@ -143,8 +143,8 @@ TextureRID RenderingDevice::create_texture_with_data(
 
 void RenderingDevice::free(TextureRID p_texture) {
 	TextureResource texture = impl->textures.remove(p_texture);
-	GNOMON_ASSERT(!texture.is_swapchain, "texture '", texture.desc.name,
-			"' belongs to the swapchain");
+	GNOMON_ASSERT(
+			!texture.is_swapchain, "texture '", texture.desc.name, "' belongs to the swapchain");
 	if (texture.placed_in) {
 		--impl->memories.get(texture.placed_in).texture_count;
 	}
@@ -171,8 +171,7 @@ SamplerRID RenderingDevice::create_sampler(const SamplerDesc &p_desc) {
 		.addressModeV = address,
 		.addressModeW = address };
 	SamplerResource sampler{ p_desc, VK_NULL_HANDLE };
-	impl->check(
-			vkCreateSampler(impl->device, &info, nullptr, &sampler.sampler), "vkCreateSampler");
+	impl->check(vkCreateSampler(impl->device, &info, nullptr, &sampler.sampler), "vkCreateSampler");
 	impl->set_name(VK_OBJECT_TYPE_SAMPLER, sampler.sampler, p_desc.name);
 	return impl->samplers.add(std::move(sampler));
 }

@@ -95,11 +95,10 @@ void RenderingDevice::Impl::record_uploads(VkCommandBuffer p_commands) {
 	for (const PendingUpload &upload : pending_uploads) {
 		if (upload.texture) {
 			const TextureResource &texture = textures.get(upload.texture);
-			const VkBufferImageCopy region = {
-				.imageSubresource = { .aspectMask = get_aspect(texture.desc.format),
-						.layerCount = upload.layer_count },
-				.imageExtent = { texture.desc.size_px.x, texture.desc.size_px.y, 1 }
-			};
+			const VkBufferImageCopy region = { .imageSubresource = { .aspectMask = get_aspect(
+																			 texture.desc.format),
+													   .layerCount = upload.layer_count },
+				.imageExtent = { texture.desc.size_px.x, texture.desc.size_px.y, 1 } };
 			vkCmdCopyBufferToImage(p_commands, upload.staging.buffer, texture.image,
 					VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 		} else {

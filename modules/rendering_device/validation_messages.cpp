@@ -14,7 +14,8 @@ std::mutex messages_mutex; // layers may report from the driver's threads
 unsigned message_count = 0;
 std::vector<std::string> *expected_messages = nullptr;
 
-VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(VkDebugUtilsMessageSeverityFlagBitsEXT /*p_severity*/,
+VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
+		VkDebugUtilsMessageSeverityFlagBitsEXT /*p_severity*/,
 		VkDebugUtilsMessageTypeFlagsEXT /*p_types*/,
 		const VkDebugUtilsMessengerCallbackDataEXT *p_data, void * /*p_user*/) {
 	const char *name = p_data->pMessageIdName ? p_data->pMessageIdName : "";

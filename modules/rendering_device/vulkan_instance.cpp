@@ -96,7 +96,8 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 	}
 	for (const std::string &name : p_options.instance_extensions) {
 		if (!contains(available, name)) {
-			fail("Vulkan lacks the instance extension ", name, ", which the window needs. Install a ",
+			fail("Vulkan lacks the instance extension ", name,
+					", which the window needs. Install a ",
 					"driver that can show windows, or run with --headless.");
 		}
 		extensions.push_back(name.c_str());

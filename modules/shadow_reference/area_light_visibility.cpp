@@ -72,8 +72,8 @@ void check_options(const VisibilityOptions &p_options) {
 /// Towards the disc from one start: centre + radius (x basis_x + y basis_y), rays to be cut at
 /// `end`.
 struct DiscView {
-	glm::vec3 origin;
-	glm::vec3 centre;					 // relative to the origin
+	glm::vec3 origin = glm::vec3(0.0f);
+	glm::vec3 centre = glm::vec3(0.0f);	 // relative to the origin
 	glm::vec3 basis_x = glm::vec3(0.0f); // length: the disc's radius
 	glm::vec3 basis_y = glm::vec3(0.0f);
 	float end = RAY_END;

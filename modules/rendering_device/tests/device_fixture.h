@@ -6,10 +6,11 @@
 #include "modules/rendering_device/command_list.h"
 #include "modules/rendering_device/rendering_device.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <unistd.h>
 
 namespace gnomon {
 
@@ -17,8 +18,7 @@ namespace gnomon {
 struct TestCacheFolder {
 	std::filesystem::path path;
 	TestCacheFolder() {
-		std::string name =
-				(std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
+		std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
 		path = ::mkdtemp(name.data());
 		::setenv("GNOMON_CACHE_DIR", path.c_str(), 1);
 	}
@@ -91,9 +91,9 @@ struct DeviceFixture {
 				uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
 		const OwnedBuffer readback = make_readback(bytes);
 		CommandList &commands = device->begin_commands();
-		const Barrier barrier = { .texture = p_texture,
-			.before = p_before,
-			.after = Access::COPY_READ };
+		const Barrier barrier = {
+			.texture = p_texture, .before = p_before, .after = Access::COPY_READ
+		};
 		commands.barriers({ &barrier, 1 });
 		commands.copy_texture_to_buffer(p_texture, readback.get(), p_layer);
 		device->submit_commands(RenderingDevice::SubmitMode::WAIT);

@@ -113,8 +113,7 @@ TEST_CASE("[RenderingDevice] an upload larger than the staging limit arrives who
 	}
 	const OwnedBuffer source = fixture.make_buffer("source", values, BufferUsage::COPY_SOURCE);
 	const OwnedBuffer readback = fixture.make_readback(values.size() * 4);
-	fixture.device->begin_commands().copy_buffer(
-			source.get(), readback.get(), values.size() * 4);
+	fixture.device->begin_commands().copy_buffer(source.get(), readback.get(), values.size() * 4);
 	fixture.device->submit_commands(SubmitMode::WAIT);
 	CHECK(fixture.read<uint32_t>(readback, values.size()) == values);
 }
@@ -139,10 +138,11 @@ TEST_CASE("[RenderingDevice] textures of every format keep their texels") {
 			bytes[byte] = static_cast<uint8_t>(byte % 60);
 		}
 		const OwnedTexture texture(*fixture.device,
-				fixture.device->create_texture_with_data({ .name = "texture",
-																 .format = format,
-																 .size_px = { 5, 3 },
-																 .usage = TextureUsage::COPY_SOURCE },
+				fixture.device->create_texture_with_data(
+						{ .name = "texture",
+								.format = format,
+								.size_px = { 5, 3 },
+								.usage = TextureUsage::COPY_SOURCE },
 						bytes));
 		CHECK(fixture.read_texture<uint8_t>(texture.get(), Access::SHADER_READ_FRAGMENT) == bytes);
 	}
@@ -151,16 +151,14 @@ TEST_CASE("[RenderingDevice] textures of every format keep their texels") {
 TEST_CASE("[RenderingDevice] every kind of binding reaches the shader") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
-	const OwnedBuffer constants =
-			fixture.make_buffer("constants", std::vector<uint32_t>{ 1000, 0, 0, 0 },
-					BufferUsage::UNIFORM);
+	const OwnedBuffer constants = fixture.make_buffer(
+			"constants", std::vector<uint32_t>{ 1000, 0, 0, 0 }, BufferUsage::UNIFORM);
 	const OwnedBuffer texels = fixture.make_buffer(
 			"texels", std::vector<uint32_t>{ 0, 10, 20, 30, 40 }, BufferUsage::TEXEL);
 	const std::vector<float> combined_values = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14 };
 	const OwnedTexture combined(device,
-			device.create_texture_with_data({ .name = "combined",
-													.format = Format::R32_SFLOAT,
-													.size_px = { 5, 3 } },
+			device.create_texture_with_data(
+					{ .name = "combined", .format = Format::R32_SFLOAT, .size_px = { 5, 3 } },
 					bytes_of(std::span(combined_values))));
 	const std::vector<float> layer_values = { 5, 100 };
 	const OwnedTexture layers(device,
@@ -186,9 +184,9 @@ TEST_CASE("[RenderingDevice] every kind of binding reaches the shader") {
 	commands.barriers(barriers);
 	commands.bind_pipeline(device.get_compute_pipeline(
 			{ .name = "bindings", .shader = "rendering_device/test_bindings.comp" }));
-	commands.bind_resources({ { 0, constants.get() }, { 1, texels.get() },
-			{ 2, combined.get(), sampler.get() }, { 3, layers.get() }, { 4, sampler.get() },
-			{ 5, result.get() } });
+	commands.bind_resources(
+			{ { 0, constants.get() }, { 1, texels.get() }, { 2, combined.get(), sampler.get() },
+					{ 3, layers.get() }, { 4, sampler.get() }, { 5, result.get() } });
 	commands.dispatch_items({ 5, 3, 1 });
 	device.submit_commands(SubmitMode::WAIT);
 	const auto values = fixture.read_texture<float>(result.get(), Access::SHADER_WRITE_COMPUTE);
@@ -200,8 +198,7 @@ TEST_CASE("[RenderingDevice] every kind of binding reaches the shader") {
 TEST_CASE("[RenderingDevice] a triangle covers its half of the colour and depth targets") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
-	const OwnedBuffer vertices =
-			fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
+	const OwnedBuffer vertices = fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
 	TriangleTargets targets(fixture);
 	RasterPipelineDesc desc = make_triangle_desc();
 	uint32_t vertex_count = 3;
@@ -300,8 +297,8 @@ TEST_CASE("[RenderingDevice] fragments can be counted without any target") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer vertices = fixture.make_buffer("vertices", TRIANGLE, BufferUsage::VERTEX);
-	const OwnedBuffer count = fixture.make_buffer("count", std::vector<uint32_t>{ 0 },
-			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
+	const OwnedBuffer count = fixture.make_buffer(
+			"count", std::vector<uint32_t>{ 0 }, BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
 	const OwnedBuffer readback = fixture.make_readback(4);
 	RasterPipelineDesc desc = make_triangle_desc();
 	desc.fragment_shader = "rendering_device/test_store.frag";
@@ -316,9 +313,9 @@ TEST_CASE("[RenderingDevice] fragments can be counted without any target") {
 	commands.bind_vertex_buffers({ &buffer, 1 });
 	commands.draw(3);
 	commands.end_rendering();
-	const Barrier barrier = { .buffer = count.get(),
-		.before = Access::SHADER_WRITE_FRAGMENT,
-		.after = Access::COPY_READ };
+	const Barrier barrier = {
+		.buffer = count.get(), .before = Access::SHADER_WRITE_FRAGMENT, .after = Access::COPY_READ
+	};
 	commands.barriers({ &barrier, 1 });
 	commands.copy_buffer(count.get(), readback.get(), 4);
 	device.submit_commands(SubmitMode::WAIT);
@@ -351,7 +348,8 @@ TEST_CASE("[RenderingDevice] a blit converts the format and scales") {
 	device.submit_commands(SubmitMode::WAIT);
 	const auto values = fixture.read_texture<glm::vec4>(target.get(), Access::COPY_WRITE);
 	for (const glm::vec4 &value : values) {
-		CHECK(glm::all(glm::lessThan(glm::abs(value - glm::vec4(1, 0, 0.2f, 1)), glm::vec4(1e-3f))));
+		CHECK(glm::all(
+				glm::lessThan(glm::abs(value - glm::vec4(1, 0, 0.2f, 1)), glm::vec4(1e-3f))));
 	}
 }
 
@@ -371,9 +369,9 @@ TEST_CASE("[RenderingDevice] copies and clears give what they say") {
 	};
 	commands.barriers(before);
 	commands.clear_color(first.get(), glm::vec4(7, 9, 0, 0));
-	const Barrier between = { .texture = first.get(),
-		.before = Access::COPY_WRITE,
-		.after = Access::COPY_READ };
+	const Barrier between = {
+		.texture = first.get(), .before = Access::COPY_WRITE, .after = Access::COPY_READ
+	};
 	commands.barriers({ &between, 1 });
 	commands.copy_texture(first.get(), second.get());
 	device.submit_commands(SubmitMode::WAIT);

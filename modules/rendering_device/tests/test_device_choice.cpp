@@ -55,7 +55,8 @@ TEST_CASE("[RenderingDevice] a device is named by index or by part of its name i
 	CHECK(choose_device(devices, "maker").info.index == 0);
 }
 
-TEST_CASE("[RenderingDevice] an unknown or unusable device is an error that lists those there are") {
+TEST_CASE(
+		"[RenderingDevice] an unknown or unusable device is an error that lists those there are") {
 	std::vector<PhysicalDevice> devices = make_devices();
 	const std::string unknown = catch_error([&] { choose_device(devices, "radeon"); });
 	CHECK(contains(unknown, "\"radeon\""));
@@ -70,9 +71,8 @@ TEST_CASE("[RenderingDevice] an unknown or unusable device is an error that list
 }
 
 TEST_CASE("[RenderingDevice] an instance extension that is missing is an error that names it") {
-	const std::string error = catch_error([] {
-		RenderingDevice::create({ .instance_extensions = { "VK_GNOMON_imaginary" } });
-	});
+	const std::string error = catch_error(
+			[] { RenderingDevice::create({ .instance_extensions = { "VK_GNOMON_imaginary" } }); });
 	CHECK(contains(error, "VK_GNOMON_imaginary"));
 }
 

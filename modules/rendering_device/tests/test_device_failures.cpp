@@ -1,6 +1,7 @@
 #include "modules/rendering_device/tests/device_fixture.h"
 
 #include <doctest/doctest.h>
+
 #include <fstream>
 
 using namespace gnomon;
@@ -12,9 +13,9 @@ void record_span(CommandList &r_commands, const std::string &p_name, BufferRID p
 	r_commands.begin_span(p_name);
 	r_commands.fill_buffer(p_buffer, 1);
 	r_commands.end_span();
-	const Barrier barrier = { .buffer = p_buffer,
-		.before = Access::COPY_WRITE,
-		.after = Access::COPY_WRITE };
+	const Barrier barrier = {
+		.buffer = p_buffer, .before = Access::COPY_WRITE, .after = Access::COPY_WRITE
+	};
 	r_commands.barriers({ &barrier, 1 });
 }
 

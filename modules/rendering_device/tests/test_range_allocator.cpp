@@ -1,6 +1,7 @@
 #include "modules/rendering_device/range_allocator.h"
 
 #include <doctest/doctest.h>
+
 #include <random>
 
 using namespace gnomon;

@@ -37,8 +37,8 @@ TEST_CASE("[RenderingDevice] a resource above the budget is an error with the th
 	CHECK_FALSE(contains(error, "'part 1'"));
 	CHECK(contains(error, "--device"));
 	buffers.pop_back();
-	const OwnedTexture texture(device,
-			device.create_texture({ .name = "fits", .size_px = glm::uvec2(2048) }));
+	const OwnedTexture texture(
+			device, device.create_texture({ .name = "fits", .size_px = glm::uvec2(2048) }));
 	CHECK(device.get_memory_use().peak_bytes >= 91 * MIB);
 	CHECK(device.get_live_resources() ==
 			std::vector<std::string>{
@@ -77,9 +77,9 @@ TEST_CASE("[RenderingDevice] memory of a freed resource is used again after its 
 		CommandList &commands = device.begin_commands();
 		const OwnedBuffer buffer(device, device.create_buffer(make_desc("half", 40 * MIB)));
 		commands.fill_buffer(buffer.get(), frame);
-		const Barrier barrier = { .buffer = buffer.get(),
-			.before = Access::COPY_WRITE,
-			.after = Access::COPY_READ };
+		const Barrier barrier = {
+			.buffer = buffer.get(), .before = Access::COPY_WRITE, .after = Access::COPY_READ
+		};
 		commands.barriers({ &barrier, 1 });
 		commands.copy_buffer(buffer.get(), readback.get(), 4, 20 * MIB);
 		device.submit_commands(SubmitMode::QUEUE);
@@ -113,7 +113,8 @@ TEST_CASE("[RenderingDevice] what is alive when the device ends is reported by n
 		fixture.device->create_texture({ .name = "albedo" });
 		fixture.device->create_sampler({ .name = "nearest" });
 		fixture.device->create_buffer(make_desc("lights", 16));
-		const OwnedBuffer freed(*fixture.device, fixture.device->create_buffer(make_desc("ok", 16)));
+		const OwnedBuffer freed(
+				*fixture.device, fixture.device->create_buffer(make_desc("ok", 16)));
 	}
 	CHECK(log.count("Leaked") == 3);
 	CHECK(log.count("Leaked texture 'albedo'") == 1);
