@@ -29,7 +29,7 @@ WITHOUT_DEVICE = ("scene", "mesh_tools")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
-REGISTRATION = re.compile(r"ShadowRegistry::add\s*\(\s*\{?\s*(?:ShadowTechniqueInfo\s*)?\{?\s*\"([a-z0-9_]+)\"")
+REGISTRATION = re.compile(r"(?:ShadowRegistry::add\s*\(|ShadowTechniqueInfo)[\s\w=({]*?\"([a-z0-9_]+)\"")
 CLASS_MADE = re.compile(r"make_unique<\s*(?:gnomon::)?([A-Z]\w+)\s*>")
 
 
