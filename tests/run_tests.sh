@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build engine command_line demo removal sanitized sanitized_all threads tables"
+PARTS="layers scenes build engine command_line demo removal template sanitized sanitized_all threads tables"
 
 usage() {
     cat <<'TEXT'
@@ -10,8 +10,8 @@ Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, tables with 9216 light samples
   --jobs N     build jobs (default: one a core)
-  --only PART  this part only; may be repeated. Parts: layers scenes build engine command_line demo
-               removal sanitized; with --full also sanitized_all threads tables
+  --only PART  this part only; may be repeated. Parts: layers scenes build engine command_line
+               demo removal template sanitized; with --full also sanitized_all threads tables
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
 }
@@ -183,6 +183,9 @@ if is_wanted removal; then
     else
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs"
     fi
+fi
+if is_wanted template; then
+    run_part template python3 tests/run_unittest.py tests/template/test_add_a_technique.py
 fi
 if is_wanted sanitized; then
     run_sanitized sanitized address,undefined
