@@ -48,6 +48,8 @@ public:
 			std::optional<ShadowTechnique::DebugView> &r_debug_view);
 	/// Drops techniques of lights that are gone, and all when a registry changed. Once a frame.
 	void collect_garbage(const SceneSnapshot &p_scene);
+	/// Forgets every technique and what it kept; after a frame that failed half-way.
+	void drop_techniques() { slots.clear(); }
 
 private:
 	struct Slot {

@@ -242,7 +242,12 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	} else {
 		add_mask_only(frame);
 	}
-	frame.graph.execute(p_request.mode);
+	try {
+		frame.graph.execute(p_request.mode);
+	} catch (...) {
+		shadows.drop_techniques(); // they may count on passes that never ran
+		throw;
+	}
 	result.plan.set_light("");
 	for (const std::string &pass : frame.graph.get_culled_passes()) {
 		result.plan.leave_out(pass, "nothing uses its result");

@@ -59,6 +59,7 @@ struct ShadowReference::Job {
 	RGBuffer receivers;
 	RGBuffer mask;
 	std::string light_name;
+	bool may_keep = true;
 
 	glm::vec3 compute_position(uint32_t p_x, uint32_t p_y, float p_depth) const {
 		// As position_from_depth in depth_inc.glsl.
@@ -129,8 +130,9 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 		}
 	}
 	const uint64_t key = p_job.compute_key(points);
-	if (key != last_key || last_truth.visibility.size() != pixel_count) {
-		const std::optional<Truth> stored = load_truth(key, pixel_count);
+	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
+		const std::optional<Truth> stored =
+				p_job.may_keep ? load_truth(key, pixel_count) : std::nullopt;
 		if (stored) {
 			last_truth = *stored;
 		} else {
@@ -152,6 +154,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->size_px = p_inputs.size_px;
 	job->frame = compute_frame_constants(p_inputs.scene, p_inputs.size_px);
 	job->light_name = p_inputs.light.name;
+	job->may_keep = p_inputs.may_keep;
 	job->light.is_directional = p_inputs.light.type == LightType::DIRECTIONAL;
 	if (!job->light.is_directional) {
 		job->light.position = p_inputs.scene.to_camera_relative(p_inputs.light.position_world);
