@@ -11,6 +11,8 @@ namespace gnomon {
 
 namespace {
 
+const double LAST_ROW_TOLERANCE = 1e-6; // exporters that compute in float
+
 void read_children(const GltfObject &p_root, size_t p_index, GltfTree &r_tree) {
 	const GltfObject node = p_root.get_element("nodes", p_index);
 	const size_t count = node.get_count("children");
@@ -74,6 +76,13 @@ GltfTree build_gltf_tree(const GltfObject &p_root) {
 glm::dmat4 read_transform(const GltfObject &p_node) {
 	glm::dmat4 matrix(1.0);
 	if (p_node.find_numbers("matrix", std::span(glm::value_ptr(matrix), 16))) {
+		const glm::dvec4 last_row(matrix[0].w, matrix[1].w, matrix[2].w, matrix[3].w);
+		if (glm::length(last_row - glm::dvec4(0, 0, 0, 1)) > LAST_ROW_TOLERANCE) {
+			p_node.fail_value("matrix", "affine: its last row 0, 0, 0, 1");
+		}
+		for (int column = 0; column < 4; ++column) {
+			matrix[column].w = column == 3 ? 1 : 0;
+		}
 		return matrix;
 	}
 	double translation[3] = { 0, 0, 0 };

@@ -114,6 +114,7 @@ TEST_CASE("[GltfBadInput] hostile numbers are refused with path, value and range
 	check_refused(folder, json, "/nodes/0/rotation", { 0, 0, 0, 0 }, "unit quaternion");
 	check_refused(folder, json, "/nodes/0/translation", { 0, "x", 0 }, "3 finite numbers");
 	check_refused(folder, json, "/nodes/0/matrix", { 1, 2 }, "16 finite numbers");
+	check_refused(folder, json, "/nodes/0/matrix", std::vector<int>(16, 1), "last row 0, 0, 0, 1");
 	check_refused(folder, json, "/asset/version", "1.0", "asset.version is \"1.0\"");
 }
 
