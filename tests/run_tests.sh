@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build engine command_line demo removal template sanitized sanitized_all threads tables"
+PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables"
 
 usage() {
     cat <<'TEXT'
@@ -10,7 +10,7 @@ Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, tables with 9216 light samples
   --jobs N     build jobs (default: one a core)
-  --only PART  this part only; may be repeated. Parts: layers scenes build engine command_line
+  --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
                demo removal template sanitized; with --full also sanitized_all threads tables
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
@@ -166,6 +166,9 @@ fi
 # Every later part runs what this one builds.
 if is_wanted build; then
     run_check build scons -Q -j"$jobs" || finish
+fi
+if is_wanted docs; then
+    run_part docs python3 tests/run_unittest.py tests/docs/test_docs.py
 fi
 if is_wanted engine; then
     run_part engine bin/gnomon_tests

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Writes doc/classes from the properties that the program declares.
+
+    make_classes.py            writes light_3d.md, one page for each technique of the build, and index.md
+    make_classes.py --check    writes nothing; names each page that is not as it would be written
+
+The program is bin/gnomon, or $GNOMON. Pages of techniques that are not in this build stay as they are.
+Exit code: 0 done, 1 a page is out of date or the program failed.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+FOLDER = os.path.join(ROOT, "doc", "classes")
+NOTE = "<!-- Written by doc/make_classes.py from the declarations in the code; do not edit. -->"
+COMMON_HEADING = "every light"
+# "    light_size = 0.1 (0..10000 m): Radius ...", as `gnomon techniques` prints it.
+PROPERTY_LINE = re.compile(r"^    (\w+) = (.*?) ?\((.+?)\): (.+)$")
+TIMEOUT_S = 60
+
+
+def run_techniques(*options):
+    command = [GNOMON, "techniques", *options]
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    except OSError as error:
+        raise SystemExit("ERROR: %s: %s. Build it with scons." % (GNOMON, error.strerror)) from error
+    if result.returncode != 0:
+        raise SystemExit("ERROR: %s ended with %d: %s" % (" ".join(command), result.returncode, result.stderr))
+    return result.stdout
+
+
+def parse_common_properties(text):
+    """The properties that every light has; they stand in the text only, not in the JSON."""
+    lines = text.splitlines()
+    if COMMON_HEADING not in lines:
+        raise SystemExit('ERROR: `gnomon techniques` printed no section "%s".' % COMMON_HEADING)
+    properties = []
+    for line in lines[lines.index(COMMON_HEADING) + 1 :]:
+        match = PROPERTY_LINE.match(line)
+        if not match:
+            raise SystemExit("ERROR: `gnomon techniques` printed a line that is no property: %s" % line)
+        name, default, allowed, tooltip = match.groups()
+        properties.append({"name": name, "default": default, "range": allowed, "tooltip": tooltip})
+    return properties
+
+
+def format_default(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return "%g" % value
+    return str(value)
+
+
+def format_table(properties):
+    lines = ["| property | default | allowed | meaning |", "|---|---|---|---|"]
+    for item in properties:
+        default = format_default(item["default"])
+        cells = ("`%s`" % item["name"], "`%s`" % default if default else "empty", item["range"], item["tooltip"])
+        lines.append("| %s |" % " | ".join(cell.replace("|", "\\|") for cell in cells))
+    return lines
+
+
+def find_sibling(technique_id):
+    """The link to the page that explains the technique, where there is one."""
+    if os.path.isfile(os.path.join(ROOT, "doc", "techniques", technique_id + ".md")):
+        return ["", "How it works: [%s](../techniques/%s.md)." % (technique_id, technique_id)]
+    return []
+
+
+def make_technique_page(technique):
+    lines = ["# Properties of `%s`" % technique["id"], "", NOTE, "", "%s. Source: %s." % (technique["name"], technique["source"])]
+    lines += find_sibling(technique["id"]) + [""]
+    if technique["properties"]:
+        lines += ["A light stores them in its `extras`; `--set` changes them for one run.", ""]
+        lines += format_table(technique["properties"])
+    else:
+        lines.append("It has none of its own.")
+    return "\n".join(lines + ["", "Those of every light: [Light3D](light_3d.md).", ""])
+
+
+def make_light_page(properties):
+    lines = ["# Properties of every light (Light3D)", "", NOTE, ""]
+    lines += ["Every technique answers for these. A glTF light stores them in its `extras`; see"]
+    lines += ["[Scene files](../scene_files.md). `--set` changes them for one run.", ""]
+    return "\n".join(lines + format_table(properties) + [""])
+
+
+def make_index(names):
+    lines = ["# Properties", "", NOTE, "", "- [Every light](light_3d.md)"]
+    lines += ["- [%s](%s.md)" % (name, name) for name in names]
+    return "\n".join(lines + [""])
+
+
+def make_pages():
+    """File name -> text of every page."""
+    techniques = json.loads(run_techniques("--json"))
+    pages = {technique["id"] + ".md": make_technique_page(technique) for technique in techniques}
+    pages["light_3d.md"] = make_light_page(parse_common_properties(run_techniques()))
+    kept = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
+    names = {name for name in [*pages, *kept] if name.endswith(".md")} - {"light_3d.md", "index.md"}
+    pages["index.md"] = make_index(sorted(name[: -len(".md")] for name in names))
+    return pages
+
+
+def read_page(name):
+    path = os.path.join(FOLDER, name)
+    if not os.path.isfile(path):
+        return ""
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Writes doc/classes from the declared properties.")
+    parser.add_argument("--check", action="store_true", help="only name the pages that are out of date")
+    arguments = parser.parse_args()
+    pages = make_pages()
+    stale = sorted(name for name, text in pages.items() if read_page(name) != text)
+    if arguments.check:
+        for name in stale:
+            print("doc/classes/%s is out of date. Run doc/make_classes.py." % name)
+        return 1 if stale else 0
+    os.makedirs(FOLDER, exist_ok=True)
+    for name in stale:
+        with open(os.path.join(FOLDER, name), "w", encoding="utf-8") as file:
+            file.write(pages[name])
+        print("wrote doc/classes/%s" % name)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,143 @@
+"""The pages below doc/ are complete: links lead somewhere, techniques and properties are described."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+DOC = os.path.join(ROOT, "doc")
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
+LARGEST_IMAGE_BYTES = 60 * 1024
+TIMEOUT_S = 60
+
+sys.path.insert(0, DOC)
+import make_classes  # noqa: E402
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def find_pages():
+    """README.md and every page below doc/."""
+    pages = [os.path.join(ROOT, "README.md")]
+    for folder, _, names in os.walk(DOC):
+        pages += [os.path.join(folder, name) for name in sorted(names) if name.endswith(".md")]
+    return pages
+
+
+def find_links(path):
+    """Relative links of a page, without those in code."""
+    found = LINK.findall(CODE.sub("", read(path)))
+    return [link for link in found if not re.match(r"[a-z]+:", link)]
+
+
+def make_anchor(heading):
+    """As common renderers of Markdown make it."""
+    return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+
+
+def find_anchors(path):
+    return {make_anchor(heading) for heading in re.findall(r"(?m)^#+ (.+)$", read(path))}
+
+
+def resolve_link(page, link):
+    """(absolute path, anchor)"""
+    target, _, anchor = link.partition("#")
+    return os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page, anchor
+
+
+def load_techniques():
+    result = subprocess.run(
+        [GNOMON, "techniques", "--json"], capture_output=True, text=True, timeout=TIMEOUT_S, check=True
+    )
+    return json.loads(result.stdout)
+
+
+class LinkTest(unittest.TestCase):
+    def test_every_relative_link_leads_to_a_file_and_a_heading(self):
+        for page in find_pages():
+            for link in find_links(page):
+                with self.subTest(page=os.path.relpath(page, ROOT), link=link):
+                    target, anchor = resolve_link(page, link)
+                    self.assertTrue(os.path.exists(target), "no such file")
+                    if anchor:
+                        self.assertIn(anchor, find_anchors(target))
+
+    def test_every_page_can_be_reached_from_the_index(self):
+        reached, waiting = set(), [os.path.join(DOC, "index.md")]
+        while waiting:
+            page = waiting.pop()
+            if page in reached or not page.endswith(".md") or not os.path.isfile(page):
+                continue
+            reached.add(page)
+            waiting += [resolve_link(page, link)[0] for link in find_links(page)]
+        missing = [os.path.relpath(page, ROOT) for page in find_pages()[1:] if page not in reached]
+        self.assertEqual(missing, [])
+
+    def test_every_image_is_used_and_small(self):
+        used = {resolve_link(page, link)[0] for page in find_pages() for link in find_links(page)}
+        folder = os.path.join(DOC, "images")
+        for name in sorted(os.listdir(folder)):
+            with self.subTest(image=name):
+                path = os.path.join(folder, name)
+                self.assertIn(path, used)
+                self.assertLessEqual(os.path.getsize(path), LARGEST_IMAGE_BYTES)
+
+
+class TechniquePageTest(unittest.TestCase):
+    def test_every_technique_has_a_page_that_mentions_each_property(self):
+        for technique in load_techniques():
+            path = os.path.join(DOC, "techniques", technique["id"] + ".md")
+            with self.subTest(technique=technique["id"]):
+                self.assertTrue(os.path.isfile(path), "write doc/techniques/%s.md" % technique["id"])
+                text = read(path)
+                for item in technique["properties"]:
+                    self.assertTrue("`%s`" % item["name"] in text, "describe `%s`" % item["name"])
+
+    def test_every_technique_page_says_the_same_things(self):
+        for technique in load_techniques():
+            path = os.path.join(DOC, "techniques", technique["id"] + ".md")
+            if os.path.isfile(path):
+                with self.subTest(technique=technique["id"]):
+                    headings = re.findall(r"(?m)^## (.+)$", read(path))
+                    wanted = ["Idea", "Passes and textures", "Parameters", "Known failures", "Measured"]
+                    self.assertEqual([name for name in wanted if name not in headings], [])
+
+
+class GeneratedPageTest(unittest.TestCase):
+    def test_the_pages_of_properties_are_up_to_date(self):
+        command = [sys.executable, os.path.join(DOC, "make_classes.py"), "--check"]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_a_line_that_is_no_property_is_refused(self):
+        heading = make_classes.COMMON_HEADING + "\n"
+        with self.assertRaises(SystemExit):
+            make_classes.parse_common_properties(heading + "    what is this\n")
+        with self.assertRaises(SystemExit):
+            make_classes.parse_common_properties("no heading\n")
+
+    def test_a_property_line_is_read_whole(self):
+        line = "    light_size = 0.1 (-1 or 0..10 m): Radius (R): of a light.\n"
+        found = make_classes.parse_common_properties(make_classes.COMMON_HEADING + "\n" + line)
+        self.assertEqual(
+            found, [{"name": "light_size", "default": "0.1", "range": "-1 or 0..10 m", "tooltip": "Radius (R): of a light."}]
+        )
+        line = "    shadow_technique =  (text): Its id.\n"
+        found = make_classes.parse_common_properties(make_classes.COMMON_HEADING + "\n" + line)
+        self.assertEqual((found[0]["default"], found[0]["range"]), ("", "text"))
+
+
+class CanaryTest(unittest.TestCase):
+    def test_links_in_code_do_not_count_and_others_do(self):
+        self.assertEqual(LINK.findall(CODE.sub("", "`[a](b)` [c](d.md)")), ["d.md"])
+
+    def test_headings_become_anchors(self):
+        self.assertEqual(make_anchor("Six views: what `they` hold"), "six-views-what-they-hold")
