@@ -123,7 +123,7 @@ class GoodCommands(CommandLineTest):
 class Listings(CommandLineTest):
     def test_techniques(self):
         techniques = load_json("techniques", "--json")
-        keys = {"id", "name", "source", "module", "is_default", "is_fallback", "is_reference", "properties"}
+        keys = {"id", "name", "source", "is_default", "is_fallback", "is_reference", "properties"}
         for item in techniques:
             self.assertLessEqual(keys, set(item))
             for value in item["properties"]:
