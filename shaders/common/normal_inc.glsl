@@ -1,4 +1,4 @@
-// Unit vectors as two signed 16 bit numbers (octahedral mapping, error below 4e-5 rad).
+// Unit vectors as two signed 16 bit numbers (octahedral mapping, error below 6.5e-5 rad).
 #ifndef NORMAL_INC_GLSL
 #define NORMAL_INC_GLSL
 
