@@ -29,7 +29,10 @@ WITHOUT_DEVICE = ("scene", "mesh_tools")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
-REGISTRATION = re.compile(r"ShadowRegistry::add\s*\(\s*\{?\s*(?:ShadowTechniqueInfo\s*)?\{?\s*\"([a-z0-9_]+)\"")
+# ShadowRegistry::add({ "id", ..., or ShadowTechniqueInfo info = { "id", ... that is added after more is set.
+REGISTRATION = re.compile(
+    r"(?:ShadowRegistry::add\s*\(\s*\{?\s*(?:ShadowTechniqueInfo\s*)?\{?|ShadowTechniqueInfo\s+\w+\s*=\s*\{)\s*\"([a-z0-9_]+)\""
+)
 CLASS_MADE = re.compile(r"make_unique<\s*(?:gnomon::)?([A-Z]\w+)\s*>")
 
 
