@@ -23,13 +23,16 @@ def _scan(node, env, path):
 
 
 def _embed(target, source, env):
-    """Writes find_embedded_shader's table: name (folder/file) -> SPIR-V words."""
+    """Writes a table for find_embedded_shader: name (folder/file) -> SPIR-V words.
+
+    SHADER_FUNCTION returns it; SHADER_FOLDER replaces the folder in the names.
+    """
     lines = ['#include "modules/core/embedded_shaders.h"', "", "namespace gnomon {", "namespace {"]
     names = []
     for index, node in enumerate(source):
         path = str(node)
         folder, file = os.path.split(path)
-        names.append(os.path.basename(folder) + "/" + file[: -len(".spv")])
+        names.append((env.get("SHADER_FOLDER") or os.path.basename(folder)) + "/" + file[: -len(".spv")])
         with open(path, "rb") as binary:
             data = binary.read()
         words = struct.unpack("<%dI" % (len(data) // 4), data)
@@ -40,10 +43,29 @@ def _embed(target, source, env):
     lines += ["const EmbeddedShader SHADERS[] = {"]
     for index, name in enumerate(names):
         lines.append('\t{ "%s", SHADER_%d },' % (name, index))
-    lines += ["\t{ {}, {} },", "};", "} // namespace", "", "std::span<const EmbeddedShader> get_embedded_shaders() {"]
+    function = env.get("SHADER_FUNCTION", "get_embedded_shaders")
+    lines += ["\t{ {}, {} },", "};", "} // namespace", "", "std::span<const EmbeddedShader> %s();" % function, ""]
+    lines += ["std::span<const EmbeddedShader> %s() {" % function]
     lines += ["\treturn std::span<const EmbeddedShader>(SHADERS, %d);" % len(names), "}", "", "} // namespace gnomon", ""]
     with open(str(target[0]), "w", encoding="utf-8") as file:
         file.write("\n".join(lines))
+
+
+def find_missing_folders(path, modules):
+    """Shader folders that an entry point includes, of modules that this build does not have."""
+    shaders = os.path.dirname(os.path.abspath(__file__))
+    built = {module.name for module in modules} | {"common", "shared"}
+    missing, seen, waiting = set(), set(), [path]
+    while waiting:
+        current = waiting.pop()
+        if current in seen or not os.path.isfile(current):
+            continue
+        seen.add(current)
+        with open(current, encoding="utf-8") as file:
+            included = _INCLUDE.findall(file.read())
+        missing.update(name.split("/")[0] for name in included if name.split("/")[0] not in built)
+        waiting += [os.path.join(shaders, name) for name in included]
+    return missing
 
 
 def add_builders(env):

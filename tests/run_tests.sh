@@ -60,6 +60,7 @@ trap 'rm -rf "$work"' EXIT
 # Never the user's own cache; shared by all parts, so that a truth is traced once.
 export GNOMON_CACHE_DIR=$work/cache
 export PYTHONDONTWRITEBYTECODE=1
+unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
 passed=0

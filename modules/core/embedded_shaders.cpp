@@ -2,13 +2,37 @@
 
 #include "modules/core/error.h"
 
+#include <vector>
+
 namespace gnomon {
 
-std::span<const uint32_t> find_embedded_shader(std::string_view p_name) {
-	for (const EmbeddedShader &shader : get_embedded_shaders()) {
+namespace {
+
+std::vector<EmbeddedShader> added_shaders;
+
+const EmbeddedShader *find_shader(
+		std::span<const EmbeddedShader> p_shaders, std::string_view p_name) {
+	for (const EmbeddedShader &shader : p_shaders) {
 		if (shader.name == p_name) {
-			return shader.spirv;
+			return &shader;
 		}
+	}
+	return nullptr;
+}
+
+} // namespace
+
+void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders) {
+	added_shaders.insert(added_shaders.end(), p_shaders.begin(), p_shaders.end());
+}
+
+std::span<const uint32_t> find_embedded_shader(std::string_view p_name) {
+	const EmbeddedShader *shader = find_shader(get_embedded_shaders(), p_name);
+	if (shader == nullptr) {
+		shader = find_shader(added_shaders, p_name);
+	}
+	if (shader != nullptr) {
+		return shader->spirv;
 	}
 	fail("Shader \"", p_name, "\" is not in this build. It must be a file below shaders/, in the ",
 			"folder of a module that is built.");

@@ -14,6 +14,9 @@ struct EmbeddedShader {
 
 /// Every entry point of the modules in this build, ordered by module and name.
 std::span<const EmbeddedShader> get_embedded_shaders();
+/// More entry points, found after those of the build and valid until the program ends: the test
+/// runner's kernels. Before any pipeline is made.
+void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders);
 /// The SPIR-V of one entry point. An unknown name is an Error naming it.
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name);
 

@@ -8,6 +8,7 @@ The copy takes the build folder along, so that only the link is new.
 """
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -56,6 +57,13 @@ def remove_technique(target, module, ids):
         for name in names:
             if name.split(".")[0] in ids and name.endswith(".png"):
                 os.remove(os.path.join(folder, name))
+    limits = os.path.join(golden, "accuracy.json")
+    with open(limits, encoding="utf-8") as file:
+        content = json.load(file)
+    for case in content["cases"]:
+        case["results"] = [result for result in case["results"] if result["id"] not in ids]
+    with open(limits, "w", encoding="utf-8") as file:
+        json.dump(content, file)
 
 
 def run(target, what, command):

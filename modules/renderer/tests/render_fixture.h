@@ -110,13 +110,15 @@ struct RenderFixture {
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<Renderer> renderer;
 
-	RenderFixture() {
+	/// p_device: as DeviceOptions::device.
+	explicit RenderFixture(const std::string &p_device = "") {
 		std::string name =
 				(std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
 		cache = ::mkdtemp(name.data());
 		::setenv("GNOMON_CACHE_DIR", cache.c_str(), 1);
 		DeviceOptions options;
 		options.validation = true;
+		options.device = p_device;
 		device = RenderingDevice::create(options);
 		renderer = std::make_unique<Renderer>(*device);
 	}

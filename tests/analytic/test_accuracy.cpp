@@ -1,0 +1,137 @@
+// How wrong is each technique? Masks of demo scenes against the reference, with limits from
+// tests/golden/accuracy.json. A technique without a limit must give a valid mask.
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/error_report/mask_metrics.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "tests/demo_scene.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace gnomon;
+
+namespace {
+
+nlohmann::json load_limits() {
+	return nlohmann::json::parse(load_text_file("tests/golden/accuracy.json"));
+}
+
+LightType parse_light_type(const std::string &p_name) {
+	if (p_name == "spot") {
+		return LightType::SPOT;
+	}
+	if (p_name == "omni") {
+		return LightType::OMNI;
+	}
+	if (p_name == "directional") {
+		return LightType::DIRECTIONAL;
+	}
+	fail("accuracy.json: light \"", p_name, "\", must be spot, omni or directional.");
+}
+
+/// A demo scene with its first light turned into another type; place and direction stay.
+struct AccuracyScene {
+	std::unique_ptr<Scene> scene;
+	Light3D *light = nullptr;
+
+	AccuracyScene(const nlohmann::json &p_case, const nlohmann::json &p_settings) :
+			scene(load_demo_scene(p_case.at("scene").get<std::string>())) {
+		light = scene->find_nodes<Light3D>().at(0);
+		light->type = parse_light_type(p_case.at("light").get<std::string>());
+		// Seen from the middle of the scene, 7.1 degrees is as wide as the sphere light.
+		light->properties["light_angular_distance"] = 7.1;
+		apply_light_settings(*scene, p_settings);
+	}
+
+	MaskImage render(RenderFixture &r_fixture, const std::string &p_id, uint32_t p_size_px) {
+		RenderRequest request;
+		request.scene = build_snapshot(*scene, *scene->find_nodes<Camera3D>().at(0));
+		request.size_px = glm::uvec2(p_size_px);
+		request.technique_override = p_id;
+		request.mask_light = light->name;
+		request.wants_mask = true;
+		const RenderResult result = r_fixture.renderer->render(request);
+		CHECK(is_valid_mask(result));
+		return { request.size_px, result.visibility, result.receiver };
+	}
+};
+
+MaskImage render_reference(RenderFixture &r_fixture, const nlohmann::json &p_limits,
+		const nlohmann::json &p_case, nlohmann::json p_more_settings = nlohmann::json::object()) {
+	p_more_settings.update(p_limits.at("reference_settings"));
+	AccuracyScene scene(p_case, p_more_settings);
+	return scene.render(r_fixture, ShadowRegistry::find_reference()->id,
+			p_limits.at("size_px").get<uint32_t>());
+}
+
+/// A build without the reference has nothing to measure against.
+bool has_reference() {
+	if (ShadowRegistry::find_reference() == nullptr) {
+		MESSAGE("No reference technique in this build: accuracy is not measured.");
+		return false;
+	}
+	return true;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it was accepted") {
+	if (!has_reference()) {
+		return;
+	}
+	RenderFixture fixture;
+	const nlohmann::json limits = load_limits();
+	const uint32_t size_px = limits.at("size_px").get<uint32_t>();
+	for (const nlohmann::json &accuracy_case : limits.at("cases")) {
+		CAPTURE(accuracy_case.at("scene").get<std::string>());
+		CAPTURE(accuracy_case.at("light").get<std::string>());
+		const MaskImage truth = render_reference(fixture, limits, accuracy_case);
+		double previous_mae = 0; // results of one case are listed from best to worst
+		for (const nlohmann::json &entry : accuracy_case.at("results")) {
+			const std::string id = entry.at("id").get<std::string>();
+			CAPTURE(id);
+			CAPTURE(entry.at("settings").dump());
+			if (ShadowRegistry::find(id) == nullptr) {
+				FAIL_CHECK("No technique of this build has the id \"", id, "\".");
+				continue;
+			}
+			AccuracyScene scene(accuracy_case, entry.at("settings"));
+			const MaskMetrics metrics =
+					compute_mask_metrics(truth, scene.render(fixture, id, size_px));
+			CHECK(metrics.penumbra.pixel_count > 200);
+			CHECK(metrics.receiver.mae <= entry.at("receiver_mae").get<double>());
+			CHECK(metrics.penumbra.mae <= entry.at("penumbra_mae").get<double>());
+			CHECK(metrics.penumbra.mae > previous_mae);
+			previous_mae = metrics.penumbra.mae;
+		}
+	}
+}
+
+TEST_CASE("[GPU][Accuracy] every technique gives valid masks of every scene that has limits") {
+	RenderFixture fixture;
+	const nlohmann::json limits = load_limits();
+	for (const nlohmann::json &accuracy_case : limits.at("cases")) {
+		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+			CAPTURE(info.id);
+			if (!info.is_reference) { // render() checks the mask
+				AccuracyScene scene(accuracy_case, nlohmann::json::object());
+				scene.render(fixture, info.id, 48);
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") {
+	if (!has_reference()) {
+		return;
+	}
+	RenderFixture fixture;
+	const nlohmann::json limits = load_limits();
+	const nlohmann::json &accuracy_case = limits.at("cases").at(0);
+	const MaskImage truth = render_reference(fixture, limits, accuracy_case);
+	const MaskMetrics metrics = compute_mask_metrics(truth,
+			render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
+	CHECK(metrics.penumbra.mae > 0.05); // twice and more what good techniques have
+}

@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Measures what the engine promises and writes the tables of doc/benchmarks.md.
+
+    run_benchmarks.py [PART]... [--build] [--jobs N] [--write]
+
+Parts: load shadow_map static, and with --build also clean_build technique_build; default: all of
+these. Without --write the tables are printed only. Build first: scons && scons benchmarks.
+Times depend on the machine and on what else it does, so that nothing here fails on a time.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PROGRAM = os.path.join(ROOT, "bin", "gnomon")
+LOAD_PROGRAM = os.path.join(ROOT, "bin", "gnomon_benchmark")
+PAGE = os.path.join(ROOT, "doc", "benchmarks.md")
+SCENES = os.path.join(ROOT, "demo_project", "scenes")
+PARTS = ("load", "shadow_map", "static")
+BUILD_PARTS = ("clean_build", "technique_build")
+TIMED_SCENES = ("torus_knot", "terrain")
+TOUCHED_FILE = "modules/shadow_map/shadow_map.cpp"
+REPEATS = 3  # of `visibility --time`, each the median of 20 frames
+TIMEOUT_S = 3600
+
+
+def run(command, folder=ROOT, **options):
+    """The command's output. Ends the program when the command fails."""
+    result = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S, **options
+    )
+    if result.returncode != 0:
+        raise SystemExit("ERROR: %s ended with %d: %s" % (" ".join(command), result.returncode, result.stderr.strip()))
+    return result.stdout
+
+
+def format_row(*cells):
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def format_table(header, rows):
+    return [format_row(*header), format_row(*("---" for _ in header))] + [format_row(*row) for row in rows]
+
+
+def answer(is_met):
+    return "yes" if is_met else "no"
+
+
+def describe_processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        found = re.search(r"^model name\s*:\s*(.+)$", file.read(), re.MULTILINE)
+    return found.group(1) if found else "unknown processor"
+
+
+def copy_tree(target):
+    for name in run(["git", "ls-files", "-z"]).split("\0"):
+        source = os.path.join(ROOT, name)
+        if name and os.path.isfile(source):
+            os.makedirs(os.path.dirname(os.path.join(target, name)), exist_ok=True)
+            shutil.copy2(source, os.path.join(target, name))
+
+
+def measure_load():
+    """Loading the bunny and building its adjacency."""
+    if not os.path.isfile(LOAD_PROGRAM):
+        raise SystemExit("ERROR: %s is missing. Run `scons benchmarks`." % LOAD_PROGRAM)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = os.path.join(folder, "bunny.gltf")
+        run([sys.executable, os.path.join(SCENES, "make_bunny.py"), scene])
+        result = json.loads(run([LOAD_PROGRAM, scene]))
+    return format_table(
+        ("bunny and ground", "median of %d runs" % result["runs"], "goal", "met"),
+        [
+            ("triangles, edges", "%d, %d" % (result["triangles"], result["edges"]), "", ""),
+            ("load the file", "%.3f s" % result["load_s"], "", ""),
+            ("build the adjacency", "%.3f s" % result["topology_s"], "", ""),
+            ("both", "%.3f s" % result["total_s"], "< 0.5 s", answer(result["total_s"] < 0.5)),
+        ],
+    )
+
+
+def measure_passes(scene, technique):
+    """Medians of the wall time by pass, ms, over REPEATS measurements."""
+    samples = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(REPEATS):
+            times = os.path.join(folder, "time.json")
+            run([PROGRAM, "visibility", os.path.join(SCENES, scene + ".gltf"), "--technique", technique, "--size", "512x512",
+                 "--out", os.path.join(folder, "mask.exr"), "--time", times])  # fmt: skip
+            with open(times, encoding="utf-8") as file:
+                result = json.load(file)
+            for item in result["passes"]:
+                samples.setdefault(item["name"], []).append(item["wall_ms"])
+            samples.setdefault("", []).append(result["total"]["wall_ms"])
+    return {name: statistics.median(values) for name, values in samples.items()}
+
+
+def measure_shadow_map():
+    """What the hard map costs beyond drawing its depth, 512 x 512 pixels and a map of 1024^2."""
+    rows = []
+    for scene in TIMED_SCENES:
+        passes = measure_passes(scene, "shadow_map")
+        depth = sum(value for name, value in passes.items() if name.startswith("depth view"))
+        compare = passes.get("resolve", 0.0)
+        receivers = passes.get("receivers", 0.0)  # the renderer's, for whatever technique
+        total = passes[""]
+        rest = max(0.0, total - depth - compare - receivers)
+        rows.append(
+            (scene, "%.1f" % depth, "%.1f" % compare, "%.1f" % receivers, "%.1f" % rest, "%.1f" % total,
+             "%.2f" % (total / depth), answer(rest <= 0.1 * depth))  # fmt: skip
+        )
+    header = ("scene", "depth pass ms", "compare ms", "receivers ms", "rest ms", "total ms", "total / depth", "rest <= 10 % of depth")
+    return format_table(header, rows)
+
+
+def measure_static():
+    """What the second frame of a scene at rest still draws from the light."""
+    rows = []
+    for scene in TIMED_SCENES:
+        with tempfile.TemporaryDirectory() as folder:
+            output = run([PROGRAM, "visibility", os.path.join(SCENES, scene + ".gltf"), "--technique", "shadow_map", "--size", "256x256",
+                          "--frames", "2", "--plan", "--out", os.path.join(folder, "mask.exr")])  # fmt: skip
+        kept = re.findall(r"(?m)^.*light view \d+.*kept.*$", output)
+        drawn = re.findall(r"(?m)^.*depth view.*$", output)
+        rows.append((scene, len(drawn), len(kept), answer(not drawn and bool(kept))))
+    return format_table(("scene", "depth passes in frame 2", "views kept", "nothing is drawn anew"), rows)
+
+
+def measure_clean_build(jobs):
+    """From a fresh checkout to bin/gnomon and bin/gnomon_tests."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy_tree(folder)
+        start = time.monotonic()
+        run(["scons", "-Q", "-j%d" % jobs, "compiledb=no"], folder)
+        seconds = time.monotonic() - start
+    text = "%d min %02d s" % (seconds // 60, seconds % 60)
+    return format_table(("clean build, %d jobs" % jobs, "goal on 2 cores", "met"), [(text, "<= 6 min", answer(seconds <= 360))])
+
+
+def measure_technique_build(jobs):
+    """From a change in a technique's .cpp to both programs."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy_tree(folder)
+        for name in os.listdir(ROOT):
+            if name.startswith(".sconsign"):
+                shutil.copy2(os.path.join(ROOT, name), folder)
+        for name in ("build/release", "bin"):
+            shutil.copytree(os.path.join(ROOT, name), os.path.join(folder, name))
+        build = ["scons", "-Q", "-j%d" % jobs, "compiledb=no"]
+        run(build, folder)  # whatever the copy still lacks
+        with open(os.path.join(folder, TOUCHED_FILE), "a", encoding="utf-8") as file:
+            file.write("\n// touched\n")
+        start = time.monotonic()
+        run(build, folder)
+        seconds = time.monotonic() - start
+    return format_table(
+        ("rebuild after a change in %s" % TOUCHED_FILE, "goal", "met"), [("%.1f s" % seconds, "< 20 s", answer(seconds < 20))]
+    )
+
+
+def write_table(name, lines):
+    """Replaces what stands between the page's two markers of that name."""
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
+    if begin not in text or end not in text:
+        raise SystemExit("ERROR: %s has no markers %s and %s. Add them where the table belongs." % (PAGE, begin, end))
+    before, rest = text.split(begin, 1)
+    after = rest.split(end, 1)[1]
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(before + begin + "\n" + "\n".join(lines) + "\n" + end + after)
+
+
+def describe_machine(load):
+    device, driver = "unknown", "unknown"
+    with tempfile.TemporaryDirectory() as folder:
+        times = os.path.join(folder, "time.json")
+        run([PROGRAM, "visibility", os.path.join(SCENES, "sphere.gltf"), "--technique", "shadow_map", "--size", "16x16",
+             "--out", os.path.join(folder, "mask.exr"), "--time", times])  # fmt: skip
+        with open(times, encoding="utf-8") as file:
+            result = json.load(file)
+        device, driver = result["device"], result["driver"]
+    cores = os.cpu_count() or 1
+    return "%s: %s, %d cores; %s, %s. Load when it began: %.1f%s." % (
+        datetime.date.today().isoformat(), describe_processor(), cores, device, driver, load,
+        " - other work ran beside it, so the times are too long" if load > 0.5 else "")  # fmt: skip
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures loading, building and the shadow map; see doc/benchmarks.md.")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS + BUILD_PARTS))
+    parser.add_argument("--build", action="store_true", help="also the parts that build (minutes)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    arguments = parser.parse_args()
+    unknown = [part for part in arguments.parts if part not in PARTS + BUILD_PARTS]
+    if unknown:
+        parser.error("unknown part %s, must be one of: %s" % (", ".join(unknown), ", ".join(PARTS + BUILD_PARTS)))
+    if not os.path.isfile(PROGRAM):
+        raise SystemExit("ERROR: %s is missing. Run scons." % PROGRAM)
+    measures = {
+        "load": measure_load,
+        "shadow_map": measure_shadow_map,
+        "static": measure_static,
+        "clean_build": lambda: measure_clean_build(arguments.jobs),
+        "technique_build": lambda: measure_technique_build(arguments.jobs),
+    }
+    for part in arguments.parts or PARTS + (BUILD_PARTS if arguments.build else ()):
+        load = os.getloadavg()[0]
+        lines = measures[part]() + ["", describe_machine(load)]
+        print("\n%s\n%s" % (part, "\n".join(lines)), flush=True)
+        if arguments.write:
+            write_table(part, lines)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

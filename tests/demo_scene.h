@@ -1,0 +1,48 @@
+#pragma once
+
+#include "modules/core/error.h"
+#include "modules/core/property.h"
+#include "modules/gltf_scene/gltf_scene.h"
+#include "modules/renderer/shadow_registry.h"
+#include "modules/scene/nodes.h"
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+// The demo scenes and settings from JSON files, for tests that compare pictures and masks of them.
+
+namespace gnomon {
+
+/// Tests run from the repository's root; an Error says so when they do not.
+inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
+	const std::filesystem::path path = std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");
+	if (!std::filesystem::exists(path)) {
+		fail("Scene ", path, " is not there. Run the tests from the repository's root.");
+	}
+	GltfLoadOptions options;
+	options.project_folder = "demo_project";
+	options.find_technique_property = &ShadowRegistry::find_light_property;
+	return load_gltf(path, options);
+}
+
+/// Sets the properties of every light. A name that nobody declares, or a value out of its range, is
+/// an Error.
+inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_settings) {
+	for (const auto &[name, value] : p_settings.items()) {
+		const PropertyInfo *info = Light3D::get_property_list().find(name);
+		if (info == nullptr) {
+			info = ShadowRegistry::find_light_property(name);
+		}
+		if (info == nullptr) {
+			fail("Setting \"", name, "\": no light and no technique of this build has it.");
+		}
+		const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+		for (Light3D *light : p_scene.find_nodes<Light3D>()) {
+			light->properties[name] = parse_property(*info, text, "Setting \"" + name + "\"");
+		}
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,272 @@
+// Has a picture changed? Each tests/golden/<scene>/<technique id>.png is rendered again and compared.
+// Files are written by tests/golden/update.sh only.
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "tests/demo_scene.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <stb/stb_image.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char *const GOLDEN_FOLDER = "tests/golden";
+const char *const FAILURE_FOLDER = "build/golden_failures";
+constexpr uint32_t CHANNEL_COUNT = 3; // the alpha of a picture is always 1
+constexpr int AMPLIFICATION = 10; // in the picture of the difference
+
+struct Picture {
+	glm::uvec2 size_px = glm::uvec2(0);
+	std::vector<uint8_t> pixels; // RGB
+};
+
+/// tests/golden/<scene>/golden.json.
+struct GoldenSettings {
+	std::string camera; // empty = the first
+	glm::uvec2 size_px = glm::uvec2(128);
+	int max_difference = 5; // of a channel, in 255ths
+	double max_pixel_share = 0.001; // of pixels that differ by more
+	nlohmann::json light_settings; // by technique id, for every light
+};
+
+GoldenSettings load_settings(const std::string &p_scene) {
+	const fs::path path = fs::path(GOLDEN_FOLDER) / p_scene / "golden.json";
+	const nlohmann::json json = nlohmann::json::parse(load_text_file(path));
+	GoldenSettings settings;
+	settings.camera = json.at("camera").get<std::string>();
+	settings.size_px = { json.at("size_px").at(0).get<uint32_t>(),
+		json.at("size_px").at(1).get<uint32_t>() };
+	settings.max_difference = json.at("tolerance").at("difference").get<int>();
+	settings.max_pixel_share = json.at("tolerance").at("pixel_share").get<double>();
+	settings.light_settings = json.at("light_settings");
+	return settings;
+}
+
+Picture load_picture(const fs::path &p_path) {
+	int width = 0;
+	int height = 0;
+	int channel_count = 0;
+	uint8_t *data = stbi_load(p_path.c_str(), &width, &height, &channel_count, CHANNEL_COUNT);
+	if (data == nullptr) {
+		fail("Golden ", p_path, " cannot be read: ", stbi_failure_reason(),
+				". Make it with tests/golden/update.sh.");
+	}
+	Picture picture = { glm::uvec2(width, height),
+		std::vector<uint8_t>(data, data + size_t(width) * height * CHANNEL_COUNT) };
+	stbi_image_free(data);
+	return picture;
+}
+
+void save_picture(const fs::path &p_path, const Picture &p_picture) {
+	save_png(p_path, p_picture.size_px, CHANNEL_COUNT, p_picture.pixels);
+}
+
+/// Share of the pixels with a channel that differs by more than the limit; 1 for different sizes.
+double compute_differing_share(
+		const Picture &p_expected, const Picture &p_actual, int p_max_difference) {
+	if (p_expected.size_px != p_actual.size_px) {
+		return 1;
+	}
+	size_t differing_count = 0;
+	for (size_t pixel = 0; pixel < p_expected.pixels.size(); pixel += CHANNEL_COUNT) {
+		bool differs = false;
+		for (size_t index = pixel; index < pixel + CHANNEL_COUNT; ++index) {
+			differs = differs ||
+					std::abs(int(p_expected.pixels[index]) - p_actual.pixels[index]) >
+							p_max_difference;
+		}
+		differing_count += differs;
+	}
+	return double(differing_count) / double(p_expected.pixels.size() / CHANNEL_COUNT);
+}
+
+bool is_equal_enough(
+		const Picture &p_expected, const Picture &p_actual, const GoldenSettings &p_settings) {
+	return compute_differing_share(p_expected, p_actual, p_settings.max_difference) <=
+			p_settings.max_pixel_share;
+}
+
+/// Grey = equal, lighter or darker where the actual picture is.
+Picture amplify_difference(const Picture &p_expected, const Picture &p_actual) {
+	Picture result = p_actual;
+	for (size_t index = 0; index < result.pixels.size(); ++index) {
+		const int difference = int(p_actual.pixels[index]) - p_expected.pixels[index];
+		result.pixels[index] =
+				static_cast<uint8_t>(std::clamp(128 + AMPLIFICATION * difference, 0, 255));
+	}
+	return result;
+}
+
+/// Goldens are made by the software driver, so that they do not depend on whose machine it is.
+std::string find_software_device() {
+	for (const DeviceInfo &info : RenderingDevice::list_devices()) {
+		if (info.is_usable && info.type == "CPU") {
+			return text(info.index);
+		}
+	}
+	fail("Golden pictures are compared under a software driver, and there is none. Install ",
+			"mesa-vulkan-drivers.");
+}
+
+Picture render_picture(RenderFixture &r_fixture, const Scene &p_scene, const std::string &p_id,
+		const GoldenSettings &p_settings) {
+	const Camera3D &camera = p_settings.camera.empty()
+			? *p_scene.find_nodes<Camera3D>().at(0)
+			: p_scene.find_node<Camera3D>(p_settings.camera, "Camera");
+	RenderRequest request;
+	request.scene = build_snapshot(p_scene, camera);
+	request.size_px = p_settings.size_px;
+	request.technique_override = p_id;
+	request.wants_image = true;
+	const std::vector<uint8_t> image = r_fixture.renderer->render(request).image;
+	Picture picture = { p_settings.size_px, {} };
+	for (size_t index = 0; index < image.size(); index += 4) {
+		picture.pixels.insert(picture.pixels.end(), &image[index], &image[index] + CHANNEL_COUNT);
+	}
+	return picture;
+}
+
+Picture render_golden(RenderFixture &r_fixture, const std::string &p_scene, const std::string &p_id,
+		const GoldenSettings &p_settings) {
+	const std::unique_ptr<Scene> scene = load_demo_scene(p_scene);
+	if (p_settings.light_settings.contains(p_id)) {
+		apply_light_settings(*scene, p_settings.light_settings.at(p_id));
+	}
+	return render_picture(r_fixture, *scene, p_id, p_settings);
+}
+
+struct GoldenFile {
+	std::string scene;
+	std::string id;
+	fs::path get_path() const { return fs::path(GOLDEN_FOLDER) / scene / (id + ".png"); }
+	bool operator<(const GoldenFile &p_other) const {
+		return std::tie(scene, id) < std::tie(p_other.scene, p_other.id);
+	}
+};
+
+std::vector<GoldenFile> find_goldens() {
+	if (!fs::is_directory(GOLDEN_FOLDER)) {
+		fail(GOLDEN_FOLDER, " is not there. Run the tests from the repository's root.");
+	}
+	std::vector<GoldenFile> found;
+	for (const fs::directory_entry &folder : fs::directory_iterator(GOLDEN_FOLDER)) {
+		if (!folder.is_directory()) {
+			continue;
+		}
+		for (const fs::directory_entry &file : fs::directory_iterator(folder.path())) {
+			if (file.path().extension() == ".png") {
+				found.push_back({ folder.path().filename(), file.path().stem() });
+			}
+		}
+	}
+	std::sort(found.begin(), found.end());
+	return found;
+}
+
+/// $GNOMON_UPDATE_GOLDEN, set by update.sh: "all", a scene, or "scene/id" (which may be new).
+std::vector<GoldenFile> choose_updates(std::vector<GoldenFile> p_goldens) {
+	const char *variable = std::getenv("GNOMON_UPDATE_GOLDEN");
+	const std::string wanted = variable == nullptr ? "" : variable;
+	const size_t slash = wanted.find('/');
+	if (slash != std::string::npos) {
+		return { { wanted.substr(0, slash), wanted.substr(slash + 1) } };
+	}
+	std::erase_if(p_goldens, [&](const GoldenFile &p_golden) {
+		return wanted != "all" && wanted != p_golden.scene;
+	});
+	return p_goldens;
+}
+
+void check_golden(RenderFixture &r_fixture, const GoldenFile &p_golden) {
+	const GoldenSettings settings = load_settings(p_golden.scene);
+	const Picture expected = load_picture(p_golden.get_path());
+	const Picture actual = render_golden(r_fixture, p_golden.scene, p_golden.id, settings);
+	if (is_equal_enough(expected, actual, settings)) {
+		return;
+	}
+	const std::string stem = p_golden.scene + "." + p_golden.id;
+	fs::create_directories(FAILURE_FOLDER);
+	save_picture(fs::path(FAILURE_FOLDER) / (stem + ".expected.png"), expected);
+	save_picture(fs::path(FAILURE_FOLDER) / (stem + ".actual.png"), actual);
+	if (expected.size_px == actual.size_px) {
+		save_picture(fs::path(FAILURE_FOLDER) / (stem + ".difference.png"),
+				amplify_difference(expected, actual));
+	}
+	const std::string message = text(p_golden.get_path(), " has changed: ",
+			100 * compute_differing_share(expected, actual, settings.max_difference),
+			" % of the pixels differ by more than ", settings.max_difference, "/255, allowed are ",
+			100 * settings.max_pixel_share, " %. Compare ", FAILURE_FOLDER, "/", stem,
+			".*.png; if the change is meant, run tests/golden/update.sh ", p_golden.scene, " ",
+			p_golden.id, ".");
+	FAIL_CHECK(message);
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Golden] every picture looks as it did when it was accepted") {
+	RenderFixture fixture(find_software_device());
+	for (const GoldenFile &golden : choose_updates(find_goldens())) {
+		ShadowRegistry::get(golden.id);
+		save_picture(golden.get_path(),
+				render_golden(fixture, golden.scene, golden.id, load_settings(golden.scene)));
+		MESSAGE("written: ", golden.get_path().string());
+	}
+	const std::vector<GoldenFile> goldens = find_goldens();
+	CHECK_FALSE(goldens.empty());
+	for (const GoldenFile &golden : goldens) {
+		if (ShadowRegistry::find(golden.id) == nullptr) {
+			FAIL_CHECK(golden.get_path().string(), ": no technique of this build has the id \"",
+					golden.id, "\". Delete the file with the technique.");
+			continue;
+		}
+		check_golden(fixture, golden);
+	}
+}
+
+TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes the picture") {
+	RenderFixture fixture(find_software_device());
+	REQUIRE_FALSE(ShadowRegistry::get_techniques().empty());
+	const std::string &id = ShadowRegistry::get_techniques().front().id;
+	GoldenSettings settings;
+	settings.size_px = glm::uvec2(64);
+	const std::unique_ptr<Scene> scene = load_demo_scene("sphere");
+	const Picture before = render_picture(fixture, *scene, id, settings);
+	CHECK(is_equal_enough(
+			before, render_picture(fixture, *scene, id, settings), settings));
+	Light3D &light = *scene->find_nodes<Light3D>().at(0);
+	light.parent_from_node[3].x += 0.4;
+	CHECK_FALSE(is_equal_enough(
+			before, render_picture(fixture, *scene, id, settings), settings));
+}
+
+TEST_CASE("[Golden] canary: a changed picture is noticed, and only beyond the tolerance") {
+	const GoldenSettings settings; // 5/255, 0.1 %
+	const Picture expected = { glm::uvec2(100), std::vector<uint8_t>(30000, 100) };
+	const auto change = [&](size_t p_pixel_count, uint8_t p_value) {
+		Picture changed = expected;
+		for (size_t pixel = 0; pixel < p_pixel_count; ++pixel) {
+			changed.pixels[3 * pixel + 1] = p_value; // one channel is enough
+		}
+		return is_equal_enough(expected, changed, settings);
+	};
+	CHECK(change(0, 0));
+	CHECK(change(10000, 105));
+	CHECK(change(10000, 95));
+	CHECK_FALSE(change(10000, 106));
+	CHECK_FALSE(change(10000, 94));
+	CHECK(change(10, 255));
+	CHECK_FALSE(change(11, 255));
+	Picture smaller = expected;
+	smaller.size_px = { 50, 200 };
+	CHECK_FALSE(is_equal_enough(expected, smaller, settings));
+	CHECK(amplify_difference(expected, expected).pixels == std::vector<uint8_t>(30000, 128));
+}

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Renders golden pictures anew: the only way to change them. Say why in the commit.
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+Usage: tests/golden/update.sh [SCENE [ID]]
+  without arguments  every picture that there is
+  SCENE              the pictures of one scene, a folder of tests/golden
+  SCENE ID           one picture; a technique's first one is made this way
+Build first: scons. Look at each picture before you commit it.
+TEXT
+}
+
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+if [ $# -gt 2 ] || [[ "${1:-}" == -* ]]; then
+    usage
+    [[ "${1:-}" == -h || "${1:-}" == --help ]] && exit 0
+    exit 2
+fi
+wanted=${1:-all}
+if [ $# -ge 1 ] && [ ! -f "tests/golden/$1/golden.json" ]; then
+    echo "ERROR: tests/golden/$1/golden.json is missing. Scenes: $(cd tests/golden && echo */)" >&2
+    exit 1
+fi
+[ $# -eq 2 ] && wanted=$1/$2
+if [ ! -x bin/gnomon_tests ]; then
+    echo "ERROR: bin/gnomon_tests is missing. Run scons first." >&2
+    exit 1
+fi
+GNOMON_UPDATE_GOLDEN=$wanted bin/gnomon_tests '--test-case=[GPU][Golden] every picture*'
+git status --short -- tests/golden

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/depth_inc.glsl"
+
+// xy: pixel, z: stored depth. Gives the position.
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) readonly buffer Input {
+	vec4 pixels[];
+};
+layout(set = 0, binding = 1) writeonly buffer Output {
+	vec4 results[];
+};
+layout(set = 0, binding = 2) uniform Frame {
+	FrameConstants frame;
+};
+
+void main() {
+	const uint item = gl_GlobalInvocationID.x;
+	if (item >= uint(pixels.length())) {
+		return;
+	}
+	const vec4 pixel = pixels[item];
+	results[item] = vec4(position_from_depth(frame, ivec2(pixel.xy), pixel.z), 1.0);
+}

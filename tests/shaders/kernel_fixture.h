@@ -1,0 +1,75 @@
+#pragma once
+
+#include "modules/rendering_device/tests/device_fixture.h"
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace gnomon {
+
+/// Runs a kernel of this folder: binding 0 is its input and 1 its output, both arrays of vec4; 2 is
+/// a block of constants, where the kernel has one. One invocation makes one item.
+struct KernelFixture : DeviceFixture {
+	static constexpr uint32_t BINDING_INPUT = 0;
+	static constexpr uint32_t BINDING_OUTPUT = 1;
+	static constexpr uint32_t BINDING_CONSTANTS = 2;
+
+	std::vector<glm::vec4> run(const std::string &p_kernel, const std::vector<glm::vec4> &p_input,
+			size_t p_item_count, size_t p_output_per_item,
+			std::vector<Binding> p_more_bindings = {}) {
+		const uint64_t size_bytes = p_item_count * p_output_per_item * sizeof(glm::vec4);
+		const OwnedBuffer input = make_buffer("kernel input", p_input);
+		const OwnedBuffer output(*device,
+				device->create_buffer({ .name = "kernel output",
+						.size_bytes = size_bytes,
+						.usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE }));
+		const OwnedBuffer readback = make_readback(size_bytes);
+		const PipelineRID pipeline =
+				device->get_compute_pipeline({ .name = p_kernel, .shader = "tests/" + p_kernel });
+		p_more_bindings.push_back({ BINDING_INPUT, input.get() });
+		p_more_bindings.push_back({ BINDING_OUTPUT, output.get() });
+		CommandList &commands = device->begin_commands();
+		commands.bind_pipeline(pipeline);
+		commands.bind_resources(p_more_bindings);
+		commands.dispatch_items({ p_item_count, 1, 1 });
+		const Barrier barrier = { .buffer = output.get(),
+			.before = Access::SHADER_WRITE_COMPUTE,
+			.after = Access::COPY_READ };
+		commands.barriers({ &barrier, 1 });
+		commands.copy_buffer(output.get(), readback.get(), size_bytes);
+		device->submit_commands(RenderingDevice::SubmitMode::WAIT);
+		return read<glm::vec4>(readback, p_item_count * p_output_per_item);
+	}
+
+	template <typename T>
+	std::vector<glm::vec4> run_with_constants(const std::string &p_kernel, const T &p_constants,
+			const std::vector<glm::vec4> &p_input, size_t p_item_count, size_t p_output_per_item) {
+		const OwnedBuffer constants = make_buffer(
+				"kernel constants", std::vector<T>{ p_constants }, BufferUsage::UNIFORM);
+		return run(p_kernel, p_input, p_item_count, p_output_per_item,
+				{ { BINDING_CONSTANTS, constants.get() } });
+	}
+};
+
+/// Numbers in 0..1 that are the same on every machine.
+class TestRandom {
+public:
+	double next() {
+		state = state * 6364136223846793005ull + 1442695040888963407ull;
+		return static_cast<double>(state >> 11) / 9007199254740992.0;
+	}
+	double next(double p_low, double p_high) { return p_low + (p_high - p_low) * next(); }
+	glm::dvec3 next_unit() {
+		const double z = next(-1, 1);
+		const double angle_rad = next(0, 2 * 3.141592653589793);
+		const double ring = std::sqrt(1 - z * z);
+		return { ring * std::cos(angle_rad), ring * std::sin(angle_rad), z };
+	}
+
+private:
+	uint64_t state = 1;
+};
+
+} // namespace gnomon
