@@ -271,9 +271,10 @@ class Page:
         if without and with_soft:
             parts.append(
                 '<div class="compare"><img alt="%s without shadows" src="%s"><img class="over" alt="%s with soft shadows" src="%s">'
-                '<i></i><b class="left">without</b><b class="right">soft shadows</b>'
+                '<i></i><b class="left">without</b><b class="right">soft shadows%s</b>'
                 '<input type="range" min="0" max="100" value="45" aria-label="Slide between without and with shadows"></div>'
-                % (escape(scene["name"]), without, escape(scene["name"]), with_soft)
+                % (escape(scene["name"]), without, escape(scene["name"]), with_soft,
+                   ": " + escape(scene["shown_technique"]) if scene.get("shown_technique") else "")  # fmt: skip
             )
         elif with_soft or without:
             parts.append('<div class="compare"><img alt="%s" src="%s"></div>' % (escape(scene["name"]), with_soft or without))

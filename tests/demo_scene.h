@@ -6,9 +6,10 @@
 #include "modules/renderer/shadow_registry.h"
 #include "modules/scene/nodes.h"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 // The demo scenes and settings from JSON files, for tests that compare pictures and masks of them.
@@ -17,7 +18,8 @@ namespace gnomon {
 
 /// Tests run from the repository's root; an Error says so when they do not.
 inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
-	const std::filesystem::path path = std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");
+	const std::filesystem::path path =
+			std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");
 	if (!std::filesystem::exists(path)) {
 		fail("Scene ", path, " is not there. Run the tests from the repository's root.");
 	}

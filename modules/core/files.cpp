@@ -4,15 +4,15 @@
 #include "modules/core/log.h"
 
 #define XXH_INLINE_ALL
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace gnomon {
 
@@ -31,8 +31,8 @@ void write_all(int p_file, std::span<const uint8_t> p_bytes, const fs::path &p_p
 			continue;
 		}
 		if (count <= 0) {
-			fail("Cannot write ", p_path, ": ", std::strerror(errno), ". Free some space or choose ",
-					"another place.");
+			fail("Cannot write ", p_path, ": ", std::strerror(errno),
+					". Free some space or choose ", "another place.");
 		}
 		written += static_cast<size_t>(count);
 	}
@@ -95,8 +95,8 @@ void save_file_atomically(const fs::path &p_path, std::span<const uint8_t> p_byt
 }
 
 void save_file_atomically(const fs::path &p_path, std::string_view p_text) {
-	save_file_atomically(p_path,
-			std::span(reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size()));
+	save_file_atomically(
+			p_path, std::span(reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size()));
 }
 
 bool is_inside_folder(const fs::path &p_path, const fs::path &p_folder) {

@@ -23,8 +23,7 @@ void save_file_atomically(const std::filesystem::path &p_path, std::span<const u
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
 /// True when the path, with `..` and links resolved, lies in the folder or below it.
-bool is_inside_folder(
-		const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
+bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
 
 /// Where data that can be made again is kept: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,
 /// else ~/.cache/gnomon, else a folder below the system's temporary one. Created when absent.

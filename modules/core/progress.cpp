@@ -1,8 +1,9 @@
 #include "modules/core/progress.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <unistd.h>
 
 namespace gnomon {
 
@@ -35,8 +36,8 @@ void Progress::update(double p_fraction) {
 	const double left_seconds = p_fraction > 0 ? seconds * (1 - p_fraction) / p_fraction : 0;
 	if (is_terminal) {
 		const std::string bar(static_cast<size_t>(percent * BAR_WIDTH / 100), '#');
-		std::fprintf(stderr, "\r%s [%-*s] %d %%, %.0f s left ", what.c_str(), BAR_WIDTH, bar.c_str(),
-				percent, left_seconds);
+		std::fprintf(stderr, "\r%s [%-*s] %d %%, %.0f s left ", what.c_str(), BAR_WIDTH,
+				bar.c_str(), percent, left_seconds);
 	} else {
 		std::fprintf(stderr, "%s: %d %%, %.0f s left\n", what.c_str(), percent, left_seconds);
 	}

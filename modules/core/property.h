@@ -25,8 +25,8 @@ struct PropertyInfo {
 	/// INT and FLOAT: "minimum,maximum,step". ENUM: "first,second,...". Otherwise empty.
 	std::string hint;
 	std::string tooltip; // one sentence or two: meaning, and what happens at the edges
-	std::string unit; // "m", "px", "deg", or empty
-	std::string group; // heading in the inspector
+	std::string unit;	 // "m", "px", "deg", or empty
+	std::string group;	 // heading in the inspector
 	/// A value outside the range that is allowed too and means something else: "-1" for "derived".
 	std::string special;
 };
@@ -62,8 +62,10 @@ std::string describe_range(const PropertyInfo &p_info);
 const PropertyValue &get_property(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
-int64_t get_int(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
-double get_float(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+int64_t get_int(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
+double get_float(
+		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 const std::string &get_string(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 

@@ -7,6 +7,7 @@
 #include "modules/main/commands.h"
 
 #include <CLI/CLI.hpp>
+
 #include <cstdio>
 
 namespace gnomon {

@@ -7,9 +7,10 @@
 #include "modules/renderer/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace gnomon {

@@ -8,6 +8,7 @@
 #include "modules/main/game_window.h"
 
 #include <CLI/CLI.hpp>
+
 #include <cstdio>
 
 namespace gnomon {
@@ -76,8 +77,9 @@ void run(const CommonOptions &p_common) {
 } // namespace
 
 void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
-	CLI::App *command = r_app.add_subcommand("run", "Shows a scene: W A S D Q E and the right "
-													"mouse button fly, T changes the technique");
+	CLI::App *command = r_app.add_subcommand("run",
+			"Shows a scene: W A S D Q E and the right "
+			"mouse button fly, T changes the technique");
 	command->add_option("scene", options.scene, "A project's folder, or a .gltf or .glb file")
 			->required();
 	command->add_flag("--headless", options.is_headless, "Needs no display");

@@ -11,9 +11,10 @@
 #include "modules/renderer/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <cstdio>
 #include <filesystem>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon {
 
@@ -44,8 +45,7 @@ struct VisibilityOptions {
 fs::path number_path(const fs::path &p_path, uint32_t p_index) {
 	char number[16];
 	std::snprintf(number, sizeof(number), ".%04u", p_index);
-	return p_path.parent_path() /
-			(p_path.stem().string() + number + p_path.extension().string());
+	return p_path.parent_path() / (p_path.stem().string() + number + p_path.extension().string());
 }
 
 /// Moves the light by an offset in the world.
@@ -53,9 +53,8 @@ void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
 	const glm::dmat4 world_from_parent =
 			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
 	const glm::dmat4 parent_from_world = glm::inverse(world_from_parent);
-	r_light.parent_from_node = parent_from_world *
-			glm::translate(glm::dmat4(1.0), p_offset_world) * world_from_parent *
-			r_light.parent_from_node;
+	r_light.parent_from_node = parent_from_world * glm::translate(glm::dmat4(1.0), p_offset_world) *
+			world_from_parent * r_light.parent_from_node;
 }
 
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
@@ -84,8 +83,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	const bool moves = !p_options.motion.empty();
 	for (uint32_t index = 0; index < p_options.frame_count; ++index) {
 		if (moves && index > 0) {
-			move_light(light,
-					{ p_options.motion[0], p_options.motion[1], p_options.motion[2] });
+			move_light(light, { p_options.motion[0], p_options.motion[1], p_options.motion[2] });
 		}
 		request.scene = build_snapshot(*scene, camera);
 		RenderResult result = renderer.render(request);
@@ -94,11 +92,11 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 		const MaskImage mask = { size_px, std::move(result.visibility),
 			std::move(result.receiver) };
-		const fs::path out =
-				moves ? number_path(p_options.out, index) : fs::path(p_options.out);
+		const fs::path out = moves ? number_path(p_options.out, index) : fs::path(p_options.out);
 		save_mask_exr(out, mask);
 		if (!p_options.png.empty()) {
-			save_mask_png(moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);
+			save_mask_png(
+					moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);
 		}
 		if (p_options.prints_plan) {
 			std::printf("%s", result.plan.to_text().c_str());
@@ -136,8 +134,8 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "dx,dy,dz in metres a frame: moves the light, writes one EXR a frame")
 			->delimiter(',')
 			->expected(3);
-	command->add_option("--time", options.time,
-			"Writes the times of 20 frames after 5 to warm up as JSON");
+	command->add_option(
+			"--time", options.time, "Writes the times of 20 frames after 5 to warm up as JSON");
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
 	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
 			"Runs also what the image does not need (for comparison)");

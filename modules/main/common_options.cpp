@@ -6,8 +6,9 @@
 #include "modules/main/commands.h"
 #include "modules/renderer/shadow_registry.h"
 
-#include <charconv>
 #include <unistd.h>
+
+#include <charconv>
 
 namespace gnomon {
 
@@ -110,8 +111,10 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 			return *light;
 		}
 	}
-	fail("Scene ", p_scene.path, lights.empty() ? " has no light" : " has no light that casts shadows",
-			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one with ",
+	fail("Scene ", p_scene.path,
+			lights.empty() ? " has no light" : " has no light that casts shadows",
+			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one "
+			"with ",
 			"--light.");
 }
 
@@ -136,11 +139,10 @@ void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_
 	}
 	const PropertyInfo *info = find_property(name);
 	if (!info) {
-		fail("Light \"", p_light->name, "\": there is no property \"", name, "\". There are: ",
-				list_properties(), ".");
+		fail("Light \"", p_light->name, "\": there is no property \"", name,
+				"\". There are: ", list_properties(), ".");
 	}
-	p_light->properties[name] =
-			parse_property(*info, value, text("Light \"", p_light->name, "\""));
+	p_light->properties[name] = parse_property(*info, value, text("Light \"", p_light->name, "\""));
 }
 
 std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common) {
@@ -155,7 +157,8 @@ void check_writable(const fs::path &p_path) {
 	std::error_code code;
 	if (!fs::is_directory(folder, code) || ::access(folder.c_str(), W_OK) != 0 ||
 			fs::is_directory(p_path, code)) {
-		fail("Cannot write ", p_path, ": its folder must exist and be writable, and it must not be ",
+		fail("Cannot write ", p_path,
+				": its folder must exist and be writable, and it must not be ",
 				"a folder itself. Choose another place.");
 	}
 }

@@ -7,6 +7,7 @@
 #include "modules/renderer/shadow_registry.h"
 
 #include <GLFW/glfw3.h>
+
 #include <chrono>
 #include <cstdio>
 
@@ -50,8 +51,8 @@ struct GameState {
 	void scale_light_sizes(double p_factor) {
 		const PropertyList &list = Light3D::get_property_list();
 		for (Light3D *light : scene.find_nodes<Light3D>()) {
-			const char *name = light->type == LightType::DIRECTIONAL ? "light_angular_distance"
-																	 : "light_size";
+			const char *name =
+					light->type == LightType::DIRECTIONAL ? "light_angular_distance" : "light_size";
 			const PropertyValue value = get_float(list, light->properties, name) * p_factor;
 			if (check_property(*list.find(name), value).empty()) {
 				light->properties[name] = value;

@@ -8,6 +8,7 @@
 #include "modules/rendering_device/rendering_device.h"
 
 #include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <new>
 

@@ -3,9 +3,10 @@
 #include "modules/core/progress.h"
 #include "modules/mesh_tools/topology.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace gnomon {

@@ -53,8 +53,8 @@ std::vector<OverlayVertex> make_overlay_text(
 			std::memcpy(corners, buffer.data() + quad * sizeof(corners), sizeof(corners));
 			glm::vec2 positions_px[4];
 			for (int corner = 0; corner < 4; ++corner) {
-				positions_px[corner] = MARGIN_PX +
-						p_scale * glm::vec2(corners[corner].x, corners[corner].y + y);
+				positions_px[corner] =
+						MARGIN_PX + p_scale * glm::vec2(corners[corner].x, corners[corner].y + y);
 			}
 			add_quad(text_vertices, positions_px, TEXT_COLOR);
 		}

@@ -3,6 +3,7 @@
 #include "modules/rendering_device/swapchain.h"
 
 #include <glm/glm.hpp>
+
 #include <memory>
 #include <string>
 #include <vector>

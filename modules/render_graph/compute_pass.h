@@ -50,8 +50,7 @@ void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineR
 template <typename Push>
 void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, glm::uvec2 p_size_px, const Push &p_push) {
-	add_compute_pass(r_graph, p_name, p_pipeline, std::move(p_bindings),
-			glm::uvec3(p_size_px, 1u),
+	add_compute_pass(r_graph, p_name, p_pipeline, std::move(p_bindings), glm::uvec3(p_size_px, 1u),
 			std::span(reinterpret_cast<const uint8_t *>(&p_push), sizeof(Push)));
 }
 

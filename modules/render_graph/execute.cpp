@@ -136,7 +136,8 @@ void RenderGraph::run_passes(Mode p_mode) {
 			}
 			barriers.clear();
 			collect_barriers(index, barriers);
-			GNOMON_ASSERT(barriers.empty(), "host pass ", pass.name, " uses more than host buffers");
+			GNOMON_ASSERT(
+					barriers.empty(), "host pass ", pass.name, " uses more than host buffers");
 			const Clock::time_point host_start = Clock::now();
 			HostContext context(*this);
 			pass.run_on_host(context);

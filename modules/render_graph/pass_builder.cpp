@@ -1,6 +1,5 @@
-#include "modules/render_graph/render_graph_types.h"
-
 #include "modules/core/error.h"
+#include "modules/render_graph/render_graph_types.h"
 
 namespace gnomon {
 

@@ -108,7 +108,8 @@ public:
 	RGTexture create_texture(const TextureDesc &p_desc);
 	RGBuffer create_buffer(const BufferDesc &p_desc);
 	/// A buffer that holds these bytes; for constants and small lists of this frame.
-	RGBuffer upload(const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
+	RGBuffer upload(
+			const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
 	template <typename T> RGBuffer upload_constants(const std::string &p_name, const T &p_block) {
 		return upload(p_name, BufferUsage::UNIFORM,
 				std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));

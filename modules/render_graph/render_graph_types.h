@@ -13,7 +13,7 @@ struct RenderGraph::Resource {
 	bool is_texture = false;
 	bool is_imported = false;
 	std::function<std::optional<TextureRID>()> acquire; // of the window's image
-	bool has_content = false; // imported only
+	bool has_content = false;							// imported only
 	TextureDesc texture_desc;
 	BufferDesc buffer_desc;
 	TextureRID texture;

@@ -85,8 +85,8 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 			continue;
 		}
 		const auto needs = device.compute_placement_needs(request.texture);
-		blocks.push_back({ needs.size_bytes, needs.alignment_bytes, request.first_pass,
-				request.last_pass });
+		blocks.push_back(
+				{ needs.size_bytes, needs.alignment_bytes, request.first_pass, request.last_pass });
 		block_requests.push_back(index);
 		placement.unaliased_bytes += needs.size_bytes;
 	}

@@ -2,8 +2,9 @@
 
 #include "modules/core/text.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace gnomon {
 

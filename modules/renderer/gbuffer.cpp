@@ -37,9 +37,7 @@ float compute_exposure(const SceneSnapshot &p_scene) {
 			brightest = std::max(brightest, compute_light_illuminance(light, centre));
 		}
 	}
-	return brightest > 0 && std::isfinite(brightest)
-			? WHITE_SHOWN * 3.14159265f / brightest
-			: 1.0f;
+	return brightest > 0 && std::isfinite(brightest) ? WHITE_SHOWN * 3.14159265f / brightest : 1.0f;
 }
 
 LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px) {
@@ -56,8 +54,7 @@ LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px)
 	return view;
 }
 
-shader::FrameConstants compute_frame_constants(
-		const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
+shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
 	const CameraSnapshot &camera = p_scene.camera;
 	const LightView view = make_camera_view(camera, p_size_px);
 	shader::FrameConstants frame = {};
@@ -84,9 +81,8 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 				"`gnomon info` lists them.");
 	}
 	const auto create = [&](const char *p_name, Format p_format) {
-		const TextureUsage target = p_format == Format::D32_SFLOAT
-				? TextureUsage::DEPTH_ATTACHMENT
-				: TextureUsage::COLOR_ATTACHMENT;
+		const TextureUsage target = p_format == Format::D32_SFLOAT ? TextureUsage::DEPTH_ATTACHMENT
+																   : TextureUsage::COLOR_ATTACHMENT;
 		return r_graph.create_texture({ p_name, p_format, p_size_px, 1,
 				target | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	};
@@ -151,8 +147,7 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 							{ GBUFFER_BINDING_INDICES, draw.mesh->indices.get() },
 					});
 					commands.push_constants(draw.push);
-					commands.set_cull_mode(
-							draw.is_double_sided ? CullMode::NONE : CullMode::BACK);
+					commands.set_cull_mode(draw.is_double_sided ? CullMode::NONE : CullMode::BACK);
 					commands.set_winding(draw.push.is_mirrored ? CommandList::Winding::MIRRORED
 															   : CommandList::Winding::NORMAL);
 					commands.bind_vertex_buffers(vertices);

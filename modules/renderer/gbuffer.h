@@ -3,23 +3,23 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/renderer/mesh_store.h"
 #include "modules/scene/scene_snapshot.h"
+
 #include "shared/frame_shared.h"
 
 namespace gnomon {
 
 /// What the camera sees, one texel per pixel.
 struct GBuffer {
-	RGTexture depth; // D32_SFLOAT, reversed
-	RGTexture base_color; // RGBA8_SRGB
+	RGTexture depth;			// D32_SFLOAT, reversed
+	RGTexture base_color;		// RGBA8_SRGB
 	RGTexture geometric_normal; // R32_UINT
-	RGTexture shading_normal; // R32_UINT
-	RGTexture material; // RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
-	RGTexture emissive; // RGBA16_SFLOAT, cd/m^2
+	RGTexture shading_normal;	// R32_UINT
+	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+	RGTexture emissive;			// RGBA16_SFLOAT, cd/m^2
 };
 
 /// The camera as the shaders read it. Exposure and ambient: see compute_exposure.
-shader::FrameConstants compute_frame_constants(
-		const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
+shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
 /// Scales radiance so that a white surface at the middle of the casters, facing the brightest
 /// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.

@@ -53,7 +53,8 @@ TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string
 		const ShadowTechniqueInfo *info = ShadowRegistry::find_default();
 		return { info,
 			info ? ""
-				 : text("Light \"", p_light.name, "\": no technique is enabled; it casts no shadow. ",
+				 : text("Light \"", p_light.name,
+						   "\": no technique is enabled; it casts no shadow. ",
 						   "Enable a module; `gnomon modules` lists them.") };
 	}
 	if (const ShadowTechniqueInfo *info = ShadowRegistry::find(p_light.technique_id)) {
@@ -80,9 +81,9 @@ PropertyValues resolve_light_properties(const LightSnapshot &p_light, const Prop
 		if (refusal.empty()) {
 			values[info.name] = convert_property(info, stored->second);
 		} else if (const std::string line = text("Light \"", p_light.name, "\" (",
-						   p_light.file_path, "): ", info.name, " ", refusal,
-						   ". The default, ", format_property(info.default_value), ", is used.");
-				reported.insert(line).second) {
+						   p_light.file_path, "): ", info.name, " ", refusal, ". The default, ",
+						   format_property(info.default_value), ", is used.");
+				   reported.insert(line).second) {
 			log_error(line);
 		}
 	}
@@ -155,9 +156,8 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 	const ShadowTechnique::Inputs inputs = { device, meshes, p_request.scene, light, properties,
 		views, casters, p_request.size_px, p_request.gbuffer.depth,
 		p_request.gbuffer.geometric_normal, p_request.gbuffer.shading_normal,
-		p_request.gbuffer.material, p_request.receivers, p_request.frame,
-		p_request.light_constants, p_request.may_leave_out,
-		p_request.may_keep };
+		p_request.gbuffer.material, p_request.receivers, p_request.frame, p_request.light_constants,
+		p_request.may_leave_out, p_request.may_keep };
 	TechniquePlan plan(r_plan);
 	technique.plan(inputs, plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {

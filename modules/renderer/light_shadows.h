@@ -14,7 +14,7 @@ namespace gnomon {
 /// Which technique a light gets, and why another than it asks for.
 struct TechniqueChoice {
 	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
-	std::string warning; // empty when the light gets what it asks for
+	std::string warning;					   // empty when the light gets what it asks for
 };
 /// p_override: an id that replaces every light's own; must exist when not empty.
 TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string &p_override);

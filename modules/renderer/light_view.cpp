@@ -2,8 +2,9 @@
 
 #include "modules/core/error.h"
 
-#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
+
+#include <cmath>
 
 namespace gnomon {
 
@@ -27,8 +28,8 @@ glm::dmat4 make_view(const glm::dvec3 &p_right, const glm::dvec3 &p_down,
 }
 
 float widen_for_border(uint32_t p_map_size_px, uint32_t p_border_px) {
-	GNOMON_ASSERT(p_map_size_px > 2 * p_border_px, "map of ", p_map_size_px, " px, border ",
-			p_border_px);
+	GNOMON_ASSERT(
+			p_map_size_px > 2 * p_border_px, "map of ", p_map_size_px, " px, border ", p_border_px);
 	return static_cast<float>(p_map_size_px) / static_cast<float>(p_map_size_px - 2 * p_border_px);
 }
 
@@ -73,8 +74,8 @@ LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapsh
 	view.far_m = static_cast<float>(seen.maximum.z - seen.minimum.z + 2 * margin_m);
 	const glm::dvec2 half_extent =
 			glm::max(glm::abs(glm::dvec2(seen.minimum)), glm::abs(glm::dvec2(seen.maximum)));
-	view.half_extent = glm::vec2(half_extent + margin_m) *
-			widen_for_border(p_map_size_px, p_border_px);
+	view.half_extent =
+			glm::vec2(half_extent + margin_m) * widen_for_border(p_map_size_px, p_border_px);
 	return view;
 }
 
@@ -136,8 +137,8 @@ bool LightView::may_see(const Bounds &p_bounds_world) const {
 			[](int p_count) { return p_count == 8; });
 }
 
-std::vector<LightView> build_light_views(const LightSnapshot &p_light,
-		const SceneSnapshot &p_scene, uint32_t p_map_size_px, uint32_t p_border_px) {
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		uint32_t p_map_size_px, uint32_t p_border_px) {
 	if (p_light.type == LightType::DIRECTIONAL) {
 		return { build_directional_view(p_light, p_scene, p_map_size_px, p_border_px) };
 	}
@@ -169,8 +170,8 @@ glm::mat4 compute_light_from_camera_relative(
 		const LightSnapshot &p_light, const CameraSnapshot &p_camera) {
 	const glm::dmat3 light_from_world = glm::transpose(p_light.world_from_light);
 	glm::dmat4 result(light_from_world);
-	result[3] = glm::dvec4(
-			light_from_world * (p_camera.position_world - p_light.position_world), 1.0);
+	result[3] =
+			glm::dvec4(light_from_world * (p_camera.position_world - p_light.position_world), 1.0);
 	return glm::mat4(result);
 }
 

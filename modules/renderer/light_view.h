@@ -1,9 +1,11 @@
 #pragma once
 
 #include "modules/scene/scene_snapshot.h"
+
 #include "shared/light_shared.h"
 
 #include <glm/glm.hpp>
+
 #include <vector>
 
 namespace gnomon {
@@ -34,8 +36,8 @@ struct LightView {
 /// directional light (fitted to the casters), 6 for omni and wider spots (those that the cone
 /// misses included, so that a view's index is its axis). A perspective view has border_px texels
 /// beyond the light's field on each side, so that a filter of that radius never leaves the map.
-std::vector<LightView> build_light_views(const LightSnapshot &p_light,
-		const SceneSnapshot &p_scene, uint32_t p_map_size_px, uint32_t p_border_px);
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		uint32_t p_map_size_px, uint32_t p_border_px);
 
 /// The light's own axes from camera-relative space, for find_view in light_view_inc.glsl.
 glm::mat4 compute_light_from_camera_relative(

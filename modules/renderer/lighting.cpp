@@ -1,6 +1,7 @@
 #include "modules/renderer/lighting.h"
 
 #include "modules/render_graph/compute_pass.h"
+
 #include "renderer/renderer_shared.h"
 
 namespace gnomon {
@@ -99,8 +100,8 @@ void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GB
 					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_gbuffer.base_color),
 					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),
 					PassBinding::read(RENDERER_BINDING_MASK, p_mask),
-					PassBinding::write(RENDERER_BINDING_RADIANCE, p_radiance,
-							PassBuilder::Content::UPDATE),
+					PassBinding::write(
+							RENDERER_BINDING_RADIANCE, p_radiance, PassBuilder::Content::UPDATE),
 			},
 			glm::uvec3(p_size_px, 1u));
 }

@@ -2,6 +2,7 @@
 
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/shadow_technique.h"
+
 #include "shared/light_shared.h"
 
 namespace gnomon {

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+
 #include "shared/frame_shared.h"
 
 namespace gnomon {

@@ -13,8 +13,8 @@ namespace gnomon {
 /// One mesh in GPU memory.
 struct GpuMesh {
 	OwnedBuffer positions; // VERTEX | STORAGE, three floats each
-	OwnedBuffer normals; // VERTEX
-	OwnedBuffer indices; // INDEX | STORAGE
+	OwnedBuffer normals;   // VERTEX
+	OwnedBuffer indices;   // INDEX | STORAGE
 	uint32_t index_count = 0;
 	std::weak_ptr<const Mesh> mesh;
 };

@@ -1,14 +1,15 @@
 #pragma once
 
-#include <cmath>
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include <cmath>
+#include <cstdint>
+
 namespace gnomon {
 
-/// The unit vector of a texel of the G-buffer's normals: normal_inc.glsl's unpack_normal, for passes
-/// that run on the CPU.
+/// The unit vector of a texel of the G-buffer's normals: normal_inc.glsl's unpack_normal, for
+/// passes that run on the CPU.
 inline glm::vec3 unpack_normal(uint32_t p_packed) {
 	const glm::vec2 folded = glm::unpackSnorm2x16(p_packed);
 	glm::vec3 n(folded, 1.0f - std::abs(folded.x) - std::abs(folded.y));

@@ -4,8 +4,9 @@
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
 
-#include <cstring>
 #include <glm/gtc/packing.hpp>
+
+#include <cstring>
 
 namespace gnomon {
 
@@ -63,8 +64,8 @@ Renderer::~Renderer() = default;
 
 void Renderer::add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes) {
 	const TextureDesc &desc = r_frame.graph.get_desc(p_texture);
-	const uint64_t size_bytes = uint64_t(desc.size_px.x) * desc.size_px.y *
-			get_texel_size_bytes(desc.format);
+	const uint64_t size_bytes =
+			uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
 	const RGBuffer buffer = r_frame.graph.create_buffer({ desc.name + " readback", size_bytes,
 			BufferUsage::COPY_TARGET, MemoryKind::READBACK });
 	r_frame.graph.add_pass("read back " + desc.name)
@@ -83,8 +84,8 @@ void Renderer::add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uin
 			});
 }
 
-RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light,
-		RGTexture &r_receivers, RGBuffer &r_light_constants) {
+RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTexture &r_receivers,
+		RGBuffer &r_light_constants) {
 	RenderGraph &graph = r_frame.graph;
 	const RenderRequest &request = r_frame.request;
 	FramePlan &plan = r_frame.result.plan;
@@ -92,8 +93,8 @@ RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light,
 	plan.set_light(p_light.name);
 	r_light_constants = graph.upload_constants(
 			"light constants", compute_light_constants(p_light, request.scene->camera));
-	r_receivers = add_receivers_pass(graph, device, r_frame.gbuffer, r_frame.constants,
-			r_light_constants, request.size_px);
+	r_receivers = add_receivers_pass(
+			graph, device, r_frame.gbuffer, r_frame.constants, r_light_constants, request.size_px);
 	plan.run("receivers");
 	RGTexture mask;
 	if (!p_light.casts_shadow) {
@@ -230,8 +231,8 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	frame.constants = frame.graph.upload_constants(
 			"frame constants", compute_frame_constants(scene, p_request.size_px));
 	uint32_t drawn_count = 0;
-	frame.gbuffer = add_gbuffer_pass(frame.graph, device, meshes, scene, p_request.size_px,
-			frame.constants, drawn_count);
+	frame.gbuffer = add_gbuffer_pass(
+			frame.graph, device, meshes, scene, p_request.size_px, frame.constants, drawn_count);
 	result.plan.run("G-buffer");
 	if (drawn_count < scene.instances.size()) {
 		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "modules/render_graph/render_graph.h"
+#include "modules/render_graph/transient_pool.h"
 #include "modules/renderer/frame_plan.h"
 #include "modules/renderer/light_shadows.h"
 #include "modules/renderer/mesh_store.h"
-#include "modules/render_graph/render_graph.h"
-#include "modules/render_graph/transient_pool.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace gnomon {
 /// A corner of a triangle drawn over the picture: text and gizmos.
 struct OverlayVertex {
 	glm::vec2 position_px; // from the top left
-	glm::vec4 color; // sRGB-encoded, alpha not premultiplied
+	glm::vec4 color;	   // sRGB-encoded, alpha not premultiplied
 };
 
 /// What one frame is to make.
@@ -26,7 +26,8 @@ struct RenderRequest {
 	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
-	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or "mask".
+	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or
+	/// "mask".
 	std::string debug_view;
 	bool wants_image = false; // RenderResult::image
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
@@ -45,13 +46,13 @@ struct RenderRequest {
 struct RenderResult {
 	FramePlan plan;
 	std::vector<PassTiming> timings; // QUEUE: of an earlier frame
-	double gpu_ms = 0; // sum of the passes
-	double wall_ms = 0; // of the frame's submission
-	std::vector<uint8_t> image; // RGBA8, sRGB-encoded, rows from the top
-	std::vector<float> visibility; // Y: 0 where receiver is 0
-	std::vector<float> receiver; // 1 or 0
-	std::string dot; // the frame's graph for Graphviz
-	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
+	double gpu_ms = 0;				 // sum of the passes
+	double wall_ms = 0;				 // of the frame's submission
+	std::vector<uint8_t> image;		 // RGBA8, sRGB-encoded, rows from the top
+	std::vector<float> visibility;	 // Y: 0 where receiver is 0
+	std::vector<float> receiver;	 // 1 or 0
+	std::string dot;				 // the frame's graph for Graphviz
+	uint64_t unaliased_bytes = 0;	 // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 };
 

@@ -54,8 +54,8 @@ const ShadowTechniqueInfo &ShadowRegistry::get(std::string_view p_id) {
 	for (const ShadowTechniqueInfo &info : techniques) {
 		ids += (ids.empty() ? "" : ", ") + info.id;
 	}
-	fail("Shadow technique \"", p_id, "\" does not exist. Choose one of: ",
-			ids.empty() ? "(none in this build)" : ids, ".");
+	fail("Shadow technique \"", p_id,
+			"\" does not exist. Choose one of: ", ids.empty() ? "(none in this build)" : ids, ".");
 }
 
 const std::vector<ShadowTechniqueInfo> &ShadowRegistry::get_techniques() {

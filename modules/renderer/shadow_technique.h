@@ -60,12 +60,12 @@ public:
 		std::span<const LightView> views;
 		std::span<const CasterList> casters; // one list per view
 		glm::uvec2 size_px;
-		RGTexture depth; // D32_SFLOAT, reversed; 0 = background
+		RGTexture depth;			// D32_SFLOAT, reversed; 0 = background
 		RGTexture geometric_normal; // R32_UINT, normal_inc.glsl; of the face, towards the viewer
-		RGTexture shading_normal; // likewise; interpolated
-		RGTexture material; // RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+		RGTexture shading_normal;	// likewise; interpolated
+		RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
 		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
-		RGBuffer frame; // FrameConstants
+		RGBuffer frame;		 // FrameConstants
 		RGBuffer light_constants; // LightConstants
 		/// False: nothing may be left out (for the test that compares both bit for bit).
 		bool may_leave_out = true;

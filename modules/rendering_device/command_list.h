@@ -22,8 +22,8 @@ public:
 
 	void barriers(std::span<const Barrier> p_barriers);
 
-	/// Viewport and scissor cover the targets. Dynamic state starts as: no culling, counter-clockwise
-	/// front faces as seen in a y-up view.
+	/// Viewport and scissor cover the targets. Dynamic state starts as: no culling,
+	/// counter-clockwise front faces as seen in a y-up view.
 	void begin_rendering(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
 	/// For fragment shaders that only store into buffers and textures.
 	void begin_rendering_without_targets(glm::uvec2 p_size_px);
@@ -44,8 +44,9 @@ public:
 	/// At most 128 bytes; the size must be what the shader's block has.
 	void push_constants(std::span<const uint8_t> p_bytes);
 	template <typename T>
-		requires std::is_trivially_copyable_v<T> && (!std::is_convertible_v<T, std::span<const uint8_t>>)
-	void push_constants(const T &p_block) {
+	requires std::is_trivially_copyable_v<T> &&
+			(!std::is_convertible_v<T, std::span<const uint8_t>>)void push_constants(
+					const T &p_block) {
 		push_constants(std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
 	}
 

@@ -16,21 +16,22 @@ class Swapchain;
 
 /// What the user may choose of the device.
 struct DeviceOptions {
-	std::string device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
-	bool validation = false; // validation and synchronization layers
+	std::string
+			device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
+	bool validation = false;		  // validation and synchronization layers
 	uint64_t memory_budget_bytes = 0; // 0 = what the device reports, at most 90 % of its heap
-	bool needs_surface = false; // a window will be shown
+	bool needs_surface = false;		  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
-	bool without_geometry_shader = false; // for tests: pretend that the device lacks it
+	bool without_geometry_shader = false;		  // for tests: pretend that the device lacks it
 };
 
 /// One device as `gnomon info` lists it.
 struct DeviceInfo {
 	uint32_t index = 0;
 	std::string name;
-	std::string driver; // name and version
-	std::string type; // "discrete GPU", "integrated GPU", "CPU", "virtual GPU", "other"
-	std::string api_version; // "1.3.230"
+	std::string driver;		   // name and version
+	std::string type;		   // "discrete GPU", "integrated GPU", "CPU", "virtual GPU", "other"
+	std::string api_version;   // "1.3.230"
 	uint64_t memory_bytes = 0; // of the largest device-local heap
 	bool is_usable = false;
 	std::string refusal; // why it is not: "Vulkan 1.1, 1.3 is needed"
@@ -53,7 +54,7 @@ struct DeviceFeatures {
 };
 
 struct MemoryUse {
-	uint64_t used_bytes = 0; // by resources
+	uint64_t used_bytes = 0;	  // by resources
 	uint64_t allocated_bytes = 0; // blocks taken from the driver
 	uint64_t budget_bytes = 0;
 	uint64_t peak_bytes = 0; // highest used_bytes since the device began
@@ -100,7 +101,8 @@ public:
 	/// Filled with tightly packed texels (layer 0), ready for SAMPLED use.
 	TextureRID create_texture_with_data(TextureDesc p_desc, std::span<const uint8_t> p_bytes);
 	SamplerRID create_sampler(const SamplerDesc &p_desc);
-	/// Made from the embedded SPIR-V, or taken from a cache of equal descriptions. Owned by the device.
+	/// Made from the embedded SPIR-V, or taken from a cache of equal descriptions. Owned by the
+	/// device.
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc);
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc);
 	uint32_t get_pipeline_count() const;
@@ -128,8 +130,8 @@ public:
 	// Frames. begin -> record -> submit; at most two submissions are in flight.
 	/// Starts recording. Waits when two submissions are in flight; collects deferred frees.
 	CommandList &begin_commands();
-	/// Submits what was recorded. p_waits: also waits for the end, so that READBACK memory is valid.
-	/// A swapchain image that the recorded barriers brought to Access::PRESENT is presented.
+	/// Submits what was recorded. p_waits: also waits for the end, so that READBACK memory is
+	/// valid. A swapchain image that the recorded barriers brought to Access::PRESENT is presented.
 	enum class SubmitMode { QUEUE, WAIT };
 	void submit_commands(SubmitMode p_mode);
 	/// Drops what was recorded since begin_commands, for when an Error ends a frame half-way. An
@@ -155,7 +157,8 @@ private:
 };
 
 /// While it lives, validation messages are collected here and neither counted nor logged. Only for
-/// tests that make a mistake on purpose, to see that the layers notice it. The innermost one collects.
+/// tests that make a mistake on purpose, to see that the layers notice it. The innermost one
+/// collects.
 class ExpectedValidationMessages {
 public:
 	ExpectedValidationMessages();

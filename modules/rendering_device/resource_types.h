@@ -1,8 +1,9 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <functional>
-#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -101,7 +102,7 @@ struct Binding {
 	uint32_t binding = 0;
 	BufferRID buffer;
 	TextureRID texture;
-	SamplerRID sampler; // with a texture: combined, when the shader says so
+	SamplerRID sampler;			 // with a texture: combined, when the shader says so
 	uint32_t layer = ALL_LAYERS; // of the texture
 
 	static constexpr uint32_t ALL_LAYERS = ~0u;
@@ -130,7 +131,8 @@ struct ComputePipelineDesc {
 
 struct VertexAttribute {
 	uint32_t location = 0;
-	uint32_t buffer_index = 0; // into RasterPipelineDesc::vertex_strides_bytes and bind_vertex_buffers
+	uint32_t buffer_index =
+			0; // into RasterPipelineDesc::vertex_strides_bytes and bind_vertex_buffers
 	Format format = Format::R32_SFLOAT;
 	uint32_t component_count = 3; // floats: R32_SFLOAT with 1..4 components
 	uint32_t offset_bytes = 0;
@@ -139,15 +141,15 @@ struct VertexAttribute {
 struct RasterPipelineDesc {
 	std::string name;
 	std::string vertex_shader;
-	std::string geometry_shader; // empty = none
-	std::string fragment_shader; // empty = depth only
+	std::string geometry_shader;				   // empty = none
+	std::string fragment_shader;				   // empty = depth only
 	std::vector<SpecializationConstant> constants; // for all stages
 	std::vector<VertexAttribute> attributes;
 	std::vector<uint32_t> vertex_strides_bytes;
 	Topology topology = Topology::TRIANGLES;
 	std::vector<Format> color_formats;
 	BlendMode blend = BlendMode::OFF; // all colour targets alike
-	bool has_depth = true; // a D32_SFLOAT attachment is bound
+	bool has_depth = true;			  // a D32_SFLOAT attachment is bound
 	bool writes_depth = true;
 	CompareOp depth_compare = CompareOp::LESS;
 	bool clamps_depth = false; // depth clamp instead of near and far clipping
@@ -172,18 +174,18 @@ struct DepthTarget {
 
 /// How a pass uses a resource; the render graph derives barriers and layouts from it.
 enum class Access {
-	NONE, // content not needed
+	NONE,		 // content not needed
 	VERTEX_READ, // vertex, index buffer
 	INDIRECT_READ,
 	SHADER_READ_VERTEX, // vertex and geometry stages
 	SHADER_READ_FRAGMENT,
 	SHADER_READ_COMPUTE,
-	UNIFORM_READ, // any stage
+	UNIFORM_READ,		   // any stage
 	SHADER_WRITE_FRAGMENT, // storage, read and write
 	SHADER_WRITE_COMPUTE,
 	COLOR_WRITE,
 	DEPTH_WRITE, // test and write
-	DEPTH_READ, // test only
+	DEPTH_READ,	 // test only
 	COPY_READ,
 	COPY_WRITE,
 	HOST_READ,

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
+
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,8 +31,8 @@ struct Bounds {
 struct Mesh {
 	std::string name;
 	std::vector<glm::vec3> positions_node; // metres, in the node's space; finite
-	std::vector<glm::vec3> normals_node; // unit, one per position
-	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
+	std::vector<glm::vec3> normals_node;   // unit, one per position
+	std::vector<uint32_t> indices;		   // three per triangle, each below the number of positions
 	Bounds bounds_node;
 	uint64_t id = 0; // unique in the process, see make_mesh
 
@@ -48,10 +49,10 @@ struct Material {
 	std::string name;
 	glm::vec3 base_color = glm::vec3(0.8f);
 	glm::vec3 emissive = glm::vec3(0.0f); // cd/m^2
-	float metallic = 0.0f; // 0..1
-	float roughness = 1.0f; // 0..1
-	float scatter = 0.0f; // s in 0..1; 0 = opaque (seeds: Wang, Xiao 2015)
-	float scatter_distance_m = 0.0f; // 0..1e4
+	float metallic = 0.0f;				  // 0..1
+	float roughness = 1.0f;				  // 0..1
+	float scatter = 0.0f;				  // s in 0..1; 0 = opaque (seeds: Wang, Xiao 2015)
+	float scatter_distance_m = 0.0f;	  // 0..1e4
 	bool is_double_sided = false;
 };
 

@@ -4,6 +4,7 @@
 #include "modules/scene/mesh.h"
 
 #include <glm/glm.hpp>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,14 +48,15 @@ class Light3D : public Node3D {
 public:
 	LightType type = LightType::OMNI;
 	glm::vec3 color = glm::vec3(1.0f); // linear
-	float intensity = 1.0f; // cd (omni, spot) or lx (directional)
-	float range_m = 0.0f; // 0 = unlimited
-	float inner_cone_rad = 0.0f; // half angles, 0 <= inner < outer <= pi/2
+	float intensity = 1.0f;			   // cd (omni, spot) or lx (directional)
+	float range_m = 0.0f;			   // 0 = unlimited
+	float inner_cone_rad = 0.0f;	   // half angles, 0 <= inner < outer <= pi/2
 	float outer_cone_rad = 0.785398163f;
 	/// Only what was set, whether declared by get_property_list, by a technique, or by nobody in
 	/// this build: unknown properties survive a save untouched.
 	PropertyValues properties;
-	/// Where the properties stand in the file, for errors and for saving: "lights[0]". Empty = none.
+	/// Where the properties stand in the file, for errors and for saving: "lights[0]". Empty =
+	/// none.
 	std::string file_path;
 
 	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
@@ -66,7 +68,7 @@ public:
 class Camera3D : public Node3D {
 public:
 	float vertical_fov_rad = 0.785398163f; // above 0, below pi
-	float near_m = 0.05f; // above 0. The far plane is at infinity (reversed depth)
+	float near_m = 0.05f;				   // above 0. The far plane is at infinity (reversed depth)
 };
 
 class SceneDocument; // what a file format keeps for saving; see gltf_scene

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,21 +23,21 @@ struct CameraSnapshot {
 struct LightSnapshot {
 	std::string name;
 	LightType type = LightType::OMNI;
-	glm::dvec3 position_world = glm::dvec3(0.0); // the light's centre L; unused for directional
+	glm::dvec3 position_world = glm::dvec3(0.0);   // the light's centre L; unused for directional
 	glm::dmat3 world_from_light = glm::dmat3(1.0); // orthonormal; the light shines along -Z
 	glm::vec3 color = glm::vec3(1.0f);
 	float intensity = 1.0f;
 	float range_m = 0.0f; // 0 = unlimited
 	float inner_cone_rad = 0.0f;
 	float outer_cone_rad = 0.785398163f;
-	float light_size_m = 0.0f; // R: radius; spot and omni
+	float light_size_m = 0.0f;				 // R: radius; spot and omni
 	float light_angular_distance_deg = 0.0f; // apparent diameter; directional
 	bool casts_shadow = true;
-	std::string technique_id; // empty = the registry's default
+	std::string technique_id;			 // empty = the registry's default
 	float penumbra_outer_width_m = 0.0f; // r, with -1 already replaced by light_size
 	float penumbra_inner_width_m = 0.0f; // t, likewise
-	PropertyValues properties; // the technique's; only what was set
-	std::string file_path; // for messages: "lights[0]"
+	PropertyValues properties;			 // the technique's; only what was set
+	std::string file_path;				 // for messages: "lights[0]"
 
 	glm::dvec3 get_direction_world() const { return -world_from_light[2]; }
 	/// R for spot and omni; the tangent of half the apparent diameter for directional.

@@ -1,7 +1,8 @@
 #include "modules/shadow_map/light_points.h"
 
-#include <cmath>
 #include <glm/gtc/constants.hpp>
+
+#include <cmath>
 
 namespace gnomon {
 
@@ -69,8 +70,8 @@ double compute_nearest_distance_m(const LightSnapshot &p_light, const SceneSnaps
 	double nearest_m = 1e30;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const glm::dvec3 &position = p_light.position_world;
-		const glm::dvec3 closest = glm::clamp(
-				position, instance.bounds_world.minimum, instance.bounds_world.maximum);
+		const glm::dvec3 closest =
+				glm::clamp(position, instance.bounds_world.minimum, instance.bounds_world.maximum);
 		nearest_m = std::min(nearest_m, glm::distance(position, closest));
 	}
 	return nearest_m;

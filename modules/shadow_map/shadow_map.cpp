@@ -4,6 +4,7 @@
 #include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/mesh_store.h"
+
 #include "shadow_map/shadow_map_shared.h"
 
 namespace gnomon {
@@ -23,7 +24,8 @@ void ShadowMap::get_light_properties(PropertyList &r_list) const {
 			"Width and height of each map. Larger maps have finer edges and cost memory.", "px",
 			"Shadow map" });
 	r_list.add({ "shadow_map_filter", PropertyType::ENUM, {}, "hard,2x2,3x3,5x5,7x7",
-			"Texels that are averaged for each pixel. More blur the edge, blind to the light's size.",
+			"Texels that are averaged for each pixel. More blur the edge, blind to the light's "
+			"size.",
 			"", "Shadow map" });
 }
 
@@ -74,8 +76,7 @@ RGTexture ShadowMap::import_map(RenderGraph &r_graph) {
 	return frame_map;
 }
 
-void ShadowMap::at_light_view(
-		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
+void ShadowMap::at_light_view(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	const CasterList &casters = p_inputs.casters[p_view_index];
 	add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
 			p_inputs.views[p_view_index], casters, import_map(r_graph), p_view_index);
@@ -92,9 +93,9 @@ RGTexture ShadowMap::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
 	const RGBuffer view_constants = r_graph.upload_constants("shadow map views",
 			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
-	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT,
-			p_inputs.size_px, 1,
-			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture mask =
+			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	const shader::ShadowMapPush push = { empty_views, 0, 1, 0 };
 	add_compute_pass(r_graph, "resolve", pipeline,
 			{

@@ -26,9 +26,9 @@ private:
 	OwnedTexture map; // one layer per view
 	TextureDesc map_desc;
 	std::vector<uint64_t> drawn_hashes; // per view; 0 = its layer holds nothing of use
-	uint32_t empty_views = 0; // bits, this frame
-	bool has_content = false; // of the map, before this frame
-	RGTexture frame_map; // this frame's handle of map
+	uint32_t empty_views = 0;			// bits, this frame
+	bool has_content = false;			// of the map, before this frame
+	RGTexture frame_map;				// this frame's handle of map
 };
 
 } // namespace gnomon

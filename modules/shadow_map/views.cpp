@@ -5,6 +5,7 @@
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/mesh_store.h"
 #include "modules/shadow_map/light_points.h"
+
 #include "shadow_map/shadow_map_shared.h"
 
 #include <algorithm>
@@ -63,12 +64,12 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	}
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "views accumulate", "shadow_map/accumulate.comp", {} });
-	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT,
-			p_inputs.size_px, 1,
-			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	const RGTexture map = r_graph.create_texture({ "map of one light point", Format::D32_SFLOAT,
-			p_inputs.views[0].size_px, views_per_point,
-			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+	const RGTexture mask =
+			r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT, p_inputs.size_px, 1,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture map = r_graph.create_texture(
+			{ "map of one light point", Format::D32_SFLOAT, p_inputs.views[0].size_px,
+					views_per_point, TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
 	const uint32_t count = static_cast<uint32_t>(p_inputs.views.size()) / views_per_point;
 	const double nearest_m = compute_nearest_distance_m(p_inputs.light, p_inputs.scene);
 	bool is_map_written = false;
@@ -91,8 +92,7 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			add_depth_pass(r_graph, "empty map", p_inputs, views[0], {}, map, 0);
 			is_map_written = true;
 		}
-		const LightSnapshot point =
-				make_light_point(p_inputs.light, point_index, count, nearest_m);
+		const LightSnapshot point = make_light_point(p_inputs.light, point_index, count, nearest_m);
 		const RGBuffer view_constants = r_graph.upload_constants("light point views",
 				compute_light_views_constants(point, p_inputs.scene.camera, views));
 		const PassBuilder::Content content =

@@ -88,7 +88,8 @@ struct ShadowReference::Job {
 
 void ShadowReference::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "reference_samples", PropertyType::INT, int64_t(1024), "1,65536,1",
-			"Rays per pixel. The error falls faster than the square root of their number; published "
+			"Rays per pixel. The error falls faster than the square root of their number; "
+			"published "
 			"tables use 9216.",
 			"", "Reference" });
 }
@@ -162,16 +163,16 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->light.direction = glm::vec3(p_inputs.light.get_direction_world());
 	job->light.disc_radius = p_inputs.light.get_disc_radius();
 	job->options.scene_size_m = static_cast<float>(p_inputs.scene.scene_size_m);
-	job->options.sample_count = static_cast<uint32_t>(
-			std::get<int64_t>(p_inputs.properties.at("reference_samples")));
+	job->options.sample_count =
+			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("reference_samples")));
 	job->triangles = collect_triangles(p_inputs.scene);
 
 	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
 	const auto add_copy = [&](RGTexture p_texture) {
 		const TextureDesc &desc = r_graph.get_desc(p_texture);
-		const RGBuffer buffer = r_graph.create_buffer({ desc.name + " for the reference",
-				pixel_count * get_texel_size_bytes(desc.format), BufferUsage::COPY_TARGET,
-				MemoryKind::READBACK });
+		const RGBuffer buffer = r_graph.create_buffer(
+				{ desc.name + " for the reference", pixel_count * get_texel_size_bytes(desc.format),
+						BufferUsage::COPY_TARGET, MemoryKind::READBACK });
 		r_graph.add_pass("read back " + desc.name)
 				.reads(p_texture, Access::COPY_READ)
 				.writes(buffer, Access::COPY_WRITE)

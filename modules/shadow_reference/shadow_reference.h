@@ -18,8 +18,7 @@ private:
 	/// Everything of one frame that the host pass needs; the inputs end before it runs.
 	struct Job;
 	void run(const Job &p_job, HostContext &p_context);
-	void compute(const Job &p_job, const std::vector<ReceiverPoint> &p_points,
-			Truth &r_truth);
+	void compute(const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth);
 
 	uint64_t last_key = 0; // of last_truth
 	Truth last_truth;

@@ -53,8 +53,8 @@ std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count) {
 	truth.standard_error = header.standard_error;
 	truth.penumbra_pixel_count = header.penumbra_pixel_count;
 	truth.visibility.resize(p_pixel_count);
-	std::memcpy(truth.visibility.data(), bytes.data() + sizeof(header),
-			p_pixel_count * sizeof(float));
+	std::memcpy(
+			truth.visibility.data(), bytes.data() + sizeof(header), p_pixel_count * sizeof(float));
 	return truth;
 }
 

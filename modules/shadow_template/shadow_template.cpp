@@ -3,6 +3,7 @@
 #include "modules/core/text.h"
 #include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/mesh_store.h"
+
 #include "shadow_template/shadow_template_shared.h"
 
 namespace gnomon {
@@ -33,8 +34,7 @@ void ShadowTemplate::at_light_view(
 		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	if (!map) {
 		map = r_graph.create_texture({ "template map", Format::D32_SFLOAT,
-				p_inputs.views[p_view_index].size_px,
-				static_cast<uint32_t>(p_inputs.views.size()),
+				p_inputs.views[p_view_index].size_px, static_cast<uint32_t>(p_inputs.views.size()),
 				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
 	}
 	add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
@@ -48,9 +48,9 @@ RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) 
 	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
 	const RGBuffer view_constants = r_graph.upload_constants("template views",
 			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
-	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT,
-			p_inputs.size_px, 1,
-			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture mask =
+			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	const auto strength =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };

@@ -6,12 +6,12 @@
 struct SHARED_ALIGN FrameConstants {
 	mat4 clip_from_camera_relative; // reversed depth: near / z, 1 near .. 0 far, far at infinity
 	vec4 right_tangent; // xyz: camera's right times the tangent of half the horizontal angle
-	vec4 up_tangent; // xyz: camera's up times the tangent of half the vertical angle
-	vec4 forward; // xyz: unit
+	vec4 up_tangent;	// xyz: camera's up times the tangent of half the vertical angle
+	vec4 forward;		// xyz: unit
 	uvec2 size_px;
 	float near_m;
 	float scene_size_m; // S
-	vec4 ambient; // rgb: radiance that every surface reflects; a: exposure
+	vec4 ambient;		// rgb: radiance that every surface reflects; a: exposure
 };
 SHARED_SIZE(FrameConstants, 144);
 SHARED_OFFSET(FrameConstants, right_tangent, 64);
@@ -21,8 +21,8 @@ SHARED_OFFSET(FrameConstants, size_px, 112);
 struct SHARED_ALIGN InstancePush {
 	mat4 camera_relative_from_node;
 	vec4 base_color_roughness; // rgb linear
-	vec4 emissive_metallic; // rgb in cd/m^2
-	float scatter; // s in 0..1
+	vec4 emissive_metallic;	   // rgb in cd/m^2
+	float scatter;			   // s in 0..1
 	float scatter_distance_m;
 	uint is_mirrored; // 1: the transform turns the winding round
 	uint padding;

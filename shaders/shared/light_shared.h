@@ -9,12 +9,12 @@
 /// One light in camera-relative space.
 struct SHARED_ALIGN LightConstants {
 	vec4 position_radius; // xyz: centre L; w: R in metres, directional: tangent of half the angle
-	vec4 direction; // xyz: unit, the way the light shines; w unused
-	vec4 intensity; // rgb: cd (omni, spot) or lx (directional); w unused
-	float range_m; // 0 = unlimited
-	float cos_outer; // of the spot's outer half angle
+	vec4 direction;		  // xyz: unit, the way the light shines; w unused
+	vec4 intensity;		  // rgb: cd (omni, spot) or lx (directional); w unused
+	float range_m;		  // 0 = unlimited
+	float cos_outer;	  // of the spot's outer half angle
 	float cos_inner;
-	uint type; // LIGHT_TYPE_*
+	uint type;			 // LIGHT_TYPE_*
 	float outer_width_m; // r of Sun et al. 2010
 	float inner_width_m; // t
 	uint casts_shadow;
@@ -28,9 +28,9 @@ SHARED_SIZE(LightConstants, 80);
 /// 1 near .. 0 far.
 struct SHARED_ALIGN LightViewConstants {
 	mat4 view_from_camera_relative;
-	vec2 half_extent; // of the map, in map coordinates
+	vec2 half_extent;  // of the map, in map coordinates
 	float depth_scale; // near (perspective) or 1 / (far - near) (orthographic)
-	float far_m; // orthographic only
+	float far_m;	   // orthographic only
 	uvec2 size_px;
 	uint is_orthographic;
 	uint layer; // of the map's texture array

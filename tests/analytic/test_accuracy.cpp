@@ -5,6 +5,7 @@
 #include "modules/core/files.h"
 #include "modules/error_report/mask_metrics.h"
 #include "modules/renderer/tests/render_fixture.h"
+
 #include "tests/demo_scene.h"
 
 #include <doctest/doctest.h>
@@ -131,7 +132,7 @@ TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") 
 	const nlohmann::json limits = load_limits();
 	const nlohmann::json &accuracy_case = limits.at("cases").at(0);
 	const MaskImage truth = render_reference(fixture, limits, accuracy_case);
-	const MaskMetrics metrics = compute_mask_metrics(truth,
-			render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
+	const MaskMetrics metrics = compute_mask_metrics(
+			truth, render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
 	CHECK(metrics.penumbra.mae > 0.05); // twice and more what good techniques have
 }

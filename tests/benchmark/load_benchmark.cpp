@@ -7,10 +7,11 @@
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/mesh_tools/topology.h"
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <set>
 
 using namespace gnomon;
@@ -65,7 +66,8 @@ void run(const std::string &p_path, int p_run_count) {
 int main(int p_argument_count, char **p_arguments) {
 	const int run_count = p_argument_count > 2 ? std::atoi(p_arguments[2]) : DEFAULT_RUN_COUNT;
 	if (p_argument_count < 2 || p_argument_count > 3 || run_count < 1) {
-		std::fprintf(stderr, "Usage: gnomon_benchmark SCENE.gltf [RUNS]   runs: 1 and more, default %d\n",
+		std::fprintf(stderr,
+				"Usage: gnomon_benchmark SCENE.gltf [RUNS]   runs: 1 and more, default %d\n",
 				DEFAULT_RUN_COUNT);
 		return 2;
 	}

@@ -1,10 +1,11 @@
-// Has a picture changed? Each tests/golden/<scene>/<technique id>.png is rendered again and compared.
-// Files are written by tests/golden/update.sh only.
+// Has a picture changed? Each tests/golden/<scene>/<technique id>.png is rendered again and
+// compared. Files are written by tests/golden/update.sh only.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/error_report/mask_picture.h"
 #include "modules/renderer/tests/render_fixture.h"
+
 #include "tests/demo_scene.h"
 
 #include <doctest/doctest.h>
@@ -22,7 +23,7 @@ namespace {
 const char *const GOLDEN_FOLDER = "tests/golden";
 const char *const FAILURE_FOLDER = "build/golden_failures";
 constexpr uint32_t CHANNEL_COUNT = 3; // the alpha of a picture is always 1
-constexpr int AMPLIFICATION = 10; // in the picture of the difference
+constexpr int AMPLIFICATION = 10;	  // in the picture of the difference
 
 struct Picture {
 	glm::uvec2 size_px = glm::uvec2(0);
@@ -33,9 +34,9 @@ struct Picture {
 struct GoldenSettings {
 	std::string camera; // empty = the first
 	glm::uvec2 size_px = glm::uvec2(128);
-	int max_difference = 5; // of a channel, in 255ths
+	int max_difference = 5;			// of a channel, in 255ths
 	double max_pixel_share = 0.001; // of pixels that differ by more
-	nlohmann::json light_settings; // by technique id, for every light
+	nlohmann::json light_settings;	// by technique id, for every light
 };
 
 GoldenSettings load_settings(const std::string &p_scene) {
@@ -240,12 +241,10 @@ TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes th
 	settings.size_px = glm::uvec2(64);
 	const std::unique_ptr<Scene> scene = load_demo_scene("sphere");
 	const Picture before = render_picture(fixture, *scene, id, settings);
-	CHECK(is_equal_enough(
-			before, render_picture(fixture, *scene, id, settings), settings));
+	CHECK(is_equal_enough(before, render_picture(fixture, *scene, id, settings), settings));
 	Light3D &light = *scene->find_nodes<Light3D>().at(0);
 	light.parent_from_node[3].x += 0.4;
-	CHECK_FALSE(is_equal_enough(
-			before, render_picture(fixture, *scene, id, settings), settings));
+	CHECK_FALSE(is_equal_enough(before, render_picture(fixture, *scene, id, settings), settings));
 }
 
 TEST_CASE("[Golden] canary: a changed picture is noticed, and only beyond the tolerance") {

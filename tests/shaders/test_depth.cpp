@@ -1,4 +1,5 @@
 #include "modules/renderer/gbuffer.h"
+
 #include "tests/shaders/kernel_fixture.h"
 
 #include <doctest/doctest.h>
@@ -23,16 +24,16 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 	std::vector<glm::vec4> pixels;
 	std::vector<glm::dvec3> positions;
 	for (int index = 0; index < 4000; ++index) {
-		const glm::dvec2 pixel = glm::floor(
-				glm::dvec2(random.next(), random.next()) * glm::dvec2(size_px));
+		const glm::dvec2 pixel =
+				glm::floor(glm::dvec2(random.next(), random.next()) * glm::dvec2(size_px));
 		const double wanted_m = std::pow(10.0, random.next(-1.2, 4)); // 6 cm .. 10 km
 		const float depth = static_cast<float>(double(camera.near_m) / wanted_m);
 		pixels.push_back(glm::vec4(glm::vec2(pixel), depth, 0.0f));
 		// The camera looks along -Z; rows go down.
 		const double z_m = double(camera.near_m) / double(depth);
 		const glm::dvec2 ndc = 2.0 * (pixel + 0.5) / glm::dvec2(size_px) - 1.0;
-		positions.push_back(camera.world_from_camera * (z_m *
-				glm::dvec3(ndc.x * tangent * aspect, -ndc.y * tangent, -1)));
+		positions.push_back(camera.world_from_camera *
+				(z_m * glm::dvec3(ndc.x * tangent * aspect, -ndc.y * tangent, -1)));
 	}
 	const shader::FrameConstants frame = compute_frame_constants(scene, size_px);
 	const std::vector<glm::vec4> results =
@@ -49,10 +50,10 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 				glm::dmat4(frame.clip_from_camera_relative) * glm::dvec4(found, 1.0);
 		const glm::dvec2 pixel =
 				(glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(size_px) - 0.5;
-		largest_miss_px = std::max(
-				largest_miss_px, glm::distance(pixel, glm::dvec2(pixels[index])));
-		largest_depth_error = std::max(largest_depth_error,
-				std::abs(clip.z / clip.w / double(pixels[index].z) - 1));
+		largest_miss_px =
+				std::max(largest_miss_px, glm::distance(pixel, glm::dvec2(pixels[index])));
+		largest_depth_error = std::max(
+				largest_depth_error, std::abs(clip.z / clip.w / double(pixels[index].z) - 1));
 	}
 	CHECK(largest_error < 1e-6);
 	CHECK(largest_miss_px < 2e-3);

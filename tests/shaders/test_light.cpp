@@ -2,6 +2,7 @@
 #include "tests/shaders/kernel_fixture.h"
 
 #include <doctest/doctest.h>
+
 #include <limits>
 
 using namespace gnomon;
@@ -76,9 +77,9 @@ TEST_CASE("[GPU][Shaders] a receiver faces the light and lies in its cone and ra
 		const shader::LightConstants light = make_light(type);
 		const bool is_directional = type == LIGHT_TYPE_DIRECTIONAL;
 		CHECK(receives(fixture, light, below, up));
-		CHECK_FALSE(receives(fixture, light, below, -up)); // turned away
+		CHECK_FALSE(receives(fixture, light, below, -up));		   // turned away
 		CHECK_FALSE(receives(fixture, light, below, { 1, 0, 0 })); // edge on
-		CHECK(receives(fixture, light, below, { 1, 1e-3f, 0 })); // just not edge on
+		CHECK(receives(fixture, light, below, { 1, 1e-3f, 0 }));   // just not edge on
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(0.0f)));
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(NOT_A_NUMBER)));
 		// On the light there is no direction; a directional light is nowhere.

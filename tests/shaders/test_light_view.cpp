@@ -1,4 +1,5 @@
 #include "modules/renderer/light_view.h"
+
 #include "tests/shaders/kernel_fixture.h"
 
 #include <doctest/doctest.h>
@@ -74,8 +75,8 @@ void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 		input.push_back(relative(position + 0.02 * tangent));
 		input.push_back(glm::vec4(glm::vec3(normal), 0.0f));
 	}
-	const std::vector<glm::vec4> results = r_fixture.run_with_constants(
-			"light_view.comp", p_case.constants, input, item_count, 3);
+	const std::vector<glm::vec4> results =
+			r_fixture.run_with_constants("light_view.comp", p_case.constants, input, item_count, 3);
 	size_t wrong_view_count = 0;
 	size_t outside_count = 0;
 	double largest_w_error = 0;
@@ -95,8 +96,8 @@ void check_case(KernelFixture &r_fixture, const LightCase &p_case) {
 		const glm::dvec2 xy = view.is_orthographic ? glm::dvec2(p) : glm::dvec2(p) / p.z;
 		largest_w_error = std::max(largest_w_error, std::abs(first.z - w) / w);
 		largest_xy_error = std::max(largest_xy_error, glm::distance(glm::dvec2(first), xy));
-		const bool is_outside =
-				glm::any(glm::lessThan(glm::dvec2(slope_texels.z, slope_texels.w), glm::dvec2(0))) ||
+		const bool is_outside = glm::any(glm::lessThan(glm::dvec2(slope_texels.z, slope_texels.w),
+										glm::dvec2(0))) ||
 				slope_texels.z > view.size_px.x || slope_texels.w > view.size_px.y;
 		outside_count += is_outside;
 		const double predicted = first.z +
@@ -138,11 +139,11 @@ TEST_CASE("[GPU][Shaders] a point behind the view has w = 0, a plane through the
 	};
 	const glm::dvec3 behind = light + axes[2];
 	const glm::dvec3 before = light - axes[2];
-	const std::vector<glm::vec4> results = fixture.run_with_constants("light_view.comp",
-			light_case.constants,
-			{ relative(behind), relative(light), glm::vec4(glm::vec3(axes[2]), 0.0f),
-					relative(before), relative(before), glm::vec4(0.0f) },
-			2, 3);
+	const std::vector<glm::vec4> results =
+			fixture.run_with_constants("light_view.comp", light_case.constants,
+					{ relative(behind), relative(light), glm::vec4(glm::vec3(axes[2]), 0.0f),
+							relative(before), relative(before), glm::vec4(0.0f) },
+					2, 3);
 	CHECK(results[0].z == 0.0f);
 	CHECK(std::isfinite(results[1].z)); // on the light: what rounding makes of it, never NaN
 	CHECK(results[3].z == doctest::Approx(1.0).epsilon(1e-5));

@@ -35,8 +35,8 @@ std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool>
 															   .size_px = glm::uvec2(SIZE_PX),
 															   .usage = TextureUsage::SAMPLED },
 					bytes_of(std::span<const float>(depths))));
-	const OwnedBuffer view = r_fixture.make_buffer("view",
-			std::vector<shader::LightViewConstants>{ make_view() }, BufferUsage::UNIFORM);
+	const OwnedBuffer view = r_fixture.make_buffer(
+			"view", std::vector<shader::LightViewConstants>{ make_view() }, BufferUsage::UNIFORM);
 	std::vector<glm::vec4> points;
 	for (const glm::vec2 &texel : p_texels) {
 		const glm::vec2 xy = (texel / float(SIZE_PX) * 2.0f - 1.0f) * HALF_EXTENT_M;
@@ -48,7 +48,8 @@ std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool>
 
 /// Length of what [p_low, p_low + p_width] and the texel have in common.
 double compute_overlap(double p_low, double p_width, int p_texel) {
-	return std::max(0.0, std::min(p_low + p_width, p_texel + 1.0) - std::max(p_low, double(p_texel)));
+	return std::max(
+			0.0, std::min(p_low + p_width, p_texel + 1.0) - std::max(p_low, double(p_texel)));
 }
 
 /// Area of the box about the texel place that lies on lit texels or beyond the map.
@@ -109,8 +110,8 @@ TEST_CASE("[GPU][Shaders] lookups are exactly 1 on a free map and beyond it, 0 o
 		const auto count_other = [&](bool p_is_hidden, const std::vector<glm::vec2> &p_texels,
 										 float p_expected) {
 			size_t count = 0;
-			for (const glm::vec4 &result : look_up(fixture,
-						 std::vector<bool>(texel_count, p_is_hidden), p_texels, width)) {
+			for (const glm::vec4 &result : look_up(
+						 fixture, std::vector<bool>(texel_count, p_is_hidden), p_texels, width)) {
 				count += std::abs(result.x - p_expected) > 1e-6f || result.y != p_expected;
 			}
 			return count;

@@ -1,4 +1,5 @@
 #include "modules/renderer/normal_packing.h"
+
 #include "tests/shaders/kernel_fixture.h"
 
 #include <doctest/doctest.h>

@@ -2,11 +2,12 @@
 #include "modules/core/files.h"
 #include "modules/core/log.h"
 
-#include <cstdlib>
 #include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 using namespace gnomon;
 namespace fs = std::filesystem;

@@ -1,9 +1,9 @@
+#include "modules/core/error.h"
 #include "modules/core/module_registry.h"
 
-#include "modules/core/error.h"
+#include <doctest/doctest.h>
 
 #include <algorithm>
-#include <doctest/doctest.h>
 
 using namespace gnomon;
 
@@ -11,8 +11,8 @@ TEST_CASE("[ModuleRegistry] dependencies stand before the modules that need them
 	std::vector<std::string> seen;
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		for (const std::string &dependency : module.dependencies) {
-			CHECK_MESSAGE(std::find(seen.begin(), seen.end(), dependency) != seen.end(), module.name,
-					" needs ", dependency);
+			CHECK_MESSAGE(std::find(seen.begin(), seen.end(), dependency) != seen.end(),
+					module.name, " needs ", dependency);
 		}
 		CHECK_FALSE(module.description.empty());
 		seen.push_back(module.name);

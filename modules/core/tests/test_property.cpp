@@ -2,6 +2,7 @@
 #include "modules/core/property.h"
 
 #include <doctest/doctest.h>
+
 #include <limits>
 
 using namespace gnomon;
@@ -9,8 +10,8 @@ using namespace gnomon;
 namespace {
 
 PropertyInfo make_width() {
-	return { "penumbra_outer_width", PropertyType::FLOAT, -1, "0,10000,0.001", "Width.", "m", "Shadow",
-		"-1" };
+	return { "penumbra_outer_width", PropertyType::FLOAT, -1, "0,10000,0.001", "Width.", "m",
+		"Shadow", "-1" };
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
 
-#include <cstring>
 #include <doctest/doctest.h>
+
+#include <cstring>
 
 using namespace gnomon;
 
@@ -67,8 +68,8 @@ void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value) {
 
 TEST_CASE("[GPU][RenderGraph] values pass through a chain of copies in every mode") {
 	GraphFixture fixture;
-	for (RenderGraph::Mode mode : { RenderGraph::Mode::WAIT, RenderGraph::Mode::ONE_BY_ONE,
-				 RenderGraph::Mode::QUEUE }) {
+	for (RenderGraph::Mode mode :
+			{ RenderGraph::Mode::WAIT, RenderGraph::Mode::ONE_BY_ONE, RenderGraph::Mode::QUEUE }) {
 		RenderGraph graph(*fixture.device, *fixture.pool);
 		RGTexture texture = graph.create_texture(make_desc("first"));
 		add_fill(graph, texture, 0.75f);
@@ -135,8 +136,7 @@ TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame t
 		graph.execute(RenderGraph::Mode::QUEUE);
 	}
 	RenderGraph graph(*fixture.device, *fixture.pool);
-	const RGTexture texture =
-			graph.import_texture(kept.get(), RenderGraph::ImportedContent::KEPT);
+	const RGTexture texture = graph.import_texture(kept.get(), RenderGraph::ImportedContent::KEPT);
 	const RGTexture copy = graph.create_texture(make_desc("copy"));
 	add_copy(graph, texture, copy);
 	float value = 0;

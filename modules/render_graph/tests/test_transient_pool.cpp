@@ -1,6 +1,7 @@
 #include "modules/render_graph/transient_pool.h"
 
 #include <doctest/doctest.h>
+
 #include <random>
 
 using namespace gnomon;
@@ -8,8 +9,8 @@ using namespace gnomon;
 namespace {
 
 bool overlaps(const PlacedBlock &p_left, const PlacedBlock &p_right) {
-	const bool in_time = p_left.first_pass <= p_right.last_pass &&
-			p_right.first_pass <= p_left.last_pass;
+	const bool in_time =
+			p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
 	const bool in_memory = p_left.offset_bytes < p_right.offset_bytes + p_right.size_bytes &&
 			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
 	return in_time && in_memory;

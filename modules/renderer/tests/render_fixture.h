@@ -6,12 +6,13 @@
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 // Small scenes in memory and a device under validation, for the tests of the renderer and of every
@@ -33,8 +34,8 @@ inline std::shared_ptr<const Mesh> make_box_mesh(
 			u[(axis + 1) % 3] = 1.0f;
 			const glm::vec3 v = glm::cross(normal, u);
 			const uint32_t first = static_cast<uint32_t>(positions.size());
-			for (const glm::vec2 corner : { glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1),
-						 glm::vec2(-1, 1) }) {
+			for (const glm::vec2 corner :
+					{ glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1) }) {
 				positions.push_back((normal + u * corner.x + v * corner.y) * p_half_size);
 				normals.push_back(normal);
 			}
@@ -112,8 +113,7 @@ struct RenderFixture {
 
 	/// p_device: as DeviceOptions::device.
 	explicit RenderFixture(const std::string &p_device = "") {
-		std::string name =
-				(std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
+		std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
 		cache = ::mkdtemp(name.data());
 		::setenv("GNOMON_CACHE_DIR", cache.c_str(), 1);
 		DeviceOptions options;
@@ -163,8 +163,7 @@ inline double compute_mask_difference(const RenderResult &p_left, const RenderRe
 		count += both;
 		sum += both ? std::abs(p_left.visibility[index] - p_right.visibility[index]) : 0.0f;
 	}
-	return count == 0 || unequal_count > p_left.visibility.size() / 50 ? 1.0
-																	   : sum / double(count);
+	return count == 0 || unequal_count > p_left.visibility.size() / 50 ? 1.0 : sum / double(count);
 }
 
 /// True when every value is finite and in 0..1, and 0 where there is no receiver.

@@ -5,6 +5,7 @@
 #include "modules/renderer/tests/render_fixture.h"
 
 #include <doctest/doctest.h>
+
 #include <limits>
 
 using namespace gnomon;
@@ -86,8 +87,8 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 		SmallScene scene(p_type);
 		make_cheap(*scene.light);
 		// Wide and near the light; below it are all other receivers.
-		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }),
-				{ 0, 3.7, 0 });
+		add_mesh(
+				scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }), { 0, 3.7, 0 });
 		const RenderResult result = fixture.render_mask(scene, p_info.id);
 		CHECK(count_receivers(result) > 0);
 		for (size_t index = 0; index < result.visibility.size(); ++index) {
@@ -167,8 +168,8 @@ TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 					{ 0, 0, 0 });
 		}
 		SUBCASE("coincident receivers and casters") {
-			add_mesh(scene.scene, "Twin",
-					make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)), { 0, 1.0, 0 });
+			add_mesh(scene.scene, "Twin", make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)),
+					{ 0, 1.0, 0 });
 		}
 		SUBCASE("a narrow cone") {
 			scene.light->outer_cone_rad = 1e-3f;
@@ -215,9 +216,9 @@ TEST_CASE("[Techniques] every shader file exists, every property has a tooltip a
 		for (const PropertyInfo &property :
 				ShadowRegistry::get_light_properties(p_info.id).get_properties()) {
 			CHECK_MESSAGE(property.tooltip.size() > 10, property.name);
-			CHECK_MESSAGE((property.type == PropertyType::BOOL ||
-								  property.type == PropertyType::STRING ||
-								  property.hint.find(',') != std::string::npos),
+			CHECK_MESSAGE(
+					(property.type == PropertyType::BOOL || property.type == PropertyType::STRING ||
+							property.hint.find(',') != std::string::npos),
 					property.name);
 		}
 		CHECK_FALSE(p_info.name.empty());

@@ -22,8 +22,7 @@ TEST_CASE("[LightView] depth is 1 at the near plane, falls with distance and sta
 TEST_CASE("[LightView] the six views of an omni light see every direction") {
 	SmallScene scene(LightType::OMNI);
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
-	const std::vector<LightView> views =
-			build_light_views(snapshot->lights[0], *snapshot, 512, 2);
+	const std::vector<LightView> views = build_light_views(snapshot->lights[0], *snapshot, 512, 2);
 	REQUIRE(views.size() == 6);
 	for (int index = 0; index < 500; ++index) {
 		const double z = 1 - 2 * (index + 0.5) / 500;

@@ -44,8 +44,7 @@ TEST_CASE("[GPU][Renderer] a light makes the picture brighter, and its shadow da
 TEST_CASE("[GPU][Renderer] a light whose range ends before the view is left out, unseen") {
 	RenderFixture fixture;
 	SmallScene scene;
-	Light3D &far_light = scene.add_light(
-			"Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
+	Light3D &far_light = scene.add_light("Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
 	far_light.range_m = 5.0f;
 	const RenderResult lean = fixture.render_picture(scene);
 	const RenderResult whole = fixture.render_picture(scene, "", false);
@@ -91,7 +90,8 @@ TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that 
 	CHECK(fixture.render_picture(scene).image.size() == 64 * 64 * 4); // and goes on
 }
 
-TEST_CASE("[GPU][Renderer] a light whose technique is missing takes the fallback and says so once") {
+TEST_CASE(
+		"[GPU][Renderer] a light whose technique is missing takes the fallback and says so once") {
 	const ShadowTechniqueInfo *fallback = ShadowRegistry::find_fallback();
 	RenderFixture fixture;
 	SmallScene scene;
@@ -144,8 +144,8 @@ TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default
 			light.name = "Lamp of " + property.name;
 			light.properties[property.name] = int64_t(-77);
 			CaughtLines log;
-			const PropertyValues values = resolve_light_properties(
-					light, ShadowRegistry::get_light_properties(info.id));
+			const PropertyValues values =
+					resolve_light_properties(light, ShadowRegistry::get_light_properties(info.id));
 			resolve_light_properties(light, ShadowRegistry::get_light_properties(info.id));
 			CHECK(values.at(property.name) == property.default_value);
 			REQUIRE(log.lines.size() == 1);

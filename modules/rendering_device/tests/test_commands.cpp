@@ -57,7 +57,8 @@ void draw_triangle(CommandList &r_commands, PipelineRID p_pipeline, BufferRID p_
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] a compute pass reads what was uploaded and its result comes back") {
+TEST_CASE(
+		"[GPU][RenderingDevice] a compute pass reads what was uploaded and its result comes back") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	std::vector<uint32_t> values(1000);
@@ -118,7 +119,8 @@ TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrive
 	CHECK(fixture.read<uint32_t>(readback, values.size()) == values);
 }
 
-TEST_CASE("[GPU][RenderingDevice] a resource freed before its upload ran takes the upload with it") {
+TEST_CASE(
+		"[GPU][RenderingDevice] a resource freed before its upload ran takes the upload with it") {
 	DeviceFixture fixture;
 	const uint64_t used_before = fixture.device->get_memory_use().used_bytes;
 	fixture.make_buffer("short-lived", std::vector<uint32_t>(1000));

@@ -21,7 +21,8 @@ std::vector<PhysicalDevice> make_devices() {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and the first usable one is created") {
+TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and the first usable one is "
+		  "created") {
 	const std::vector<DeviceInfo> infos = RenderingDevice::list_devices();
 	REQUIRE_FALSE(infos.empty());
 	for (const DeviceInfo &info : infos) {
@@ -37,7 +38,8 @@ TEST_CASE("[GPU][RenderingDevice] the listed devices have names, and the first u
 	CHECK(fixture.device->get_features().timestamps);
 }
 
-TEST_CASE("[GPU][RenderingDevice] without a wish, a discrete device is better than an integrated one") {
+TEST_CASE("[GPU][RenderingDevice] without a wish, a discrete device is better than an integrated "
+		  "one") {
 	std::vector<PhysicalDevice> devices = make_devices();
 	CHECK(choose_device(devices, "").info.index == 2);
 	devices[2].info.is_usable = false;
@@ -55,8 +57,8 @@ TEST_CASE("[GPU][RenderingDevice] a device is named by index or by part of its n
 	CHECK(choose_device(devices, "maker").info.index == 0);
 }
 
-TEST_CASE(
-		"[GPU][RenderingDevice] an unknown or unusable device is an error that lists those there are") {
+TEST_CASE("[GPU][RenderingDevice] an unknown or unusable device is an error that lists those there "
+		  "are") {
 	std::vector<PhysicalDevice> devices = make_devices();
 	const std::string unknown = catch_error([&] { choose_device(devices, "radeon"); });
 	CHECK(contains(unknown, "\"radeon\""));
@@ -70,7 +72,8 @@ TEST_CASE(
 	CHECK(contains(real, RenderingDevice::list_devices().front().name));
 }
 
-TEST_CASE("[GPU][RenderingDevice] an instance extension that is missing is an error that names it") {
+TEST_CASE(
+		"[GPU][RenderingDevice] an instance extension that is missing is an error that names it") {
 	const std::string error = catch_error(
 			[] { RenderingDevice::create({ .instance_extensions = { "VK_GNOMON_imaginary" } }); });
 	CHECK(contains(error, "VK_GNOMON_imaginary"));

@@ -43,7 +43,8 @@ void make_one_pipeline(const TestCacheFolder &) {
 
 } // namespace
 
-TEST_CASE("[GPU][RenderingDevice] spans of a finished submission have their names and positive times") {
+TEST_CASE("[GPU][RenderingDevice] spans of a finished submission have their names and positive "
+		  "times") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer buffer = make_filled(device);

@@ -12,8 +12,7 @@ TEST_CASE("[Views] points of an omni light project to a uniform disc from every 
 	for (const glm::dvec3 &side : { glm::dvec3(1, 0, 0), glm::dvec3(0, 0.6, 0.8) }) {
 		int inner_count = 0; // within R / sqrt(2): half of a uniform disc
 		for (uint32_t index = 0; index < count; ++index) {
-			const glm::dvec3 point =
-					make_light_point(light, index, count, 5.0).position_world;
+			const glm::dvec3 point = make_light_point(light, index, count, 5.0).position_world;
 			const glm::dvec3 across = point - side * glm::dot(point, side);
 			CHECK(glm::length(point) <= 2.0);
 			inner_count += glm::length(across) < 2.0 / std::sqrt(2.0);
@@ -30,8 +29,8 @@ TEST_CASE("[Views] directions of a directional light stay unit and within the co
 		const LightSnapshot point = make_light_point(light, index, 64, 1.0);
 		const glm::dmat3 &axes = point.world_from_light;
 		CHECK(glm::determinant(axes) == doctest::Approx(1.0));
-		const double angle = std::acos(
-				glm::dot(point.get_direction_world(), light.get_direction_world()));
+		const double angle =
+				std::acos(glm::dot(point.get_direction_world(), light.get_direction_world()));
 		CHECK(angle <= glm::radians(5.0) + 1e-9);
 	}
 }

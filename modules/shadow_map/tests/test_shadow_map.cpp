@@ -99,8 +99,7 @@ TEST_CASE("[GPU][ShadowMap] omni faces meet without a seam") {
 	scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 1, 0.2, 0.3 });
 	for (const char *filter : { "hard", "7x7" }) {
 		scene.light->properties["shadow_map_filter"] = std::string(filter);
-		const RenderResult result =
-				fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
+		const RenderResult result = fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
 		CHECK(result.visibility == result.receiver);
 	}
 }
