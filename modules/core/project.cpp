@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/core/log.h"
 
 #include <sstream>
 
@@ -84,11 +83,9 @@ Project Project::load(const fs::path &p_path) {
 			project.start_scene = project.folder / unquote(value);
 		} else if (section == "project" && key == "scenes" && is_list) {
 			for (const std::string &scene : parse_list(value)) {
-				if (fs::exists(project.folder / scene)) {
-					project.scenes.push_back(project.folder / scene);
-				} else {
-					log_warning(path.string(), ": scene ", scene, " does not exist.");
-				}
+				const fs::path scene_path = project.folder / scene;
+				const bool is_there = fs::exists(scene_path);
+				(is_there ? project.scenes : project.missing_scenes).push_back(scene_path);
 			}
 		} else if (section == "modules" && key == "disabled" && is_list) {
 			project.disabled_modules = parse_list(value);

@@ -13,13 +13,14 @@ class Project {
 public:
 	std::filesystem::path folder; // everything a project uses lies below it
 	std::string name;
-	std::filesystem::path start_scene;		   // absolute; empty = none named
-	std::vector<std::filesystem::path> scenes; // absolute; those that exist
+	std::filesystem::path start_scene;				   // absolute; empty = none named
+	std::vector<std::filesystem::path> scenes;		   // absolute; those that exist
+	std::vector<std::filesystem::path> missing_scenes; // absolute; listed, but not there
 	std::vector<std::string> disabled_modules;
 	std::map<std::string, std::string> defaults; // [defaults] as written, quotes removed
 
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
-	/// line. Scenes that do not exist are left out with a warning.
+	/// line.
 	static Project load(const std::filesystem::path &p_path);
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
 	static std::filesystem::path find_folder(const std::filesystem::path &p_scene_path);

@@ -52,7 +52,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 }
 
 void run(const CommonOptions &p_common) {
-	glm::uvec2 size_px = parse_size(options.size);
+	glm::uvec2 size_px = choose_size(options.size, options.scene);
 	for (const std::string &path : { options.capture, options.dot }) {
 		if (!path.empty()) {
 			check_writable(path);
@@ -86,7 +86,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--frames", options.frame_count, "Ends after so many; headless: 1")
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
-	command->add_option("--size", options.size, "Default: 512x512");
+	command->add_option("--size", options.size, "Default: the project's, else 512x512");
 	command->add_option("--camera", options.camera, "Default: the first");
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,

@@ -32,7 +32,7 @@ struct VisibilityOptions {
 	std::string png;
 	std::string light;
 	std::string camera;
-	std::string size = "512x512";
+	std::string size;
 	std::vector<std::string> settings;
 	uint32_t frame_count = 1;
 	std::vector<double> motion;
@@ -58,7 +58,7 @@ void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
 }
 
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
-	const glm::uvec2 size_px = parse_size(p_options.size);
+	const glm::uvec2 size_px = choose_size(p_options.size, p_options.scene);
 	check_writable(p_options.out);
 	for (const std::string &path : { p_options.png, p_options.time }) {
 		if (!path.empty()) {
@@ -124,7 +124,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--png", options.png, "Also writes the mask as a grey PNG");
 	command->add_option("--light", options.light, "Default: the first that casts shadows");
 	command->add_option("--camera", options.camera, "Default: the first");
-	command->add_option("--size", options.size, "Default: 512x512");
+	command->add_option("--size", options.size, "Default: the project's, else 512x512");
 	command->add_option("--set", options.settings, "property=value of the light; repeatable")
 			->take_all()
 			->allow_extra_args(false);

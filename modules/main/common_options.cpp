@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint32_t MAX_SIZE_PX = 16384;
+const char *const DEFAULT_SIZE = "512x512";
 
 bool parse_whole(std::string_view p_text, uint32_t &r_value) {
 	const char *end = p_text.data() + p_text.size();
@@ -29,6 +30,28 @@ const PropertyInfo *find_property(const std::string &p_name) {
 		return info;
 	}
 	return ShadowRegistry::find_light_property(p_name);
+}
+
+/// A name of another build only warns: the project must open everywhere.
+void disable_modules(const Project &p_project) {
+	for (const std::string &name : p_project.disabled_modules) {
+		try {
+			ModuleRegistry::set_enabled(name, false);
+		} catch (const Error &error) {
+			log_warning((p_project.folder / "project.cfg").string(), ": ", error.what());
+		}
+	}
+}
+
+fs::path choose_start_scene(const Project &p_project) {
+	if (!p_project.start_scene.empty()) {
+		return p_project.start_scene;
+	}
+	if (p_project.scenes.empty()) {
+		fail("Project ", p_project.folder,
+				" names no scene that exists. Set start_scene in its project.cfg.");
+	}
+	return p_project.scenes.front();
 }
 
 std::string list_properties() {
@@ -61,23 +84,34 @@ glm::uvec2 parse_size(const std::string &p_text) {
 	return size_px;
 }
 
+glm::uvec2 choose_size(const std::string &p_text, const fs::path &p_scene_path) {
+	if (!p_text.empty()) {
+		return parse_size(p_text);
+	}
+	std::error_code code;
+	const fs::path folder = fs::is_directory(p_scene_path, code)
+			? p_scene_path
+			: Project::find_folder(p_scene_path);
+	if (fs::exists(folder / "project.cfg", code)) {
+		const Project project = Project::load(folder);
+		if (const auto size = project.defaults.find("size"); size != project.defaults.end()) {
+			return parse_size(size->second);
+		}
+	}
+	return parse_size(DEFAULT_SIZE);
+}
+
 std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
 	fs::path path = p_path;
 	fs::path project_folder = Project::find_folder(path);
 	std::error_code code;
-	if (fs::is_directory(path, code) || path.extension() == ".cfg") {
-		const Project project = Project::load(path);
-		project_folder = project.folder;
-		path = !project.start_scene.empty() ? project.start_scene
-				: !project.scenes.empty()	? project.scenes.front()
-											: fs::path();
-		if (path.empty()) {
-			fail("Project ", p_path, " names no scene. Set start_scene in its project.cfg.");
-		}
-	}
-	if (fs::exists(project_folder / "project.cfg", code)) {
-		for (const std::string &name : Project::load(project_folder).disabled_modules) {
-			ModuleRegistry::set_enabled(name, false);
+	const bool is_project = fs::is_directory(path, code) || path.extension() == ".cfg";
+	if (is_project || fs::exists(project_folder / "project.cfg", code)) {
+		const Project project = Project::load(is_project ? path : project_folder);
+		disable_modules(project);
+		if (is_project) {
+			project_folder = project.folder;
+			path = choose_start_scene(project);
 		}
 	}
 	GltfLoadOptions options;

@@ -13,7 +13,7 @@ struct RunOptions {
 	bool is_headless = false;
 	uint32_t frame_count = 0; // 0 = one headless, until it is closed in a window
 	std::string capture;
-	std::string size = "512x512";
+	std::string size; // empty = the project's
 	std::string camera;
 	std::string technique;
 	std::string debug_view;

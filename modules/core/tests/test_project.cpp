@@ -1,0 +1,57 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/project.h"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ProjectFolder {
+	fs::path path;
+	explicit ProjectFolder(const std::string &p_text) {
+		std::string name = (fs::temp_directory_path() / "gnomon_test_XXXXXX").string();
+		path = ::mkdtemp(name.data());
+		save_file_atomically(path / "project.cfg", p_text);
+		fs::create_directory(path / "scenes");
+		save_file_atomically(path / "scenes" / "a.gltf", "{}");
+	}
+	~ProjectFolder() { fs::remove_all(path); }
+};
+
+} // namespace
+
+TEST_CASE("[Project] names, lists over several lines, comments and defaults are read") {
+	const ProjectFolder folder(
+			"; a comment\n[project]\nname=\"Demo\"\n"
+			"start_scene=\"scenes/a.gltf\"\n"
+			"scenes=[\"scenes/a.gltf\",\n  \"scenes/b.gltf\"]\n\n"
+			"[modules]\ndisabled=[\"one\", \"two\"]\n[defaults]\nsize=\"64x64\"\n");
+	const Project project = Project::load(folder.path);
+	CHECK(project.name == "Demo");
+	CHECK(project.start_scene == folder.path / "scenes/a.gltf");
+	CHECK(project.scenes == std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
+	CHECK(project.missing_scenes == std::vector<fs::path>{ folder.path / "scenes/b.gltf" });
+	CHECK(project.disabled_modules == std::vector<std::string>{ "one", "two" });
+	CHECK(project.defaults.at("size") == "64x64");
+	CHECK(Project::find_folder(folder.path / "scenes" / "a.gltf") == folder.path);
+}
+
+TEST_CASE("[Project] a line that is nothing and a list without end are errors with the line") {
+	const ProjectFolder nothing("[project]\nname=\"Demo\"\nwhat is this\n");
+	CHECK_THROWS_WITH_AS(Project::load(nothing.path), doctest::Contains(":3:"), Error);
+	const ProjectFolder endless("[project]\nscenes=[\"a\",\n\"b\"\n");
+	CHECK_THROWS_WITH_AS(Project::load(endless.path), doctest::Contains("scenes"), Error);
+	const ProjectFolder empty_value("[project]\nname=\nscenes=\n");
+	CHECK(Project::load(empty_value.path).name.empty());
+}
+
+TEST_CASE("[Project] a folder without project.cfg is an error that names it") {
+	const ProjectFolder folder("");
+	CHECK_THROWS_AS(Project::load(folder.path / "scenes"), Error);
+}
