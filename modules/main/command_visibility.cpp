@@ -15,6 +15,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace gnomon {
 
@@ -32,7 +33,7 @@ struct VisibilityOptions {
 	std::string png;
 	std::string light;
 	std::string camera;
-	std::string size;
+	std::optional<std::string> size;
 	std::vector<std::string> settings;
 	uint32_t frame_count = 1;
 	std::vector<double> motion;

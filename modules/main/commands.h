@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
 /// "640x480" to a size of 1..16384 each; else a UsageError.
 glm::uvec2 parse_size(const std::string &p_text);
 /// The size that the command line names, else [defaults] size of the scene's project, else 512x512.
-glm::uvec2 choose_size(const std::string &p_text, const std::filesystem::path &p_scene_path);
+glm::uvec2 choose_size(
+		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
 /// project's disabled modules are switched off.

@@ -84,9 +84,9 @@ glm::uvec2 parse_size(const std::string &p_text) {
 	return size_px;
 }
 
-glm::uvec2 choose_size(const std::string &p_text, const fs::path &p_scene_path) {
-	if (!p_text.empty()) {
-		return parse_size(p_text);
+glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path &p_scene_path) {
+	if (p_text) {
+		return parse_size(*p_text);
 	}
 	std::error_code code;
 	const fs::path folder = fs::is_directory(p_scene_path, code)

@@ -3,6 +3,7 @@
 #include "modules/main/commands.h"
 #include "modules/renderer/renderer.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ struct RunOptions {
 	bool is_headless = false;
 	uint32_t frame_count = 0; // 0 = one headless, until it is closed in a window
 	std::string capture;
-	std::string size; // empty = the project's
+	std::optional<std::string> size; // none = the project's
 	std::string camera;
 	std::string technique;
 	std::string debug_view;
