@@ -70,7 +70,7 @@ RGTexture RenderGraph::import_window_image(std::function<std::optional<TextureRI
 	return handle;
 }
 
-const TextureDesc &RenderGraph::get_desc(RGTexture p_texture) const {
+TextureDesc RenderGraph::get_desc(RGTexture p_texture) const {
 	GNOMON_ASSERT(p_texture && resources[p_texture.index].is_texture, "not a texture");
 	return resources[p_texture.index].texture_desc;
 }

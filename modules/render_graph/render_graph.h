@@ -123,7 +123,8 @@ public:
 	/// that pass is submitted; one pass uses it. The pass is left out when p_acquire gives nothing.
 	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
 
-	const TextureDesc &get_desc(RGTexture p_texture) const;
+	/// By value: a reference would end with the next resource that is made.
+	TextureDesc get_desc(RGTexture p_texture) const;
 
 	PassBuilder add_pass(const std::string &p_name);
 	/// Goes before the names of the passes added from now on: "Lamp: ". Empty = nothing.

@@ -63,7 +63,7 @@ Renderer::Renderer(RenderingDevice &p_device) :
 Renderer::~Renderer() = default;
 
 void Renderer::add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes) {
-	const TextureDesc &desc = r_frame.graph.get_desc(p_texture);
+	const TextureDesc desc = r_frame.graph.get_desc(p_texture);
 	const uint64_t size_bytes =
 			uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
 	const RGBuffer buffer = r_frame.graph.create_buffer({ desc.name + " readback", size_bytes,

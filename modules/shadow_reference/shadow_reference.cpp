@@ -169,7 +169,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 
 	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
 	const auto add_copy = [&](RGTexture p_texture) {
-		const TextureDesc &desc = r_graph.get_desc(p_texture);
+		const TextureDesc desc = r_graph.get_desc(p_texture);
 		const RGBuffer buffer = r_graph.create_buffer(
 				{ desc.name + " for the reference", pixel_count * get_texel_size_bytes(desc.format),
 						BufferUsage::COPY_TARGET, MemoryKind::READBACK });
