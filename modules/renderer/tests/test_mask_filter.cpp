@@ -31,7 +31,9 @@ public:
 TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan says when not") {
 	RenderFixture fixture;
 	SmallScene scene;
-	const RenderResult before = fixture.render_mask(scene, "");
+	// Any technique will do; which there are depends on the build.
+	const std::string any = ShadowRegistry::get_techniques().at(0).id;
+	const RenderResult before = fixture.render_mask(scene, any);
 	MaskFilterRegistry::add(
 			{ "quarter", "Quarter", "test", [] { return std::make_unique<QuarterFilter>(); } });
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
@@ -42,9 +44,9 @@ TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the pl
 		}
 	}
 	QuarterFilter::is_needed = false;
-	const RenderResult left_out = fixture.render_mask(scene, "");
+	const RenderResult left_out = fixture.render_mask(scene, any);
 	CHECK(left_out.visibility == before.visibility);
 	CHECK(left_out.plan.is_left_out("Light", "quarter filter"));
 	MaskFilterRegistry::remove("quarter");
-	CHECK(fixture.render_mask(scene, "").visibility == before.visibility);
+	CHECK(fixture.render_mask(scene, any).visibility == before.visibility);
 }
