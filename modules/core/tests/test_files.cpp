@@ -1,37 +1,18 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 using namespace gnomon;
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A folder that vanishes with the test, and the cache inside it.
-struct TemporaryFolder {
-	fs::path path;
-	TemporaryFolder() {
-		std::string name = (fs::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		path = ::mkdtemp(name.data());
-		::setenv("GNOMON_CACHE_DIR", path.c_str(), 1);
-	}
-	~TemporaryFolder() {
-		::unsetenv("GNOMON_CACHE_DIR");
-		fs::remove_all(path);
-	}
-};
-
-} // namespace
-
 TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing beside it") {
-	TemporaryFolder folder;
+	const TemporaryCache folder;
 	save_file_atomically(folder.path / "a.txt", "first");
 	save_file_atomically(folder.path / "a.txt", "second");
 	CHECK(load_text_file(folder.path / "a.txt") == "second");
@@ -40,14 +21,14 @@ TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing bes
 
 TEST_CASE("[Files] an unwritable place is an error that names it, and no file appears") {
 	CHECK_THROWS_AS(save_file_atomically("/nonexistent_gnomon/a.txt", "x"), Error);
-	TemporaryFolder folder;
+	const TemporaryCache folder;
 	fs::create_directory(folder.path / "taken");
 	CHECK_THROWS_AS(save_file_atomically(folder.path / "taken", "x"), Error);
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
 TEST_CASE("[Files] missing files, folders and files over the limit are refused") {
-	TemporaryFolder folder;
+	const TemporaryCache folder;
 	CHECK_THROWS_AS(load_file(folder.path / "missing"), Error);
 	CHECK_THROWS_AS(load_file(folder.path), Error);
 	save_file_atomically(folder.path / "a.txt", "four");
@@ -63,7 +44,7 @@ TEST_CASE("[Files] a path that leaves the folder is not inside it") {
 }
 
 TEST_CASE("[Files] a damaged cache entry is noticed and removed") {
-	TemporaryFolder folder;
+	const TemporaryCache folder;
 	const std::vector<uint8_t> bytes = { 1, 2, 3, 4, 5 };
 	save_cache_entry("entry", bytes);
 	CHECK(load_cache_entry("entry") == bytes);

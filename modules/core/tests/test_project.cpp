@@ -1,9 +1,9 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/project.h"
+#include "modules/core/tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -12,16 +12,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct ProjectFolder {
-	fs::path path;
+struct ProjectFolder : TemporaryFolder {
 	explicit ProjectFolder(const std::string &p_text) {
-		std::string name = (fs::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		path = ::mkdtemp(name.data());
 		save_file_atomically(path / "project.cfg", p_text);
 		fs::create_directory(path / "scenes");
 		save_file_atomically(path / "scenes" / "a.gltf", "{}");
 	}
-	~ProjectFolder() { fs::remove_all(path); }
 };
 
 } // namespace

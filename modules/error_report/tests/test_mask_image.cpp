@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/tests/temporary_folder.h"
 #include "modules/error_report/mask_image.h"
 
 #include <ImfChannelList.h>
@@ -7,7 +8,6 @@
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,15 +18,6 @@ using namespace gnomon;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryFolder {
-	fs::path path;
-	TemporaryFolder() {
-		std::string name = (fs::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		path = ::mkdtemp(name.data());
-	}
-	~TemporaryFolder() { fs::remove_all(path); }
-};
 
 MaskImage make_image(uint32_t p_width, uint32_t p_height) {
 	MaskImage image;

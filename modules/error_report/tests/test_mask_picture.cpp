@@ -1,10 +1,10 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/tests/temporary_folder.h"
 #include "modules/error_report/mask_picture.h"
 
 #include <doctest/doctest.h>
 #include <stb/stb_image.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <limits>
@@ -41,8 +41,8 @@ std::vector<uint8_t> load_png(const fs::path &p_path, int p_channel_count) {
 } // namespace
 
 TEST_CASE("[MaskPicture] a mask is written as linear grey, no receiver as black") {
-	std::string name = (fs::temp_directory_path() / "gnomon_test_XXXXXX").string();
-	const fs::path folder = ::mkdtemp(name.data());
+	const TemporaryFolder temporary;
+	const fs::path &folder = temporary.path;
 	MaskImage image = make_picture_mask();
 	image.visibility[4] = 0.7f;
 	save_mask_png(folder / "mask.png", image);
@@ -55,7 +55,6 @@ TEST_CASE("[MaskPicture] a mask is written as linear grey, no receiver as black"
 	CHECK_THROWS_AS(save_mask_png(folder / "none" / "mask.png", image), Error);
 	CHECK_THROWS_AS(save_mask_png(folder / "empty.png", MaskImage()), Error);
 	CHECK(std::distance(fs::directory_iterator(folder), {}) == 2);
-	fs::remove_all(folder);
 }
 
 TEST_CASE("[MaskPicture] errors are white at 0, blue when too dark, red when too light") {

@@ -3,10 +3,9 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/tests/temporary_folder.h"
 #include "modules/gltf_scene/gltf_container.h"
 #include "modules/gltf_scene/gltf_scene.h"
-
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -17,16 +16,7 @@
 namespace gnomon {
 
 /// A folder of files that vanishes with the test.
-struct GltfTestFolder {
-	std::filesystem::path path;
-	GltfTestFolder() {
-		std::string name = (std::filesystem::temp_directory_path() / "gnomon_gltf_XXXXXX").string();
-		path = ::mkdtemp(name.data());
-	}
-	~GltfTestFolder() { std::filesystem::remove_all(path); }
-	GltfTestFolder(const GltfTestFolder &) = delete;
-	GltfTestFolder &operator=(const GltfTestFolder &) = delete;
-
+struct GltfTestFolder : TemporaryFolder {
 	/// Writes and loads a file.
 	std::unique_ptr<Scene> load(const Json &p_json, const GltfLoadOptions &p_options = {}) const {
 		write("scene.gltf", p_json.dump());

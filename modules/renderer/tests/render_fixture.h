@@ -1,12 +1,11 @@
 #pragma once
 
+#include "modules/core/tests/temporary_folder.h"
 #include "modules/renderer/renderer.h"
 #include "modules/renderer/shadow_registry.h"
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
-
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -107,26 +106,17 @@ struct SmallScene {
 
 /// A device and a renderer under validation, with a cache folder of their own.
 struct RenderFixture {
-	std::filesystem::path cache;
+	TemporaryCache cache;
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<Renderer> renderer;
 
 	/// p_device: as DeviceOptions::device.
 	explicit RenderFixture(const std::string &p_device = "") {
-		std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		cache = ::mkdtemp(name.data());
-		::setenv("GNOMON_CACHE_DIR", cache.c_str(), 1);
 		DeviceOptions options;
 		options.validation = true;
 		options.device = p_device;
 		device = RenderingDevice::create(options);
 		renderer = std::make_unique<Renderer>(*device);
-	}
-	~RenderFixture() {
-		renderer.reset();
-		device.reset();
-		::unsetenv("GNOMON_CACHE_DIR");
-		std::filesystem::remove_all(cache);
 	}
 
 	RenderResult render_mask(const SmallScene &p_scene, const std::string &p_technique,

@@ -3,32 +3,15 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/tests/temporary_folder.h"
 #include "modules/rendering_device/command_list.h"
 #include "modules/rendering_device/rendering_device.h"
-
-#include <unistd.h>
 
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 namespace gnomon {
-
-/// An empty cache folder, so that no test depends on what another one left.
-struct TestCacheFolder {
-	std::filesystem::path path;
-	TestCacheFolder() {
-		std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
-		path = ::mkdtemp(name.data());
-		::setenv("GNOMON_CACHE_DIR", path.c_str(), 1);
-	}
-	~TestCacheFolder() {
-		::unsetenv("GNOMON_CACHE_DIR");
-		std::filesystem::remove_all(path);
-	}
-	TestCacheFolder(const TestCacheFolder &) = delete;
-	TestCacheFolder &operator=(const TestCacheFolder &) = delete;
-};
 
 /// Catches log lines, so that expected errors do not clutter the output.
 struct CaughtLog {
@@ -52,7 +35,7 @@ struct CaughtLog {
 
 /// A device under validation with short ways to move data.
 struct DeviceFixture {
-	TestCacheFolder cache;
+	TemporaryCache cache;
 	std::unique_ptr<RenderingDevice> device;
 
 	explicit DeviceFixture(DeviceOptions p_options = {}) {

@@ -36,7 +36,7 @@ std::filesystem::path find_cache_file(const std::filesystem::path &p_folder) {
 	return {};
 }
 
-void make_one_pipeline(const TestCacheFolder &) {
+void make_one_pipeline(const TemporaryCache &) {
 	const auto device = RenderingDevice::create({ .validation = true });
 	device->get_compute_pipeline({ .name = "scale", .shader = "rendering_device/test_scale.comp" });
 }
@@ -114,7 +114,7 @@ TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {
 }
 
 TEST_CASE("[GPU][RenderingDevice] pipelines are kept between runs") {
-	TestCacheFolder cache;
+	TemporaryCache cache;
 	make_one_pipeline(cache);
 	const std::filesystem::path file = find_cache_file(cache.path);
 	REQUIRE_FALSE(file.empty());
