@@ -17,9 +17,12 @@ struct PassBinding {
 	Access access = Access::SHADER_READ_COMPUTE;
 	PassBuilder::Content content = PassBuilder::Content::FRESH; // of what is written
 
+	SamplerRID sampler; // with a texture that the shader samples, not only fetches
+
 	/// Sampled or fetched.
-	static PassBinding read(uint32_t p_binding, RGTexture p_texture) {
-		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE };
+	static PassBinding read(uint32_t p_binding, RGTexture p_texture, SamplerRID p_sampler = {}) {
+		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE,
+			PassBuilder::Content::FRESH, p_sampler };
 	}
 	static PassBinding read(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::SHADER_READ_COMPUTE };

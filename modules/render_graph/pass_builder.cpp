@@ -44,16 +44,17 @@ PassBuilder &PassBuilder::writes(RGBuffer p_buffer, Access p_access, Content p_c
 
 PassBuilder &PassBuilder::color(
 		RGTexture p_texture, LoadOp p_load, glm::vec4 p_clear, uint32_t p_layer) {
-	graph.add_use(
-			pass_index, { p_texture.index, Access::COLOR_WRITE, true, p_load == LoadOp::KEEP });
+	// Other layers of an array keep their content, whatever this one's load operation does.
+	const bool is_array = graph.get_desc(p_texture).layer_count > 1;
+	graph.add_use(pass_index,
+			{ p_texture.index, Access::COLOR_WRITE, true, is_array || p_load == LoadOp::KEEP });
 	graph.passes[pass_index].colors.push_back({ p_texture, p_load, p_clear, p_layer });
 	return *this;
 }
 
 PassBuilder &PassBuilder::depth(
 		RGTexture p_texture, LoadOp p_load, float p_clear, uint32_t p_layer) {
-	// Other layers of an array keep their content, whatever this one's load operation does.
-	const bool is_array = graph.get_desc(p_texture).layer_count > 1;
+	const bool is_array = graph.get_desc(p_texture).layer_count > 1; // as in color()
 	graph.add_use(pass_index,
 			{ p_texture.index, Access::DEPTH_WRITE, true, is_array || p_load == LoadOp::KEEP });
 	graph.passes[pass_index].depth_target = { p_texture, p_load, p_clear, p_layer };

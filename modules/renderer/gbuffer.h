@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/render_graph/render_graph.h"
+#include "modules/renderer/light_view.h"
 #include "modules/renderer/mesh_store.h"
 #include "modules/scene/scene_snapshot.h"
 

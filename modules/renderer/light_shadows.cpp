@@ -131,7 +131,7 @@ RGTexture LightShadows::add_filters(RenderGraph &r_graph, const ShadowTechnique:
 }
 
 RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_request,
-		FramePlan &r_plan, std::optional<ShadowTechnique::DebugView> &r_debug_view) {
+		FramePlan &r_plan, std::vector<ShadowTechnique::DebugView> &r_debug_views) {
 	const LightSnapshot &light = p_request.light;
 	const TechniqueChoice choice = choose_technique(light, p_request.technique_override);
 	if (!choice.warning.empty() && warned.insert(choice.warning).second) {
@@ -157,7 +157,7 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 		views, casters, p_request.size_px, p_request.gbuffer.depth,
 		p_request.gbuffer.geometric_normal, p_request.gbuffer.shading_normal,
 		p_request.gbuffer.material, p_request.receivers, p_request.frame, p_request.light_constants,
-		p_request.may_leave_out, p_request.may_keep };
+		p_request.may_leave_out, p_request.may_keep, p_request.wants_debug_views };
 	TechniquePlan plan(r_plan);
 	technique.plan(inputs, plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
@@ -171,15 +171,9 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 	}
 	plan.run("resolve");
 	RGTexture mask = technique.resolve(r_graph, inputs);
-	if (!p_request.debug_view.empty()) {
-		std::vector<ShadowTechnique::DebugView> debug_views;
-		technique.get_debug_views(debug_views);
-		debug_views.push_back({ "mask", mask, glm::vec2(0.0f, 1.0f), 0 });
-		for (const ShadowTechnique::DebugView &view : debug_views) {
-			if (view.id == p_request.debug_view) {
-				r_debug_view = view;
-			}
-		}
+	if (p_request.wants_debug_views) {
+		technique.get_debug_views(r_debug_views);
+		r_debug_views.push_back({ "mask", mask });
 	}
 	return add_filters(r_graph, inputs, mask, plan);
 }

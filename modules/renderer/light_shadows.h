@@ -40,12 +40,12 @@ public:
 		std::string technique_override;
 		bool may_leave_out = true;
 		bool may_keep = true;
-		std::string debug_view; // empty = none
+		bool wants_debug_views = false;
 	};
 	/// Records everything between the G-buffer and the lighting of one light. Returns its mask.
-	/// r_debug_view: set when the request names a debug view that the technique has.
+	/// r_debug_views: gets those that there are, when the request wants them.
 	RGTexture add_passes(RenderGraph &r_graph, const Request &p_request, FramePlan &r_plan,
-			std::optional<ShadowTechnique::DebugView> &r_debug_view);
+			std::vector<ShadowTechnique::DebugView> &r_debug_views);
 	/// Drops techniques of lights that are gone, and all when a registry changed. Once a frame.
 	void collect_garbage(const SceneSnapshot &p_scene);
 	/// Forgets every technique and what it kept; after a frame that failed half-way.

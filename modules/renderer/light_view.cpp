@@ -52,7 +52,7 @@ template <typename Function> void for_each_corner(const Bounds &p_bounds, Functi
 }
 
 LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
-		uint32_t p_map_size_px, uint32_t p_border_px) {
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
 	LightView view;
 	view.is_orthographic = true;
 	view.size_px = glm::uvec2(p_map_size_px);
@@ -67,7 +67,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapsh
 	for_each_corner(bounds, [&](const glm::dvec3 &p_corner) {
 		seen.add(glm::dvec3(view.view_from_world * glm::dvec4(p_corner, 1.0)));
 	});
-	const double margin_m = 1e-3 * p_scene.scene_size_m;
+	const double margin_m = 1e-3 * p_scene.scene_size_m + p_caster_margin_m;
 	// Origin on the near plane: depths are then positive and as small as can be.
 	view.view_from_world[3].z += margin_m - seen.minimum.z;
 	view.near_m = 0.0f;
@@ -76,6 +76,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapsh
 			glm::max(glm::abs(glm::dvec2(seen.minimum)), glm::abs(glm::dvec2(seen.maximum)));
 	view.half_extent =
 			glm::vec2(half_extent + margin_m) * widen_for_border(p_map_size_px, p_border_px);
+	view.caster_margin_m = p_caster_margin_m;
 	return view;
 }
 
@@ -124,7 +125,10 @@ bool LightView::may_see(const Bounds &p_bounds_world) const {
 	}
 	// All corners beyond one plane: outside. Planes: the four sides and z > 0 (perspective).
 	int outside_counts[5] = {};
-	for_each_corner(p_bounds_world, [&](const glm::dvec3 &p_corner) {
+	Bounds bounds = p_bounds_world;
+	bounds.minimum -= double(caster_margin_m);
+	bounds.maximum += double(caster_margin_m);
+	for_each_corner(bounds, [&](const glm::dvec3 &p_corner) {
 		const glm::dvec3 p = glm::dvec3(view_from_world * glm::dvec4(p_corner, 1.0));
 		const glm::dvec2 limit = glm::dvec2(half_extent) * (is_orthographic ? 1.0 : p.z);
 		outside_counts[0] += p.x > limit.x;
@@ -138,13 +142,15 @@ bool LightView::may_see(const Bounds &p_bounds_world) const {
 }
 
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
-		uint32_t p_map_size_px, uint32_t p_border_px) {
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
 	if (p_light.type == LightType::DIRECTIONAL) {
-		return { build_directional_view(p_light, p_scene, p_map_size_px, p_border_px) };
+		return { build_directional_view(
+				p_light, p_scene, p_map_size_px, p_border_px, p_caster_margin_m) };
 	}
 	const glm::dmat3 &axes = p_light.world_from_light;
 	LightView view;
 	view.size_px = glm::uvec2(p_map_size_px);
+	view.caster_margin_m = p_caster_margin_m;
 	view.near_m = static_cast<float>(NEAR_PER_SCENE_SIZE * p_scene.scene_size_m);
 	const float widening = widen_for_border(p_map_size_px, p_border_px);
 	if (p_light.type == LightType::SPOT && p_light.outer_cone_rad <= MAX_SINGLE_VIEW_RAD) {

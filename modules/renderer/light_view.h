@@ -19,6 +19,9 @@ struct LightView {
 	float near_m = 0.001f;
 	float far_m = 1.0f; // orthographic only; a perspective view reaches to infinity
 	glm::uvec2 size_px = glm::uvec2(1024);
+	/// Casters up to this far beyond the view's sides are listed too: what a technique adds to them
+	/// may reach into it.
+	float caster_margin_m = 0.0f;
 
 	/// Vulkan clip space with reversed depth: 1 near .. 0 far.
 	glm::dmat4 compute_clip_from_view() const;
@@ -27,7 +30,8 @@ struct LightView {
 	glm::mat4 compute_view_from_camera_relative(const CameraSnapshot &p_camera) const;
 	shader::LightViewConstants compute_constants(
 			const CameraSnapshot &p_camera, uint32_t p_layer) const;
-	/// False only when the box is certainly outside the view's sides or behind it.
+	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
+	/// behind it.
 	bool may_see(const Bounds &p_bounds_world) const;
 	bool operator==(const LightView &) const = default;
 };
@@ -36,8 +40,9 @@ struct LightView {
 /// directional light (fitted to the casters), 6 for omni and wider spots (those that the cone
 /// misses included, so that a view's index is its axis). A perspective view has border_px texels
 /// beyond the light's field on each side, so that a filter of that radius never leaves the map.
+/// p_caster_margin_m: how far a technique widens the casters; a directional view holds that too.
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
-		uint32_t p_map_size_px, uint32_t p_border_px);
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m = 0.0f);
 
 /// The light's own axes from camera-relative space, for find_view in light_view_inc.glsl.
 glm::mat4 compute_light_from_camera_relative(

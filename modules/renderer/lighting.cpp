@@ -135,7 +135,7 @@ RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, R
 	const PipelineRID pipeline =
 			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
 	const RGTexture output = create_output(r_graph, p_size_px);
-	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, 0 };
+	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, p_view.class_count };
 	add_compute_pass(r_graph, "debug view " + p_view.id, pipeline,
 			{
 					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),

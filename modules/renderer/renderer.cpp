@@ -50,7 +50,7 @@ struct Renderer::Frame {
 	RenderGraph graph;
 	RGBuffer constants;
 	GBuffer gbuffer;
-	std::optional<ShadowTechnique::DebugView> debug_view;
+	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is asked for
 	bool has_asked_for_debug_view = false;
 	std::vector<uint8_t> mask_bytes;
 	std::vector<uint8_t> receiver_bytes;
@@ -107,8 +107,8 @@ RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTe
 		mask = shadows.add_passes(graph,
 				{ *request.scene, p_light, r_frame.gbuffer, r_receivers, r_frame.constants,
 						r_light_constants, request.size_px, request.technique_override,
-						request.may_leave_out, request.may_keep, asks ? request.debug_view : "" },
-				plan, r_frame.debug_view);
+						request.may_leave_out, request.may_keep, asks },
+				plan, r_frame.debug_views);
 	}
 	return mask;
 }
@@ -133,6 +133,22 @@ void Renderer::add_mask_only(Frame &r_frame) {
 		return;
 	}
 	fail("Light \"", request.mask_light, "\" is not in the scene.");
+}
+
+const ShadowTechnique::DebugView &Renderer::choose_debug_view(const Frame &p_frame) {
+	std::string ids;
+	for (const ShadowTechnique::DebugView &view : p_frame.debug_views) {
+		if (view.id == p_frame.request.debug_view) {
+			return view;
+		}
+		ids += (ids.empty() ? "\"" : ", \"") + view.id + "\"";
+	}
+	if (ids.empty()) {
+		fail("Debug view \"", p_frame.request.debug_view,
+				"\": the scene has no light that casts shadows. Set shadow_enabled on one.");
+	}
+	fail("Debug view \"", p_frame.request.debug_view,
+			"\" does not exist for this light's technique, must be one of ", ids, ".");
 }
 
 void Renderer::add_picture(Frame &r_frame) {
@@ -162,15 +178,18 @@ void Renderer::add_picture(Frame &r_frame) {
 	}
 	graph.set_pass_prefix("");
 	plan.set_light("");
-	if (!request.debug_view.empty() && !r_frame.debug_view) {
-		fail("Debug view \"", request.debug_view,
-				"\" does not exist for this light's technique. \"mask\" always does.");
+	for (const ShadowTechnique::DebugView &view : r_frame.debug_views) {
+		r_frame.result.debug_views.push_back(view.id);
 	}
-	const RGTexture picture = r_frame.debug_view
-			? add_debug_view_pass(
-					  graph, device, r_frame.constants, *r_frame.debug_view, request.size_px)
-			: add_tone_map_pass(graph, device, r_frame.constants, radiance, request.size_px);
-	plan.run(r_frame.debug_view ? "debug view" : "tone map");
+	RGTexture picture;
+	if (!request.debug_view.empty()) {
+		picture = add_debug_view_pass(
+				graph, device, r_frame.constants, choose_debug_view(r_frame), request.size_px);
+		plan.run("debug view");
+	} else {
+		picture = add_tone_map_pass(graph, device, r_frame.constants, radiance, request.size_px);
+		plan.run("tone map");
+	}
 	if (!request.overlay.empty()) {
 		add_overlay(r_frame, picture);
 	}

@@ -45,14 +45,15 @@ struct RenderRequest {
 
 struct RenderResult {
 	FramePlan plan;
-	std::vector<PassTiming> timings; // QUEUE: of an earlier frame
-	double gpu_ms = 0;				 // sum of the passes
-	double wall_ms = 0;				 // of the frame's submission
-	std::vector<uint8_t> image;		 // RGBA8, sRGB-encoded, rows from the top
-	std::vector<float> visibility;	 // Y: 0 where receiver is 0
-	std::vector<float> receiver;	 // 1 or 0
-	std::string dot;				 // the frame's graph for Graphviz
-	uint64_t unaliased_bytes = 0;	 // of transient textures, as if none shared memory
+	std::vector<PassTiming> timings;	  // QUEUE: of an earlier frame
+	double gpu_ms = 0;					  // sum of the passes
+	double wall_ms = 0;					  // of the frame's submission
+	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
+	std::vector<std::string> debug_views; // that there are, when one was asked for
+	std::vector<float> visibility;		  // Y: 0 where receiver is 0
+	std::vector<float> receiver;		  // 1 or 0
+	std::string dot;					  // the frame's graph for Graphviz
+	uint64_t unaliased_bytes = 0;		  // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 };
 
@@ -72,6 +73,8 @@ private:
 			RGBuffer &r_light_constants);
 	void add_mask_only(Frame &r_frame);
 	void add_picture(Frame &r_frame);
+	/// The one that was asked for; an unknown one is an Error that lists those there are.
+	static const ShadowTechnique::DebugView &choose_debug_view(const Frame &p_frame);
 	void add_overlay(Frame &r_frame, RGTexture p_target);
 	/// A pass that copies a texture where the CPU can read it, and fills r_bytes.
 	void add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes);

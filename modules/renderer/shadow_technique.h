@@ -71,6 +71,8 @@ public:
 		bool may_leave_out = true;
 		/// False: what was kept of earlier frames must not be used, as if everything had moved.
 		bool may_keep = true;
+		/// True while one of the technique's debug views is shown.
+		bool wants_debug_views = false;
 	};
 	/// An intermediate image of the last resolve().
 	struct DebugView {
@@ -78,6 +80,8 @@ public:
 		RGTexture texture;
 		glm::vec2 shown_range = glm::vec2(0.0f, 1.0f); // value shown black, value shown white
 		uint32_t layer = 0;
+		/// Above 0: values are classes 0 .. class_count - 1 (at most 8), shown in colours.
+		uint32_t class_count = 0;
 	};
 
 	virtual ~ShadowTechnique() = default;

@@ -55,6 +55,10 @@ public:
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count = 1);
 	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index = 0);
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes);
+	/// Draws until end_conditional happen only if the buffer's first word is not 0 when the GPU gets
+	/// there. Inside one rendering. Needs DeviceFeatures::conditional_rendering.
+	void begin_conditional(BufferRID p_predicate);
+	void end_conditional();
 	void dispatch(glm::uvec3 p_group_count);
 	/// Enough groups of the bound pipeline's local size to cover the items.
 	void dispatch_items(glm::uvec3 p_item_count);
@@ -65,7 +69,8 @@ public:
 			uint64_t p_source_offset_bytes = 0, uint64_t p_target_offset_bytes = 0);
 	/// Tightly packed rows. Depth textures give their depth.
 	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0);
-	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer = 0);
+	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer = 0,
+			uint64_t p_source_offset_bytes = 0);
 	/// Any sizes and colour formats, nearest texel; brings a picture into a window. Layer 0, from
 	/// COPY_READ to COPY_WRITE. sRGB formats are decoded and encoded, so values that are encoded
 	/// already belong into RGBA8_UNORM. Integer formats only to integer formats; not for depth.

@@ -17,12 +17,13 @@ VkImageSubresourceLayers make_layers(
 	return { get_aspect(p_desc.format), 0, p_layer, p_layer_count };
 }
 
-VkBufferImageCopy make_layer_copy(
-		const BufferDesc &p_buffer, const TextureDesc &p_texture, uint32_t p_layer) {
-	GNOMON_ASSERT(p_buffer.size_bytes >= get_layer_bytes(p_texture), "buffer '", p_buffer.name,
-			"' has ", p_buffer.size_bytes, " bytes, a layer of '", p_texture.name, "' ",
-			get_layer_bytes(p_texture));
-	return { .imageSubresource = make_layers(p_texture, p_layer, 1),
+VkBufferImageCopy make_layer_copy(const BufferDesc &p_buffer, const TextureDesc &p_texture,
+		uint32_t p_layer, uint64_t p_offset_bytes = 0) {
+	GNOMON_ASSERT(p_buffer.size_bytes >= p_offset_bytes + get_layer_bytes(p_texture), "buffer '",
+			p_buffer.name, "' has ", p_buffer.size_bytes, " bytes, a layer of '", p_texture.name,
+			"' ", get_layer_bytes(p_texture), ", beginning at ", p_offset_bytes);
+	return { .bufferOffset = p_offset_bytes,
+		.imageSubresource = make_layers(p_texture, p_layer, 1),
 		.imageExtent = { p_texture.size_px.x, p_texture.size_px.y, 1 } };
 }
 
@@ -63,12 +64,13 @@ void CommandList::copy_texture_to_buffer(
 			target.buffer, 1, &region);
 }
 
-void CommandList::copy_buffer_to_texture(
-		BufferRID p_source, TextureRID p_target, uint32_t p_layer) {
+void CommandList::copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer,
+		uint64_t p_source_offset_bytes) {
 	impl.check_copy("copy_buffer_to_texture");
 	const BufferResource &source = impl.device->buffers.get(p_source);
 	const TextureResource &target = impl.device->textures.get(p_target);
-	const VkBufferImageCopy region = make_layer_copy(source.desc, target.desc, p_layer);
+	const VkBufferImageCopy region =
+			make_layer_copy(source.desc, target.desc, p_layer, p_source_offset_bytes);
 	vkCmdCopyBufferToImage(impl.commands, source.buffer, target.image,
 			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }

@@ -203,6 +203,26 @@ void CommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) 
 			impl.commands, impl.device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
 }
 
+void CommandList::begin_conditional(BufferRID p_predicate) {
+	impl.check_recording("begin_conditional");
+	GNOMON_ASSERT(impl.is_rendering, "begin_conditional outside begin_rendering .. end_rendering");
+	GNOMON_ASSERT(impl.device->begin_conditional_rendering,
+			"begin_conditional on a device without conditional rendering");
+	const BufferResource &predicate = impl.device->buffers.get(p_predicate);
+	GNOMON_ASSERT(has_usage(predicate.desc.usage, BufferUsage::CONDITIONAL), "buffer '",
+			predicate.desc.name, "' lacks the usage CONDITIONAL");
+	const VkConditionalRenderingBeginInfoEXT info = {
+		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT,
+		.buffer = predicate.buffer
+	};
+	impl.device->begin_conditional_rendering(impl.commands, &info);
+}
+
+void CommandList::end_conditional() {
+	impl.check_recording("end_conditional");
+	impl.device->end_conditional_rendering(impl.commands);
+}
+
 void CommandList::clear_color(TextureRID p_texture, glm::vec4 p_value) {
 	impl.check_copy("clear_color");
 	const TextureResource &texture = impl.device->textures.get(p_texture);

@@ -156,6 +156,12 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 		end_label = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
 				load("vkCmdEndDebugUtilsLabelEXT"));
 	}
+	if (features.conditional_rendering) {
+		begin_conditional_rendering = reinterpret_cast<PFN_vkCmdBeginConditionalRenderingEXT>(
+				vkGetDeviceProcAddr(device, "vkCmdBeginConditionalRenderingEXT"));
+		end_conditional_rendering = reinterpret_cast<PFN_vkCmdEndConditionalRenderingEXT>(
+				vkGetDeviceProcAddr(device, "vkCmdEndConditionalRenderingEXT"));
+	}
 	allocator.initialize(physical.handle, device, has_budget, p_options.memory_budget_bytes);
 	recording.device = this;
 	create_slots();

@@ -173,6 +173,8 @@ struct RenderingDevice::Impl {
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
 	PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
 	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+	PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering = nullptr; // or the device lacks it
+	PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering = nullptr;
 
 	// device_creation.cpp
 	void initialize(const DeviceOptions &p_options);

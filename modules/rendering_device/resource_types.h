@@ -57,6 +57,7 @@ enum class BufferUsage : uint32_t {
 	INDIRECT = 16,
 	COPY_SOURCE = 32,
 	COPY_TARGET = 64,
+	CONDITIONAL = 256, // read by CommandList::begin_conditional
 	TEXEL = 128, // uniform texel buffer; then BufferDesc::texel_format counts
 };
 template <typename T>
@@ -177,6 +178,7 @@ enum class Access {
 	NONE,		 // content not needed
 	VERTEX_READ, // vertex, index buffer
 	INDIRECT_READ,
+	CONDITIONAL_READ,
 	SHADER_READ_VERTEX, // vertex and geometry stages
 	SHADER_READ_FRAGMENT,
 	SHADER_READ_COMPUTE,

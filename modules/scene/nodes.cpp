@@ -61,11 +61,11 @@ const PropertyList &Light3D::get_property_list() {
 				"", "Shadow" });
 		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
 				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
-				"means the light's size; 0 leaves the outer part out.",
+				"derives it from the light's size; 0 leaves the outer part out.",
 				"m", "Shadow", "-1" });
 		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
 				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
-				"means the light's size; 0 leaves the inner part out.",
+				"derives it from the light's size; 0 leaves the inner part out.",
 				"m", "Shadow", "-1" });
 		return made;
 	}();

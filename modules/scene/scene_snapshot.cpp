@@ -11,6 +11,7 @@ namespace {
 const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
 // Volume of the unit axes' parallelepiped below which an orientation is rounding noise.
 const double FLATTEST_AXES = 1e-9;
+const float MAX_WIDTH_M = 1e4f; // of r and t, as their properties say
 
 bool is_finite(const glm::dmat4 &p_matrix) {
 	for (int column = 0; column < 4; ++column) {
@@ -99,8 +100,10 @@ LightSnapshot build_light_snapshot_at(const Light3D &p_light, const glm::dmat4 &
 	snapshot.technique_id = std::get<std::string>(read_property(p_light, "shadow_technique"));
 	const float outer_width_m = read_float(p_light, "penumbra_outer_width");
 	const float inner_width_m = read_float(p_light, "penumbra_inner_width");
-	snapshot.penumbra_outer_width_m = outer_width_m < 0 ? snapshot.light_size_m : outer_width_m;
-	snapshot.penumbra_inner_width_m = inner_width_m < 0 ? snapshot.light_size_m : inner_width_m;
+	// -1 stays for a directional light, whose widths derive from S, see build_snapshot.
+	const float derived_m = snapshot.type == LightType::DIRECTIONAL ? -1.0f : snapshot.light_size_m;
+	snapshot.penumbra_outer_width_m = outer_width_m < 0 ? derived_m : outer_width_m;
+	snapshot.penumbra_inner_width_m = inner_width_m < 0 ? derived_m : inner_width_m;
 	for (const auto &[name, value] : p_light.properties) {
 		if (!Light3D::get_property_list().find(name)) {
 			snapshot.properties.emplace(name, value);
@@ -199,6 +202,13 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
 	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M,
 			has_own_size ? p_scene.scene_size_m : reader.caster_bounds.get_diagonal());
+	for (LightSnapshot &light : snapshot->lights) {
+		const float derived_m =
+				light.get_disc_radius() * static_cast<float>(snapshot->scene_size_m);
+		for (float *width_m : { &light.penumbra_outer_width_m, &light.penumbra_inner_width_m }) {
+			*width_m = *width_m < 0 ? std::min(derived_m, MAX_WIDTH_M) : *width_m;
+		}
+	}
 	return snapshot;
 }
 

@@ -34,8 +34,10 @@ struct LightSnapshot {
 	float light_angular_distance_deg = 0.0f; // apparent diameter; directional
 	bool casts_shadow = true;
 	std::string technique_id;			 // empty = the registry's default
-	float penumbra_outer_width_m = 0.0f; // r, with -1 already replaced by light_size
-	float penumbra_inner_width_m = 0.0f; // t, likewise
+	/// r and t of Sun et al. 2010, with -1 already replaced: by R for spot and omni; for directional,
+	/// whose R is a tangent, by R times S, so that a scaled scene has a scaled penumbra.
+	float penumbra_outer_width_m = 0.0f;
+	float penumbra_inner_width_m = 0.0f;
 	PropertyValues properties;			 // the technique's; only what was set
 	std::string file_path;				 // for messages: "lights[0]"
 
@@ -74,7 +76,7 @@ struct SceneSnapshot {
 /// Reads the tree. The camera is p_camera. Nodes with a transform that is not finite are an Error
 /// that names them; singular transforms are allowed (they draw nothing).
 std::shared_ptr<const SceneSnapshot> build_snapshot(const Scene &p_scene, const Camera3D &p_camera);
-/// One light as build_snapshot reads it.
+/// One light as build_snapshot reads it; only derived widths of a directional light stay -1.
 LightSnapshot build_light_snapshot(const Light3D &p_light);
 
 } // namespace gnomon

@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/lighting.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/renderer/caster_pass.h"
 #include "modules/shadow_map/light_points.h"
 
 #include "shadow_map/shadow_map_shared.h"

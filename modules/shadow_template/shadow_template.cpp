@@ -2,7 +2,7 @@
 
 #include "modules/core/text.h"
 #include "modules/render_graph/compute_pass.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/renderer/caster_pass.h"
 
 #include "shadow_template/shadow_template_shared.h"
 

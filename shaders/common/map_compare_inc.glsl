@@ -38,4 +38,14 @@ float compare_texel(
 	return p_stored > hiding_w(p_view, p_point, p_texel) * p_view.depth_scale ? 0.0 : 1.0;
 }
 
+/// Nearest texel. Outside the map: lit, since no caster projects there.
+float lookup_hard(texture2DArray p_map, LightViewConstants p_view, MapPoint p_point) {
+	const ivec2 texel = ivec2(floor(texels_from_map(p_view, p_point.xy)));
+	if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(p_view.size_px)))) {
+		return 1.0;
+	}
+	return compare_texel(p_view, p_point, texel,
+			texelFetch(p_map, ivec3(texel, p_view.layer), 0).r);
+}
+
 #endif

@@ -4,7 +4,8 @@
 #include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
-// Shows one texture, stretched over the frame: nearest texel, range mapped to black .. white.
+// Shows one texture, stretched over the frame: nearest texel, range mapped to black .. white, or
+// classes as colours.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
 layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
 	FrameConstants frame;
@@ -15,6 +16,11 @@ layout(push_constant) uniform Push {
 	DebugViewPush push;
 };
 
+// Class 0 is nothing; the others differ for every kind of colour vision (Okabe, Ito 2008).
+const vec3 CLASS_COLORS[8] = vec3[8](vec3(0.0), vec3(0.90, 0.62, 0.0), vec3(0.94, 0.89, 0.26),
+		vec3(0.35, 0.35, 0.35), vec3(0.80, 0.47, 0.65), vec3(0.0, 0.45, 0.70),
+		vec3(0.34, 0.71, 0.91), vec3(0.0, 0.62, 0.45));
+
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
@@ -24,5 +30,8 @@ void main() {
 	const ivec2 size = textureSize(shown_texture, 0).xy;
 	const vec4 value = texelFetch(shown_texture, ivec3(ivec2(uv * vec2(size)), push.layer), 0);
 	const vec4 shown = (value - push.shown_range.x) / (push.shown_range.y - push.shown_range.x);
-	imageStore(output_image, pixel, vec4(clamp(shown.rrr, 0.0, 1.0), 1.0));
+	const vec3 color = push.class_count > 0u
+			? CLASS_COLORS[min(uint(value.r), push.class_count - 1u) % 8u]
+			: clamp(shown.rrr, 0.0, 1.0);
+	imageStore(output_image, pixel, vec4(color, 1.0));
 }

@@ -21,7 +21,7 @@
 struct SHARED_ALIGN DebugViewPush {
 	vec2 shown_range; // value shown black, value shown white
 	uint layer;
-	uint padding;
+	uint class_count; // above 0: values are classes 0 .. class_count - 1, shown in colours
 };
 SHARED_SIZE(DebugViewPush, 16);
 

@@ -4,16 +4,6 @@
 
 #include "common/map_compare_inc.glsl"
 
-/// Nearest texel. Outside the map: lit, since no caster projects there.
-float lookup_hard(texture2DArray p_map, LightViewConstants p_view, MapPoint p_point) {
-	const ivec2 texel = ivec2(floor(texels_from_map(p_view, p_point.xy)));
-	if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(p_view.size_px)))) {
-		return 1.0;
-	}
-	return compare_texel(p_view, p_point, texel,
-			texelFetch(p_map, ivec3(texel, p_view.layer), 0).r);
-}
-
 /// Percentage-closer filter: the mean over a box of p_width texels about the receiver. Each texel
 /// counts by the part of it that the box covers, so that the result has no steps.
 float lookup_filtered(

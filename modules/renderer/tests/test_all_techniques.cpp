@@ -159,6 +159,27 @@ TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 			add_mesh(scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
 					{ 1.2, 3.0, 0.8 });
 		}
+		SUBCASE("a caster a million times as far as the near plane") {
+			add_mesh(scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
+					{ 0, -400, 0 });
+		}
+		SUBCASE("silhouette edges seen end-on") {
+			scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0),
+					glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 4, 0.4, 1));
+		}
+		SUBCASE("widths larger than the casters") {
+			scene.light->properties["penumbra_outer_width"] = 30.0;
+			scene.light->properties["penumbra_inner_width"] = 1e4;
+		}
+		SUBCASE("the light at a corner of the box") {
+			scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
+		}
+		SUBCASE("more casters behind each other than layers") {
+			for (int sheet = 0; sheet < 12; ++sheet) {
+				add_mesh(scene.scene, text("Sheet ", sheet),
+						make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }), { 0, 1.4 + 0.1 * sheet, 0 });
+			}
+		}
 		SUBCASE("slivers, duplicates, zero area and zero normals") {
 			std::vector<glm::vec3> positions = { { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 },
 				{ 0.5f, 2, 1e-7f }, { 0, 2, 0 }, { 0, 2, 1 } };
@@ -178,6 +199,39 @@ TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 			scene.light->outer_cone_rad = 1.5707963f;
 		}
 		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
+	});
+}
+
+TEST_CASE("[GPU][Techniques] where nothing receives the mask is 0") {
+	RenderFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.camera->parent_from_node = look_at({ 0, 9, 0 }, { 0, 20, 0.1 }); // the sky
+		const RenderResult result = fixture.render_mask(scene, p_info.id, glm::uvec2(16));
+		CHECK(count_receivers(result) == 0);
+		CHECK(is_valid_mask(result));
+	});
+}
+
+TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
+	RenderFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		const PropertyValues properties = scene.light->properties;
+		for (int index = 1; index < 64; ++index) {
+			const double angle_rad = 0.1 * index;
+			scene.add_light(text("Light ", index), ALL_TYPES[index % 3],
+						 { 2 * std::cos(angle_rad), 3.5, 2 * std::sin(angle_rad) }, { 0, 0, 0 })
+					.properties = properties;
+		}
+		RenderRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(16);
+		request.technique_override = p_info.id;
+		request.wants_image = true;
+		CHECK(fixture.renderer->render(request).image.size() == 16 * 16 * 4);
 	});
 }
 
@@ -202,9 +256,14 @@ TEST_CASE("[GPU][Techniques] every debug view can be shown, and an unknown one i
 		request.technique_override = p_info.id;
 		request.wants_image = true;
 		request.debug_view = "mask";
-		CHECK(fixture.renderer->render(request).image.size() == 32 * 32 * 4);
+		for (const std::string &id : fixture.renderer->render(request).debug_views) {
+			CAPTURE(id);
+			request.debug_view = id;
+			CHECK(fixture.renderer->render(request).image.size() == 32 * 32 * 4);
+		}
 		request.debug_view = "no such view";
-		CHECK_THROWS_AS(fixture.renderer->render(request), Error);
+		CHECK_THROWS_WITH_AS(
+				fixture.renderer->render(request), doctest::Contains("\"mask\""), Error);
 	});
 }
 

@@ -70,3 +70,25 @@ TEST_CASE("[LightView] a box beside or behind a view is not seen by it") {
 	CHECK_FALSE(may_see({ 0, 0, -2 }));
 	CHECK_FALSE(view.may_see(Bounds()));
 }
+
+TEST_CASE("[LightView] a margin lists casters beside the view, and a directional view holds it") {
+	SmallScene scene;
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1, 0.5f).at(0);
+	CHECK(view.caster_margin_m == 0.5f);
+	// Just beyond the right side, 2 m away.
+	const glm::dmat4 world_from_view = glm::inverse(view.view_from_world);
+	const double side_m = 2 * double(view.half_extent.x);
+	Bounds box;
+	box.add(glm::dvec3(world_from_view * glm::dvec4(side_m + 0.2, 0, 2, 1)));
+	CHECK(view.may_see(box));
+	view.caster_margin_m = 0.05f;
+	CHECK_FALSE(view.may_see(box));
+
+	SmallScene sunny(LightType::DIRECTIONAL);
+	const std::shared_ptr<const SceneSnapshot> day = sunny.snap();
+	const LightView narrow = build_light_views(day->lights[0], *day, 512, 1).at(0);
+	const LightView wide = build_light_views(day->lights[0], *day, 512, 1, 0.5f).at(0);
+	CHECK(wide.half_extent.x >= narrow.half_extent.x + 0.5f);
+	CHECK(wide.far_m - wide.near_m == doctest::Approx(narrow.far_m - narrow.near_m + 1.0f));
+}

@@ -1,4 +1,4 @@
-#include "modules/rendering_device/tests/device_fixture.h"
+#include "modules/rendering_device/tests/triangle_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -16,43 +16,6 @@ PipelineRID get_scale_pipeline(RenderingDevice &r_device, uint32_t p_local_size 
 	return r_device.get_compute_pipeline({ .name = "scale",
 			.shader = "rendering_device/test_scale.comp",
 			.constants = { { 0, p_local_size }, { 1, 3 } } });
-}
-
-const std::vector<float> TRIANGLE = { -1, -1, 0.25f, -1, 1, 0.25f, 1, -1, 0.25f };
-
-struct TriangleTargets {
-	OwnedTexture color, depth;
-	explicit TriangleTargets(DeviceFixture &r_fixture) {
-		color = OwnedTexture(*r_fixture.device,
-				r_fixture.device->create_texture({ .name = "color",
-						.size_px = glm::uvec2(8),
-						.usage = TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE }));
-		depth = OwnedTexture(*r_fixture.device,
-				r_fixture.device->create_texture({ .name = "depth",
-						.format = Format::D32_SFLOAT,
-						.size_px = glm::uvec2(8),
-						.usage = TextureUsage::DEPTH_ATTACHMENT | TextureUsage::COPY_SOURCE }));
-	}
-	std::vector<Barrier> get_barriers() const {
-		return { { .texture = color.get(), .after = Access::COLOR_WRITE },
-			{ .texture = depth.get(), .after = Access::DEPTH_WRITE } };
-	}
-};
-
-RasterPipelineDesc make_triangle_desc() {
-	return { .name = "triangle",
-		.vertex_shader = "rendering_device/test_triangle.vert",
-		.fragment_shader = "rendering_device/test_triangle.frag",
-		.attributes = { { .location = 0 } },
-		.vertex_strides_bytes = { 12 },
-		.color_formats = { Format::RGBA8_UNORM } };
-}
-
-void draw_triangle(CommandList &r_commands, PipelineRID p_pipeline, BufferRID p_vertices) {
-	r_commands.bind_pipeline(p_pipeline);
-	r_commands.push_constants(glm::vec4(1, 0, 0, 1));
-	r_commands.bind_vertex_buffers({ &p_vertices, 1 });
-	r_commands.draw(3);
 }
 
 } // namespace
@@ -379,4 +342,24 @@ TEST_CASE("[GPU][RenderingDevice] copies and clears give what they say") {
 	device.submit_commands(SubmitMode::WAIT);
 	CHECK(fixture.read_texture<uint32_t>(second.get(), Access::COPY_WRITE) ==
 			std::vector<uint32_t>{ 7, 9, 7, 9, 7, 9, 7, 9 });
+}
+
+TEST_CASE("[GPU][RenderingDevice] a depth texture is filled from the middle of a buffer") {
+	DeviceFixture fixture;
+	RenderingDevice &device = *fixture.device;
+	const OwnedBuffer source = fixture.make_buffer("source",
+			std::vector<float>{ 9, 9, 9, 9, 0.25f, 0.5f, 0.75f, 1 }, BufferUsage::COPY_SOURCE);
+	const OwnedTexture texture(device,
+			device.create_texture({ .name = "depth",
+					.format = Format::D32_SFLOAT,
+					.size_px = glm::uvec2(2),
+					.usage = TextureUsage::DEPTH_ATTACHMENT | TextureUsage::COPY_SOURCE |
+							TextureUsage::COPY_TARGET }));
+	CommandList &commands = device.begin_commands();
+	const Barrier barrier = { .texture = texture.get(), .after = Access::COPY_WRITE };
+	commands.barriers({ &barrier, 1 });
+	commands.copy_buffer_to_texture(source.get(), texture.get(), 0, 4 * sizeof(float));
+	device.submit_commands(SubmitMode::WAIT);
+	CHECK(fixture.read_texture<float>(texture.get(), Access::COPY_WRITE) ==
+			std::vector<float>{ 0.25f, 0.5f, 0.75f, 1 });
 }

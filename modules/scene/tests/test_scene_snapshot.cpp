@@ -53,6 +53,20 @@ TEST_CASE("[SceneSnapshot] a directional light's disc is the tangent of half its
 			doctest::Approx(std::tan(M_PI / 4)));
 }
 
+TEST_CASE("[SceneSnapshot] derived widths of a directional light grow with the scene, not R") {
+	for (double size_m : { 4.0, 4000.0 }) {
+		SmallScene small;
+		small.scene.scene_size_m = size_m;
+		small.light->type = LightType::DIRECTIONAL;
+		small.light->properties = { { "light_angular_distance", 6.0 }, { "light_size", 0.4 },
+			{ "penumbra_inner_width", 0.25 } };
+		const LightSnapshot light = small.build()->lights[0];
+		CHECK(light.penumbra_outer_width_m ==
+				doctest::Approx(std::tan(glm::radians(3.0)) * size_m));
+		CHECK(light.penumbra_inner_width_m == 0.25f);
+	}
+}
+
 TEST_CASE("[SceneSnapshot] a value that no file could hold is an error naming the light") {
 	SmallScene small;
 	small.light->properties = { { "light_size", -1.0 } };

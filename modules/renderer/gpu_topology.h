@@ -1,0 +1,39 @@
+#pragma once
+
+#include "modules/mesh_tools/topology.h"
+#include "modules/rendering_device/rendering_device.h"
+
+#include "shared/topology_shared.h"
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them. Node space.
+struct GpuTopology {
+	OwnedBuffer positions;		   // VERTEX | STORAGE, vec4 per welded vertex, w = 1
+	OwnedBuffer normals;		   // VERTEX | STORAGE, vec4; zero where the faces cancel
+	OwnedBuffer edges;			   // STORAGE, shader::TopologyEdge, see order_edges_by_face
+	OwnedBuffer face_flags;		   // STORAGE, one word per face, TOPOLOGY_FACE_*
+	OwnedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
+	uint32_t edge_count = 0;
+	uint32_t adjacency_index_count = 0;
+	std::shared_ptr<const MeshTopology> topology;
+	std::weak_ptr<const Mesh> mesh;
+};
+
+/// A mesh whose triangles all collapse has no edges, and empty buffers.
+GpuTopology build_gpu_topology(
+		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh);
+
+/// Indices into MeshTopology::edges in the order in which the GPU holds the edges: by their first
+/// face, then as that face winds. A geometry shader meets them in the same order.
+std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology);
+/// The edges as the shaders read them, in that order.
+std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topology);
+/// Per face: which of its edges (0: corners 0 1, 1: 1 2, 2: 2 0) are its own, and which have no
+/// other face. An edge is the own one of its face0.
+std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology);
+
+} // namespace gnomon

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/shadow_penumbra_fins/fin_passes.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// The textures of one light, kept from frame to frame: depth layers and penumbra maps, one texture
+/// layer per light view.
+class FinsMaps {
+public:
+	/// Makes what these settings need where it is not there yet, and frees the rest. Returns false
+	/// when the textures are new, so that nothing of earlier frames is in them.
+	bool prepare(RenderingDevice &p_device, const std::string &p_light, glm::uvec2 p_size_px,
+			uint32_t p_view_count, uint32_t p_layer_count, bool p_has_fins);
+	void reset();
+
+	/// This frame's handles, imported when first asked for.
+	void import(RenderGraph &r_graph);
+	bool is_imported() const { return !frame_layers.empty(); }
+	void forget_frame();
+	const std::vector<RGTexture> &get_layers() const { return frame_layers; }
+	/// layer_2 is empty where it was not peeled.
+	FinTargets get_targets() const;
+	/// The third layer, or the first where it was not peeled.
+	RGTexture get_layer_3() const;
+
+private:
+	std::vector<OwnedTexture> layers;
+	OwnedTexture color;
+	OwnedTexture penumbra_depth;
+	TextureDesc layer_desc;
+	bool has_content = false;
+	std::vector<RGTexture> frame_layers;
+	RGTexture frame_color;
+	RGTexture frame_penumbra_depth;
+};
+
+} // namespace gnomon

@@ -1,0 +1,120 @@
+#include "modules/shadow_penumbra_fins/fins_settings.h"
+
+#include "modules/rendering_device/rendering_device.h"
+
+#include <algorithm>
+#include <set>
+
+namespace gnomon {
+
+namespace {
+
+// Derived beta, in parts of S.
+constexpr float DERIVED_BETA_PER_SCENE_SIZE = 0.25f;
+// One pass over more triangles than this beats three peels on a CPU driver (doc/benchmarks.md).
+constexpr uint64_t ONE_PASS_MIN_TRIANGLES = 20000;
+
+int64_t read_int(const PropertyValues &p_properties, const std::string &p_name) {
+	return std::get<int64_t>(p_properties.at(p_name));
+}
+
+const std::string &read_choice(const PropertyValues &p_properties, const std::string &p_name) {
+	return std::get<std::string>(p_properties.at(p_name));
+}
+
+uint64_t count_triangles(const ShadowTechnique::Inputs &p_inputs) {
+	uint64_t count = 0;
+	for (const CasterList &casters : p_inputs.casters) {
+		for (uint32_t index : casters.instances) {
+			count += p_inputs.scene.instances[index].mesh->get_triangle_count();
+		}
+	}
+	return count;
+}
+
+Peeling choose_peeling(const std::string &p_choice, const FinsSettings &p_settings,
+		const ShadowTechnique::Inputs &p_inputs) {
+	const DeviceFeatures &features = p_inputs.device.get_features();
+	const uint64_t bytes = uint64_t(p_settings.map_size_px) * p_settings.map_size_px *
+			sizeof(uint32_t) * p_settings.layer_count;
+	const bool is_possible = features.fragment_stores && bytes <= features.max_storage_buffer_bytes;
+	if (!is_possible || p_settings.layer_count == 1 || p_choice == "passes") {
+		return Peeling::PASSES;
+	}
+	return p_choice == "one_pass" || count_triangles(p_inputs) > ONE_PASS_MIN_TRIANGLES
+			? Peeling::ONE_PASS
+			: Peeling::PASSES;
+}
+
+FinMethod choose_method(const std::string &p_choice, const DeviceFeatures &p_features) {
+	// auto: compute, which was faster at every size that was measured (doc/benchmarks.md).
+	return p_choice == "geometry_shader" && p_features.geometry_shader ? FinMethod::GEOMETRY_SHADER
+																	   : FinMethod::COMPUTE;
+}
+
+} // namespace
+
+void add_fins_properties(const std::string &p_id, bool p_has_inner_half, PropertyList &r_list) {
+	const std::string group = p_has_inner_half ? "Penumbra fins" : "Outer fins";
+	r_list.add({ p_id + "_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
+			"Width and height of the depth layers and of the penumbra maps. Larger maps have finer "
+			"edges and cost memory.",
+			"px", group });
+	if (p_has_inner_half) {
+		r_list.add({ p_id + "_beta", PropertyType::FLOAT, -1.0, "0,10000,0.01",
+				"How far behind the surface nearest to the light an inner fin may lie; what is "
+				"farther belongs to an edge that the light does not see. -1 means a quarter of the "
+				"scene's size.",
+				"m", group, "-1" });
+		r_list.add({ p_id + "_layers", PropertyType::INT, int64_t(3), "1,3,1",
+				"Depth layers peeled from the light. 2 leaves out the test of what lies behind the "
+				"inner penumbra, 1 also that of hidden inner fins.",
+				"", group });
+	}
+	r_list.add({ p_id + "_curve", PropertyType::ENUM, {}, "sine,linear",
+			"How the light falls off across the penumbra: in two smooth curves, or evenly.", "",
+			group });
+	if (p_has_inner_half) {
+		r_list.add({ p_id + "_peeling", PropertyType::ENUM, {}, "auto,passes,one_pass",
+				"How the layers are found: one pass after the other, all in one pass with atomics, "
+				"or whichever is faster here. The picture is the same.",
+				"", group });
+	}
+	r_list.add({ p_id + "_method", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
+			"How silhouette edges and fins are made: by a geometry shader, by compute shaders and "
+			"an indirect draw, or whichever is faster here. The picture is the same.",
+			"", group });
+}
+
+FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_half,
+		const LightSnapshot &p_light, const PropertyValues &p_properties) {
+	FinsSettings settings;
+	settings.has_inner_half = p_has_inner_half;
+	settings.outer_width_m = p_light.penumbra_outer_width_m;
+	settings.inner_width_m = p_has_inner_half ? p_light.penumbra_inner_width_m : 0.0f;
+	settings.map_size_px = static_cast<uint32_t>(read_int(p_properties, p_id + "_map_size"));
+	return settings;
+}
+
+FinsSettings read_fins_settings(
+		const std::string &p_id, bool p_has_inner_half, const ShadowTechnique::Inputs &p_inputs) {
+	const PropertyValues &properties = p_inputs.properties;
+	FinsSettings settings =
+			read_fins_view_settings(p_id, p_has_inner_half, p_inputs.light, properties);
+	settings.curve = read_choice(properties, p_id + "_curve") == "linear" ? FINS_CURVE_LINEAR
+																		  : FINS_CURVE_SINE;
+	settings.method = choose_method(
+			read_choice(properties, p_id + "_method"), p_inputs.device.get_features());
+	if (p_has_inner_half) {
+		const float beta_m = static_cast<float>(std::get<double>(properties.at(p_id + "_beta")));
+		settings.beta_m = beta_m >= 0
+				? beta_m
+				: DERIVED_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
+		settings.layer_count = static_cast<uint32_t>(read_int(properties, p_id + "_layers"));
+		settings.peeling =
+				choose_peeling(read_choice(properties, p_id + "_peeling"), settings, p_inputs);
+	}
+	return settings;
+}
+
+} // namespace gnomon

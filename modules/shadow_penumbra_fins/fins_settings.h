@@ -1,0 +1,43 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+#include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
+
+#include <string>
+
+namespace gnomon {
+
+/// How the layers are found; both ways give the same bits.
+enum class Peeling { PASSES, ONE_PASS };
+/// How the fins are made; both ways give the same edges and corners.
+enum class FinMethod { GEOMETRY_SHADER, COMPUTE };
+
+/// What one light's properties and the device make of the technique. Lengths in metres.
+struct FinsSettings {
+	float outer_width_m = 0; // r of Sun et al. 2010
+	float inner_width_m = 0; // t
+	float beta_m = 0;
+	uint32_t map_size_px = 1024;
+	uint32_t layer_count = 1; // as asked for; 1 without an inner half
+	uint32_t curve = FINS_CURVE_SINE;
+	bool has_inner_half = true; // false: the technique has outer fins only
+	Peeling peeling = Peeling::PASSES;
+	FinMethod method = FinMethod::COMPUTE;
+
+	bool has_fins() const { return outer_width_m > 0 || inner_width_m > 0; }
+	bool operator==(const FinsSettings &) const = default;
+};
+
+/// The properties of a technique of this module. p_id begins their names.
+void add_fins_properties(const std::string &p_id, bool p_has_inner_half, PropertyList &r_list);
+
+/// Widths and map size alone: what the light's views depend on.
+FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_half,
+		const LightSnapshot &p_light, const PropertyValues &p_properties);
+
+/// Everything, with `auto` decided for this device and these casters.
+FinsSettings read_fins_settings(
+		const std::string &p_id, bool p_has_inner_half, const ShadowTechnique::Inputs &p_inputs);
+
+} // namespace gnomon

@@ -1,0 +1,216 @@
+#include "modules/shadow_penumbra_fins/shadow_penumbra_fins.h"
+
+#include "modules/core/error.h"
+#include "modules/render_graph/compute_pass.h"
+#include "modules/renderer/lighting.h"
+#include "modules/shadow_penumbra_fins/layer_passes.h"
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint32_t BORDER_PX = 2; // bilinear lookups, and the 3 x 3 texels of an undecided pixel
+
+} // namespace
+
+void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {
+	add_fins_properties(id, has_inner_half, r_list);
+}
+
+void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
+	const FinsSettings view_settings =
+			read_fins_view_settings(id, has_inner_half, p_light, p_properties);
+	r_views = build_light_views(p_light, p_scene, view_settings.map_size_px, BORDER_PX,
+			std::max(view_settings.outer_width_m, view_settings.inner_width_m));
+}
+
+void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	settings = read_fins_settings(id, has_inner_half, p_inputs);
+	if (p_inputs.may_leave_out && settings.inner_width_m == 0 && settings.layer_count > 1) {
+		r_plan.leave_out(settings.layer_count == 2 ? "layer 2" : "layers 2 and 3",
+				"t is 0: only inner fins need them");
+		settings.layer_count = 1;
+	}
+	draws_fins = settings.has_fins() || !p_inputs.may_leave_out;
+	plan_views(p_inputs, r_plan);
+	if (!is_all_empty) {
+		plan_fins(p_inputs, r_plan);
+	}
+}
+
+void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
+	empty_views = 0;
+	for (uint32_t index = 0; index < view_count; ++index) {
+		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
+			empty_views |= 1u << index;
+		}
+	}
+	is_all_empty = empty_views == (1u << view_count) - 1;
+	const bool has_content = !is_all_empty &&
+			maps.prepare(p_inputs.device, p_inputs.light.name, p_inputs.views[0].size_px,
+					view_count, settings.layer_count, draws_fins);
+	if (is_all_empty) {
+		maps.reset();
+		maps.forget_frame();
+	}
+	if (!has_content || !(settings == drawn_settings)) {
+		drawn_hashes.assign(view_count, 0);
+		drawn_settings = settings;
+	}
+	drawn_views.clear();
+	for (uint32_t index = 0; index < view_count; ++index) {
+		const uint64_t hash = p_inputs.casters[index].content_hash;
+		if ((empty_views & (1u << index)) != 0) {
+			drawn_hashes[index] = 0;
+			r_plan.leave_out_light_view(index, "no casters");
+		} else if (p_inputs.may_leave_out && p_inputs.may_keep && drawn_hashes[index] == hash) {
+			r_plan.leave_out_light_view(index, "kept: neither the light nor a caster moved");
+		} else {
+			drawn_hashes[index] = hash;
+			drawn_views.push_back(index);
+		}
+	}
+}
+
+void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	fin_casters = {};
+	edge_lists = {};
+	if (drawn_views.empty()) {
+		return;
+	}
+	if (settings.layer_count > 1) {
+		r_plan.run(settings.peeling == Peeling::ONE_PASS
+						? text(settings.layer_count, " layers, in one pass")
+						: text(settings.layer_count, " layers, one after the other"));
+	}
+	if (!settings.has_fins()) {
+		r_plan.leave_out("fins", "r and t are 0: a plain shadow map");
+		return;
+	}
+	fin_casters = build_fin_casters(p_inputs, drawn_views);
+	r_plan.run(settings.method == FinMethod::GEOMETRY_SHADER ? "fins by geometry shader"
+															 : "fins by compute");
+	if (settings.outer_width_m == 0) {
+		r_plan.leave_out("outer fins", "r is 0");
+	}
+	if (has_inner_half && settings.inner_width_m == 0) {
+		r_plan.leave_out("inner fins", "t is 0");
+	}
+	if (fin_casters.zero_normal_count > 0) {
+		r_plan.leave_out(text("fins at ", fin_casters.zero_normal_count, " vertices"),
+				"the normals of their faces cancel");
+	}
+	if (fin_casters.flat_instance_count > 0) {
+		r_plan.leave_out(text("fins of ", fin_casters.flat_instance_count, " instances"),
+				"a scale of theirs is 0");
+	}
+}
+
+void ShadowPenumbraFins::before_light_view(
+		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
+	maps.import(r_graph);
+	add_layer_passes(r_graph, p_inputs, p_view_index, maps.get_layers(), settings.peeling);
+}
+
+void ShadowPenumbraFins::at_light_view(
+		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
+	if (!draws_fins) {
+		return;
+	}
+	// What is a silhouette depends on the light's place alone: its views share one list.
+	if (settings.method == FinMethod::COMPUTE && !edge_lists.list && !fin_casters.casters.empty()) {
+		edge_lists = add_edge_passes(
+				r_graph, p_inputs.device, fin_casters, get_vertices_per_edge(settings));
+	}
+	add_fin_pass(
+			r_graph, p_inputs, p_view_index, settings, fin_casters, edge_lists, maps.get_targets());
+}
+
+RGTexture ShadowPenumbraFins::add_resolve_pass(
+		RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader) {
+	ComputePipelineDesc desc = { id + " " + p_shader,
+		text("shadow_penumbra_fins/", p_shader, ".comp"), {} };
+	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
+	const RGBuffer view_constants = r_graph.upload_constants("fins views",
+			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
+	const RGTexture output =
+			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const FinTargets targets = maps.get_targets();
+	std::vector<PassBinding> bindings = {
+		PassBinding::constants(RESOLVE_BINDING_FRAME, p_inputs.frame),
+		PassBinding::constants(RESOLVE_BINDING_VIEWS, view_constants),
+		PassBinding::read(RESOLVE_BINDING_DEPTH, p_inputs.depth),
+		PassBinding::read(RESOLVE_BINDING_NORMAL, p_inputs.geometric_normal),
+		PassBinding::read(RESOLVE_BINDING_RECEIVERS, p_inputs.receivers),
+		PassBinding::read(RESOLVE_BINDING_LAYER_1, targets.layer_1),
+		PassBinding::write(RESOLVE_BINDING_OUTPUT, output),
+	};
+	if (draws_fins) {
+		desc.constants = { { FINS_CONSTANT_HAS_INNER, settings.inner_width_m > 0 ? 1u : 0u },
+			{ FINS_CONSTANT_LAYER_COUNT, settings.layer_count },
+			{ FINS_CONSTANT_CURVE, settings.curve },
+			{ FINS_CONSTANT_STARTS_DARK, has_inner_half ? 0u : 1u } };
+		if (!sampler) {
+			sampler = OwnedSampler(p_inputs.device,
+					p_inputs.device.create_sampler({ "penumbra color", Filter::LINEAR }));
+		}
+		bindings.push_back(PassBinding::read(RESOLVE_BINDING_LAYER_3, maps.get_layer_3()));
+		bindings.push_back(PassBinding::read(RESOLVE_BINDING_COLOR, targets.color, sampler.get()));
+		bindings.push_back(
+				PassBinding::read(RESOLVE_BINDING_PENUMBRA_DEPTH, targets.penumbra_depth));
+	}
+	const shader::FinsResolvePush push = { empty_views, 0, 0, 0 };
+	add_compute_pass(r_graph, p_shader, p_inputs.device.get_compute_pipeline(desc), bindings,
+			p_inputs.size_px, push);
+	return output;
+}
+
+RGTexture ShadowPenumbraFins::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	cases = {};
+	if (is_all_empty) {
+		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
+	}
+	maps.import(r_graph);
+	if (!draws_fins) {
+		return add_resolve_pass(r_graph, p_inputs, "hard");
+	}
+	if (p_inputs.wants_debug_views) {
+		cases = add_resolve_pass(r_graph, p_inputs, "cases");
+		const shader::FinsViewConstants view = compute_fins_view_constants(p_inputs, 0, settings);
+		// From the farthest caster (black) to a third of its distance (white); orthographic: all.
+		layer_range = view.is_orthographic != 0
+				? glm::vec2(0.0f, 1.0f)
+				: view.depth_scale * glm::vec2(1.0f, 3.0f) / view.farthest_m;
+	}
+	return add_resolve_pass(r_graph, p_inputs, "resolve");
+}
+
+void ShadowPenumbraFins::get_debug_views(std::vector<DebugView> &r_views) const {
+	if (!maps.is_imported()) {
+		return;
+	}
+	for (size_t layer = 0; layer < maps.get_layers().size(); ++layer) {
+		r_views.push_back({ text("layer_", layer + 1), maps.get_layers()[layer], layer_range });
+	}
+	if (cases) {
+		const FinTargets targets = maps.get_targets();
+		r_views.push_back({ "penumbra_color", targets.color });
+		r_views.push_back({ "penumbra_depth", targets.penumbra_depth });
+		r_views.push_back({ "case", cases, glm::vec2(0.0f, 6.0f), 0, 7 });
+	}
+}
+
+std::vector<std::string> ShadowPenumbraFins::get_shader_files() const {
+	std::vector<std::string> files;
+	for (const char *name : { "peel.frag", "layers.frag", "find_edges.comp", "list_edges.comp",
+				 "fins.vert", "fins.geom", "edge_fins.vert", "fins.frag", "resolve.comp",
+				 "cases.comp", "hard.comp" }) {
+		files.push_back(text("shadow_penumbra_fins/", name));
+	}
+	return files;
+}
+
+} // namespace gnomon

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+#include "modules/shadow_penumbra_fins/fins_maps.h"
+
+namespace gnomon {
+
+/// Approximate soft shadows of Sun, Lü, Liu, Wu 2010: three depth layers from the light, and fins
+/// that lead from each silhouette edge along the vertex normals, r outwards and t inwards, rastered
+/// into a penumbra map that each receiver looks up once. With Halves::OUTER the method that the
+/// paper compares itself with (Lü et al. 2009): one depth layer, outer fins only.
+///
+/// Spaces: fins are built in the light view's space (metres, float32); depths are compared as the
+/// view stores them (reversed, float32); the receiver is compared on its own plane at the texel.
+class ShadowPenumbraFins : public ShadowTechnique {
+public:
+	enum class Halves { OUTER, OUTER_AND_INNER };
+	explicit ShadowPenumbraFins(Halves p_halves) :
+			has_inner_half(p_halves == Halves::OUTER_AND_INNER),
+			id(has_inner_half ? "penumbra_fins" : "outer_fins") {}
+
+	void get_light_properties(PropertyList &r_list) const override;
+	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
+	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
+	void before_light_view(
+			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
+	void at_light_view(
+			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
+	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	void get_debug_views(std::vector<DebugView> &r_views) const override;
+	std::vector<std::string> get_shader_files() const override;
+
+private:
+	void plan_views(const Inputs &p_inputs, TechniquePlan &r_plan);
+	void plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan);
+	/// Of resolve.comp or cases.comp: one texel per pixel.
+	RGTexture add_resolve_pass(
+			RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader);
+
+	const bool has_inner_half;
+	const std::string id;
+	FinsMaps maps;
+	OwnedSampler sampler; // linear
+	FinsSettings drawn_settings;
+	std::vector<uint64_t> drawn_hashes; // per view; 0 = its texture layers hold nothing of use
+
+	// This frame.
+	FinsSettings settings;
+	bool draws_fins = false;
+	bool is_all_empty = false;
+	uint32_t empty_views = 0; // bits
+	std::vector<uint32_t> drawn_views;
+	FinCasters fin_casters;
+	EdgeLists edge_lists;
+	RGTexture cases;
+	glm::vec2 layer_range = glm::vec2(0.0f, 1.0f); // depths that the debug views show
+};
+
+} // namespace gnomon

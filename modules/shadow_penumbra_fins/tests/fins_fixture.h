@@ -1,0 +1,168 @@
+#pragma once
+
+#include "modules/renderer/mesh_store.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadow_penumbra_fins/fin_passes.h"
+#include "modules/shadow_penumbra_fins/layer_passes.h"
+
+#include <cstring>
+
+namespace gnomon {
+
+/// Runs the passes of this module by themselves and reads what they leave.
+struct FinsFixture : RenderFixture {
+	MeshStore meshes{ *device };
+	TransientPool transients{ *device };
+
+	struct Frame {
+		std::shared_ptr<const SceneSnapshot> scene;
+		std::vector<LightView> views;
+		std::vector<CasterList> casters;
+		PropertyValues properties;
+	};
+
+	/// All instances are casters of every view.
+	Frame make_frame(const SmallScene &p_scene, uint32_t p_map_size_px, float p_margin_m = 0) {
+		Frame frame;
+		frame.scene = p_scene.snap();
+		frame.views = build_light_views(
+				frame.scene->lights[0], *frame.scene, p_map_size_px, 2, p_margin_m);
+		CasterList all;
+		for (uint32_t index = 0; index < frame.scene->instances.size(); ++index) {
+			all.instances.push_back(index);
+		}
+		frame.casters.assign(frame.views.size(), all);
+		return frame;
+	}
+
+	ShadowTechnique::Inputs make_inputs(const Frame &p_frame) {
+		return { *device, meshes, *p_frame.scene, p_frame.scene->lights[0], p_frame.properties,
+			p_frame.views, p_frame.casters, glm::uvec2(1), {}, {}, {}, {}, {}, {}, {} };
+	}
+
+	/// Calls p_add(graph, inputs) and runs the graph.
+	template <typename Function> void run(const Frame &p_frame, Function p_add) {
+		RenderGraph graph(*device, transients);
+		const ShadowTechnique::Inputs inputs = make_inputs(p_frame);
+		p_add(graph, inputs);
+		graph.execute(RenderGraph::Mode::WAIT);
+	}
+
+	/// Adds a pass that fills r_bytes when the graph runs.
+	static void read_back(RenderGraph &r_graph, RGTexture p_texture, uint32_t p_layer,
+			std::vector<uint8_t> &r_bytes) {
+		const TextureDesc desc = r_graph.get_desc(p_texture);
+		const uint64_t size_bytes =
+				uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
+		const RGBuffer buffer = r_graph.create_buffer(
+				{ "readback", size_bytes, BufferUsage::COPY_TARGET, MemoryKind::READBACK });
+		r_graph.add_pass("read back")
+				.reads(p_texture, Access::COPY_READ)
+				.writes(buffer, Access::COPY_WRITE)
+				.execute([=](PassContext &p_context) {
+					p_context.commands.copy_texture_to_buffer(
+							p_context.get(p_texture), p_context.get(buffer), p_layer);
+				});
+		keep_on_host(r_graph, buffer, size_bytes, r_bytes);
+	}
+	static void read_back(RenderGraph &r_graph, RGBuffer p_buffer, uint64_t p_size_bytes,
+			std::vector<uint8_t> &r_bytes) {
+		const RGBuffer buffer = r_graph.create_buffer(
+				{ "readback", p_size_bytes, BufferUsage::COPY_TARGET, MemoryKind::READBACK });
+		r_graph.add_pass("read back")
+				.reads(p_buffer, Access::COPY_READ)
+				.writes(buffer, Access::COPY_WRITE)
+				.execute([=](PassContext &p_context) {
+					p_context.commands.copy_buffer(
+							p_context.get(p_buffer), p_context.get(buffer), p_size_bytes);
+				});
+		keep_on_host(r_graph, buffer, p_size_bytes, r_bytes);
+	}
+
+	template <typename T> static std::vector<T> cast(const std::vector<uint8_t> &p_bytes) {
+		std::vector<T> values(p_bytes.size() / sizeof(T));
+		std::memcpy(values.data(), p_bytes.data(), p_bytes.size());
+		return values;
+	}
+
+	/// Depth layers of every view, [view][layer][texel].
+	std::vector<std::vector<std::vector<float>>> find_layers(
+			const Frame &p_frame, uint32_t p_layer_count, Peeling p_peeling) {
+		const uint32_t view_count = static_cast<uint32_t>(p_frame.views.size());
+		std::vector<std::vector<std::vector<uint8_t>>> bytes(
+				view_count, std::vector<std::vector<uint8_t>>(p_layer_count));
+		run(p_frame, [&](RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
+			std::vector<RGTexture> layers;
+			for (uint32_t layer = 0; layer < p_layer_count; ++layer) {
+				layers.push_back(r_graph.create_texture(
+						{ "layer", Format::D32_SFLOAT, p_frame.views[0].size_px, view_count,
+								TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED |
+										TextureUsage::COPY_TARGET | TextureUsage::COPY_SOURCE }));
+			}
+			for (uint32_t view = 0; view < view_count; ++view) {
+				add_layer_passes(r_graph, p_inputs, view, layers, p_peeling);
+				for (uint32_t layer = 0; layer < p_layer_count; ++layer) {
+					read_back(r_graph, layers[layer], view, bytes[view][layer]);
+				}
+			}
+		});
+		std::vector<std::vector<std::vector<float>>> depths(view_count);
+		for (uint32_t view = 0; view < view_count; ++view) {
+			for (const std::vector<uint8_t> &layer : bytes[view]) {
+				depths[view].push_back(cast<float>(layer));
+			}
+		}
+		return depths;
+	}
+
+	struct PenumbraMaps {
+		std::vector<uint8_t> color; // pairs of halves
+		std::vector<float> depth;
+	};
+
+	/// Penumbra maps of view 0.
+	PenumbraMaps draw_fins(const Frame &p_frame, const FinsSettings &p_settings) {
+		PenumbraMaps maps;
+		std::vector<uint8_t> depth;
+		run(p_frame, [&](RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
+			const glm::uvec2 size_px = p_frame.views[0].size_px;
+			const TextureUsage usage = TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE;
+			const TextureDesc layer_desc = { "layer", Format::D32_SFLOAT, size_px, 2,
+				usage | TextureUsage::DEPTH_ATTACHMENT };
+			const std::vector<RGTexture> layers = { r_graph.create_texture(layer_desc),
+				r_graph.create_texture(layer_desc) };
+			add_layer_passes(r_graph, p_inputs, 0, layers, Peeling::PASSES);
+			const FinTargets targets = { r_graph.create_texture(
+												 { "color", Format::RG16_SFLOAT, size_px, 1,
+														 usage | TextureUsage::COLOR_ATTACHMENT }),
+				r_graph.create_texture({ "penumbra depth", Format::D32_SFLOAT, size_px, 1,
+						usage | TextureUsage::DEPTH_ATTACHMENT }),
+				layers[0], layers[1] };
+			const FinCasters casters = build_fin_casters(p_inputs, { 0 });
+			EdgeLists lists;
+			if (p_settings.method == FinMethod::COMPUTE) {
+				lists = add_edge_passes(
+						r_graph, *device, casters, get_vertices_per_edge(p_settings));
+			}
+			add_fin_pass(r_graph, p_inputs, 0, p_settings, casters, lists, targets);
+			read_back(r_graph, targets.color, 0, maps.color);
+			read_back(r_graph, targets.penumbra_depth, 0, depth);
+		});
+		maps.depth = cast<float>(depth);
+		return maps;
+	}
+
+private:
+	static void keep_on_host(RenderGraph &r_graph, RGBuffer p_buffer, uint64_t p_size_bytes,
+			std::vector<uint8_t> &r_bytes) {
+		r_graph.add_pass("keep")
+				.reads(p_buffer, Access::HOST_READ)
+				.keep()
+				.execute_on_host([=, &r_bytes](HostContext &p_context) {
+					const uint8_t *mapped = p_context.get_mapped(p_buffer);
+					r_bytes.assign(mapped, mapped + p_size_bytes);
+				});
+	}
+};
+
+} // namespace gnomon

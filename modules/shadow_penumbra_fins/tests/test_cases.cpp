@@ -1,0 +1,282 @@
+#include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr double WIDTH_M = 0.3; // r and t
+constexpr uint32_t SIZE_PX = 320;
+
+struct Cube {
+	glm::dvec3 centre;
+	double half_m;
+};
+// Figure 7 of the paper: a small cube over a large one, both in the air over the ground.
+const Cube UPPER = { { 0, 3.2, 0 }, 0.4 };
+const Cube LOWER = { { 0, 1.9, 0 }, 0.8 };
+
+SmallScene make_scene(LightType p_type = LightType::DIRECTIONAL) {
+	SmallScene scene(p_type);
+	scene.box->surfaces.clear();
+	for (const Cube &cube : { UPPER, LOWER }) {
+		add_mesh(scene.scene, cube.half_m == UPPER.half_m ? "Upper" : "Lower",
+				make_box_mesh("cube", glm::vec3(float(cube.half_m))), cube.centre);
+	}
+	// Straight down, exactly: the shadows' borders are then known.
+	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
+			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 7, 0, 1));
+	scene.light->properties["penumbra_outer_width"] = WIDTH_M;
+	scene.light->properties["penumbra_inner_width"] = WIDTH_M;
+	scene.camera->vertical_fov_rad = 0.9f;
+	return scene;
+}
+
+/// Where the ray of a pixel meets the cubes or the ground first; nothing where it is no top face.
+std::optional<glm::dvec3> find_top(const SceneSnapshot &p_scene, glm::uvec2 p_pixel) {
+	const CameraSnapshot &camera = p_scene.camera;
+	const double tangent = std::tan(0.5 * double(camera.vertical_fov_rad));
+	const glm::dvec2 ndc = (glm::dvec2(p_pixel) + 0.5) / double(SIZE_PX) * 2.0 - 1.0;
+	const glm::dvec3 direction =
+			camera.world_from_camera * glm::dvec3(ndc.x * tangent, -ndc.y * tangent, -1.0);
+	double nearest = 1e30;
+	std::optional<glm::dvec3> top;
+	for (const Cube &cube : { UPPER, LOWER, Cube{ { 0, -50, 0 }, 50 } }) {
+		const glm::dvec3 low = (cube.centre - cube.half_m - camera.position_world) / direction;
+		const glm::dvec3 high = (cube.centre + cube.half_m - camera.position_world) / direction;
+		const glm::dvec3 first = glm::min(low, high);
+		const double enter = std::max({ first.x, first.y, first.z });
+		const glm::dvec3 last = glm::max(low, high);
+		if (enter > std::min({ last.x, last.y, last.z }) || enter < 0 || enter > nearest) {
+			continue;
+		}
+		nearest = enter;
+		const bool is_top = enter == first.y && direction.y < 0;
+		top = is_top ? std::optional(camera.position_world + enter * direction) : std::nullopt;
+	}
+	return top;
+}
+
+struct Expected {
+	int case_number = 0; // 0: too near to a border to say
+	double visibility = 0;
+};
+
+/// The case of a point on a top face, from figure 7, with light straight down. A fin at the corner
+/// of a cube leans out along (1, 1, 1), so that it covers r / sqrt(3) in x and z.
+Expected compute_expected(const glm::dvec3 &p_point) {
+	const double reach_m = WIDTH_M / std::sqrt(3.0);
+	const double margin_m = 0.03; // pixels and texels at a border may go either way
+	const double from_axis_m = std::max(std::abs(p_point.x), std::abs(p_point.z));
+	for (double border_m : { UPPER.half_m - reach_m, UPPER.half_m, UPPER.half_m + reach_m,
+				 LOWER.half_m - reach_m, LOWER.half_m, LOWER.half_m + reach_m }) {
+		if (std::abs(from_axis_m - border_m) < margin_m) {
+			return {};
+		}
+	}
+	const auto outer = [&](const Cube &p_cube) {
+		const double theta = 0.5 + 0.5 * (from_axis_m - p_cube.half_m) / reach_m;
+		return std::sin((theta - 0.5) * M_PI) * 0.7 + 0.3;
+	};
+	const auto inner = [&](const Cube &p_cube) {
+		const double theta = 0.5 + 0.5 * (from_axis_m - p_cube.half_m) / reach_m;
+		return (1 - std::cos(theta * M_PI)) * 0.3;
+	};
+	const bool is_ground = p_point.y < 0.1;
+	const bool is_upper = p_point.y > 3.0;
+	if (is_upper) {
+		return { 2, 1 };
+	}
+	if (from_axis_m < UPPER.half_m - reach_m) {
+		return { 3, 0 };
+	}
+	if (from_axis_m < UPPER.half_m) {
+		return is_ground ? Expected{ 6, 0 } : Expected{ 5, inner(UPPER) };
+	}
+	if (from_axis_m < UPPER.half_m + reach_m) {
+		return is_ground ? Expected{ 4, 0 } : Expected{ 1, outer(UPPER) };
+	}
+	if (!is_ground || from_axis_m > LOWER.half_m + reach_m) {
+		return { 2, 1 };
+	}
+	if (from_axis_m < LOWER.half_m - reach_m) {
+		return { 3, 0 };
+	}
+	return from_axis_m < LOWER.half_m ? Expected{ 5, inner(LOWER) } : Expected{ 1, outer(LOWER) };
+}
+
+} // namespace
+
+TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, where it should be") {
+	RenderFixture fixture;
+	std::map<int, int> right_counts;
+	// From above, and from below the large cube's top to see the ground under it.
+	for (const glm::dvec3 eye : { glm::dvec3(-2.5, 6.0, 3.0), glm::dvec3(-3.5, 1.0, 4.2) }) {
+		SmallScene scene = make_scene();
+		scene.camera->parent_from_node = look_at(eye, { 0, 1.0, 0 });
+		RenderRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(SIZE_PX);
+		request.technique_override = "penumbra_fins";
+		const std::shared_ptr<const SceneSnapshot> snapshot = request.scene;
+		const RenderResult mask = fixture.render_mask(scene, "penumbra_fins", request.size_px);
+		request.wants_image = true;
+		request.debug_view = "case";
+		const std::vector<uint8_t> image = fixture.renderer->render(request).image;
+		// The debug view's colours, found where the case is known beyond doubt, by the mask's
+		// values.
+		std::map<int, std::map<uint32_t, int>> colors;
+		for (uint32_t y = 0; y < SIZE_PX; ++y) {
+			for (uint32_t x = 0; x < SIZE_PX; ++x) {
+				const size_t pixel = size_t(y) * SIZE_PX + x;
+				const std::optional<glm::dvec3> point = find_top(*snapshot, { x, y });
+				const Expected expected = point ? compute_expected(*point) : Expected();
+				if (expected.case_number == 0 || mask.receiver[pixel] == 0) {
+					continue;
+				}
+				uint32_t color = 0;
+				std::memcpy(&color, &image[4 * pixel], sizeof(color));
+				++colors[expected.case_number][color];
+				const bool is_right = std::abs(mask.visibility[pixel] - expected.visibility) < 0.05;
+				CHECK_MESSAGE(is_right, "pixel ", x, " ", y, ": case ", expected.case_number,
+						", visibility ", mask.visibility[pixel], ", expected ",
+						expected.visibility);
+				right_counts[expected.case_number] += is_right;
+			}
+		}
+		// One colour per case, and no two alike.
+		std::set<uint32_t> seen;
+		for (const auto &[case_number, counts] : colors) {
+			CAPTURE(case_number);
+			CHECK(counts.size() == 1);
+			CHECK(seen.insert(counts.begin()->first).second);
+		}
+	}
+	for (int case_number = 1; case_number <= 6; ++case_number) {
+		CAPTURE(case_number);
+		CHECK(right_counts[case_number] > 30);
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins and layers") {
+	RenderFixture fixture;
+	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		SmallScene scene(type);
+		scene.light->properties["penumbra_outer_width"] = 0.0;
+		scene.light->properties["penumbra_inner_width"] = 0.0;
+		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
+			const RenderResult lean = fixture.render_mask(scene, id);
+			const RenderResult all = fixture.render_mask(scene, id, glm::uvec2(64), false);
+			CHECK(lean.visibility == all.visibility);
+			for (float value : lean.visibility) {
+				CHECK((value == 0.0f || value == 1.0f));
+			}
+			CHECK(lean.plan.is_left_out("Light", "fins"));
+			CHECK(lean.plan.is_left_out("Light", "layers 2 and 3") == (id == "penumbra_fins"));
+			for (const PassTiming &timing : lean.timings) {
+				CHECK(timing.name.find("fins view") == std::string::npos);
+				CHECK(timing.name.find("layer 2") == std::string::npos);
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] one width of 0 leaves out its half alone, with the same mask") {
+	RenderFixture fixture;
+	for (const char *width : { "penumbra_outer_width", "penumbra_inner_width" }) {
+		CAPTURE(width);
+		SmallScene scene = make_scene(LightType::SPOT);
+		scene.light->properties[width] = 0.0;
+		const RenderResult lean = fixture.render_mask(scene, "penumbra_fins");
+		const RenderResult all = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), false);
+		CHECK(lean.visibility == all.visibility);
+		const bool is_inner = std::string(width) == "penumbra_inner_width";
+		CHECK(lean.plan.is_left_out("Light", is_inner ? "inner fins" : "outer fins"));
+		CHECK(lean.plan.is_left_out("Light", "layers 2 and 3") == is_inner);
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same mask") {
+	RenderFixture fixture;
+	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		SmallScene scene = make_scene(type);
+		const RenderResult first = fixture.render_mask(scene, "penumbra_fins");
+		for (const std::string peeling : { "passes", "one_pass" }) {
+			for (const std::string method : { "geometry_shader", "compute" }) {
+				scene.light->properties["penumbra_fins_peeling"] = peeling;
+				scene.light->properties["penumbra_fins_method"] = method;
+				CHECK(fixture.render_mask(scene, "penumbra_fins").visibility == first.visibility);
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] maps are kept while nothing moves, and drawn anew for another r") {
+	RenderFixture fixture;
+	SmallScene scene = make_scene(LightType::OMNI);
+	const RenderResult first = fixture.render_mask(scene, "penumbra_fins");
+	const RenderResult second = fixture.render_mask(scene, "penumbra_fins");
+	CHECK(first.visibility == second.visibility);
+	const auto count_drawn = [](const RenderResult &p_result) {
+		return std::count_if(
+				p_result.timings.begin(), p_result.timings.end(), [](const PassTiming &p_timing) {
+					return p_timing.name.find("fins view") != std::string::npos;
+				});
+	};
+	CHECK(count_drawn(first) > 0);
+	CHECK(count_drawn(second) == 0);
+	scene.light->properties["penumbra_outer_width"] = 0.1;
+	const RenderResult third = fixture.render_mask(scene, "penumbra_fins");
+	CHECK(count_drawn(third) == count_drawn(first));
+	CHECK(third.visibility != first.visibility);
+}
+
+TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reach into it") {
+	// The caster lies just beyond the border between two views; without the margin its fins would
+	// end there in a straight line.
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(1.72, 2.0, 0));
+	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 3.2, 0));
+	scene.light->properties["penumbra_outer_width"] = 0.5;
+	scene.light->properties["penumbra_inner_width"] = 0.0;
+	scene.camera->parent_from_node = look_at({ 3.0, 5.0, 0.1 }, { 3.0, 0, 0 });
+	const RenderResult omni = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(96));
+	// The same light turned by 45 degrees has its borders elsewhere.
+	scene.light->parent_from_node =
+			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
+	const RenderResult turned = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(96));
+	CHECK(compute_mask_difference(omni, turned) < 0.01);
+	CHECK(is_valid_mask(omni));
+}
+
+TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside them stay valid") {
+	RenderFixture fixture;
+	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
+			for (double width_m : { 1.0, 10.0, 1e4 }) {
+				SmallScene scene = make_scene(type);
+				scene.light->properties["penumbra_outer_width"] = width_m;
+				scene.light->properties["penumbra_inner_width"] = width_m;
+				CHECK(is_valid_mask(fixture.render_mask(scene, id)));
+				scene.light->parent_from_node = look_at(LOWER.centre, { 0, 0, 0.1 });
+				CHECK(is_valid_mask(fixture.render_mask(scene, id)));
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] an instance scaled flat gets no fins, and the plan says so") {
+	RenderFixture fixture;
+	SmallScene scene = make_scene(LightType::SPOT);
+	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })
+			.parent_from_node =
+			glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 1.5, 0)), glm::dvec3(1, 0, 1));
+	const RenderResult result = fixture.render_mask(scene, "penumbra_fins");
+	CHECK(is_valid_mask(result));
+	CHECK(result.plan.is_left_out("Light", "fins of 1 instances"));
+}

@@ -1,0 +1,115 @@
+#include "modules/mesh_tools/tests/test_meshes.h"
+#include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+/// Horizontal squares, one per height, all of them in the light's whole view.
+std::shared_ptr<const Mesh> make_sheets(const std::vector<float> &p_heights_m) {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (float height_m : p_heights_m) {
+		const uint32_t first = static_cast<uint32_t>(positions.size());
+		for (const glm::vec2 corner :
+				{ glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1) }) {
+			positions.emplace_back(50.0f * corner.x, height_m, 50.0f * corner.y);
+		}
+		for (uint32_t offset : { 0u, 1u, 2u, 0u, 2u, 3u }) {
+			indices.push_back(first + offset);
+		}
+	}
+	return make_mesh("sheets", positions, {}, indices);
+}
+
+/// A spot at 4 m that looks straight down on what p_mesh adds; no ground, no box.
+SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh, LightType p_type) {
+	SmallScene scene(p_type);
+	scene.ground->surfaces.clear();
+	scene.box->surfaces.clear();
+	if (p_mesh) {
+		add_mesh(scene.scene, "Mesh", p_mesh, { 0, 0, 0 });
+	}
+	scene.light->parent_from_node = look_at({ 0, 4, 0 }, { 0, 0, 0.001 });
+	return scene;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][PenumbraFins] the three nearest of five sheets are the layers, equal ones count "
+		  "once") {
+	FinsFixture fixture;
+	// Sheets at 3, 2 (twice), 1, 0 and -1 m: 1, 2, 3, 4, 5 m below the light.
+	SmallScene scene = make_scene(make_sheets({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
+	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
+			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 4, 0, 1));
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 64);
+	for (Peeling peeling : { Peeling::PASSES, Peeling::ONE_PASS }) {
+		const auto layers = fixture.find_layers(frame, 3, peeling)[0];
+		for (size_t texel = 0; texel < layers[0].size(); ++texel) {
+			for (uint32_t layer = 0; layer < 3; ++layer) {
+				const double expected = double(frame.views[0].near_m) / (layer + 1);
+				CHECK(layers[layer][texel] == doctest::Approx(expected).epsilon(1e-5));
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds those of three, bit for bit") {
+	FinsFixture fixture;
+	using namespace test_meshes;
+	const std::pair<const char *, Mesh> meshes[] = { { "torus", make_torus(60, 30) },
+		{ "moebius band", make_moebius(40) }, { "soup", make_soup(7, 20, 60) },
+		{ "nested spheres", join(make_sphere(3), make_sphere(4)) } };
+	for (const auto &[name, mesh] : meshes) {
+		for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+			CAPTURE(name);
+			SmallScene scene =
+					make_scene(make_mesh(name, mesh.positions_node, {}, mesh.indices), type);
+			const FinsFixture::Frame frame = fixture.make_frame(scene, 128);
+			const auto peeled = fixture.find_layers(frame, 3, Peeling::PASSES);
+			CHECK(peeled == fixture.find_layers(frame, 3, Peeling::ONE_PASS));
+			size_t filled_count = 0;
+			bool is_sorted = true;
+			for (const auto &layers : peeled) {
+				for (size_t texel = 0; texel < layers[0].size(); ++texel) {
+					for (uint32_t layer = 1; layer < 3; ++layer) {
+						const float nearer = layers[layer - 1][texel];
+						const float here = layers[layer][texel];
+						filled_count += here > 0;
+						is_sorted = is_sorted && (here < nearer || (here == 0 && nearer == 0));
+					}
+				}
+			}
+			CHECK(is_sorted);
+			CHECK(filled_count > 100);
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled or not") {
+	FinsFixture fixture;
+	const SmallScene scene = make_scene(make_sheets({ 1 }), LightType::SPOT);
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 32);
+	for (Peeling peeling : { Peeling::PASSES, Peeling::ONE_PASS }) {
+		const auto layers = fixture.find_layers(frame, 3, peeling)[0];
+		CHECK(layers[0][0] > 0);
+		CHECK(layers[1] == std::vector<float>(32 * 32, 0.0f));
+		CHECK(layers[2] == std::vector<float>(32 * 32, 0.0f));
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped, not lost") {
+	FinsFixture fixture;
+	SmallScene scene = make_scene(make_box_mesh("rod", { 0.5f, 4.5f, 0.5f }), LightType::SPOT);
+	const FinsFixture::Frame frame = fixture.make_frame(scene, 32); // the light is inside
+	const auto peeled = fixture.find_layers(frame, 3, Peeling::PASSES);
+	CHECK(peeled == fixture.find_layers(frame, 3, Peeling::ONE_PASS));
+	for (const std::vector<float> &layer : peeled[0]) {
+		for (float depth : layer) {
+			CHECK_MESSAGE((depth >= 0.0f && depth <= 1.0f), depth);
+		}
+	}
+}

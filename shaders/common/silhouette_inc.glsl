@@ -1,0 +1,60 @@
+// Is an edge a silhouette as seen from the light? One expression for every shader and for the CPU
+// (find_silhouette_edges in mesh_tools/silhouette.h): float32, each product and sum rounded once,
+// corners in an order that does not depend on who asks. So all find the same edges, bit for bit.
+#ifndef SILHOUETTE_INC_GLSL
+#define SILHOUETTE_INC_GLSL
+
+#include "shared/topology_shared.h"
+
+/// True when the light is strictly in front of the triangle. Node space. p_light.xyz / w is a point;
+/// w = 0: the direction towards a light at infinity. p_ids: the corners' vertex indices.
+bool is_turned_to_light(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
+	// The corner of the least index first: the same order for the face and for each neighbour.
+	vec3 p = p_a;
+	vec3 q = p_b;
+	vec3 r = p_c;
+	if (p_ids.y < p_ids.x && p_ids.y < p_ids.z) {
+		p = p_b;
+		q = p_c;
+		r = p_a;
+	} else if (p_ids.z < p_ids.x && p_ids.z < p_ids.y) {
+		p = p_c;
+		q = p_a;
+		r = p_b;
+	}
+	precise const vec3 u = q - p;
+	precise const vec3 v = r - p;
+	precise const vec3 to_light = p_light.xyz - p * p_light.w;
+	precise const float nx = u.y * v.z - u.z * v.y;
+	precise const float ny = u.z * v.x - u.x * v.z;
+	precise const float nz = u.x * v.y - u.y * v.x;
+	precise const float side = (nx * to_light.x + ny * to_light.y) + nz * to_light.z;
+	return side > 0.0;
+}
+
+/// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:
+/// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
+/// Each edge of the mesh belongs to one face, so that nobody draws it twice.
+uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {
+	if ((p_flags & 7u) == 0u) {
+		return 0u;
+	}
+	const bool is_face_turned = is_turned_to_light(p_light, uvec3(p_ids[0], p_ids[2], p_ids[4]),
+			p_positions[0], p_positions[2], p_positions[4]);
+	uint found = 0u;
+	for (uint edge = 0u; edge < 3u; ++edge) {
+		const uint a = 2u * edge;
+		const uint b = (a + 2u) % 6u;
+		bool is_silhouette = (p_flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) != 0u;
+		if (!is_silhouette) {
+			is_silhouette = is_face_turned !=
+					is_turned_to_light(p_light, uvec3(p_ids[b], p_ids[a], p_ids[a + 1u]),
+							p_positions[b], p_positions[a], p_positions[a + 1u]);
+		}
+		const bool is_own = (p_flags & (TOPOLOGY_FACE_OWNS_EDGE << edge)) != 0u;
+		found |= is_own && is_silhouette ? 1u << edge : 0u;
+	}
+	return found;
+}
+
+#endif

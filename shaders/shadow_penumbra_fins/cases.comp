@@ -1,0 +1,14 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_penumbra_fins/resolve_inc.glsl"
+
+// Debug view: which of the six cases each pixel is; 0 where it receives no light at all.
+layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D case_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (is_in_picture(pixel)) {
+		imageStore(case_image, pixel, vec4(float(resolve_pixel(pixel).case_number)));
+	}
+}

@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_penumbra_fins/fin_inc.glsl"
+#include "shared/topology_shared.h"
+
+// Fins of the listed edges without a geometry shader: 6 or 12 vertices an edge, no vertex buffer.
+layout(location = 0) out float out_theta;
+layout(location = 1) flat out uint out_is_outer;
+layout(std140, set = 0, binding = FINS_BINDING_CONSTANTS) uniform Constants {
+	FinsViewConstants view;
+};
+layout(std430, set = 0, binding = FINS_BINDING_POSITIONS) readonly buffer Positions {
+	vec4 positions_node[];
+};
+layout(std430, set = 0, binding = FINS_BINDING_NORMALS) readonly buffer Normals {
+	vec4 normals_node[];
+};
+layout(std430, set = 0, binding = FINS_BINDING_EDGES) readonly buffer Edges {
+	TopologyEdge edges[];
+};
+layout(std430, set = 0, binding = FINS_BINDING_LIST) readonly buffer List {
+	uint edge_list[];
+};
+layout(push_constant) uniform Push {
+	FinsPush push;
+};
+layout(constant_id = FINS_CONSTANT_HAS_OUTER) const bool HAS_OUTER = true;
+layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
+
+void main() {
+	const uint side_count = (HAS_OUTER ? 1u : 0u) + (HAS_INNER ? 1u : 0u);
+	const uint per_edge = FIN_SIDE_CORNER_COUNT * side_count;
+	const uint first = HAS_OUTER ? 0u : FIN_SIDE_CORNER_COUNT;
+	const TopologyEdge edge =
+			edges[edge_list[push.first_in_list + uint(gl_VertexIndex) / per_edge]];
+	const uint corner_index = first + uint(gl_VertexIndex) % per_edge;
+	const uint corner = FIN_CORNERS[corner_index];
+	const uint vertex = (corner & 1u) != 0u ? edge.b : edge.a;
+	gl_Position = fin_position_clip(
+			view, push, corner, positions_node[vertex].xyz, normals_node[vertex].xyz);
+	out_theta = fin_theta(corner);
+	out_is_outer = corner_index < FIN_SIDE_CORNER_COUNT ? 1u : 0u;
+}

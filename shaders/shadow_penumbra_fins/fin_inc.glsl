@@ -1,0 +1,52 @@
+// The corners of one fin, the same for the geometry shader and the compute variant.
+#ifndef FIN_INC_GLSL
+#define FIN_INC_GLSL
+
+#include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
+
+// Sun et al. 2010, section 2.1.1: triangles BCC', C'B'B (outer), CBB'', B''C''C (inner), where
+// X' = X + r N and X'' = X - t N. Corner: bit 0 C instead of B, bits 1-2 where along the normal.
+const uint FIN_ON_EDGE = 0u;
+const uint FIN_OUTSIDE = 2u;
+const uint FIN_INSIDE = 4u;
+const uint FIN_CORNERS[12] = uint[12](
+	0u, 1u, 1u | FIN_OUTSIDE, 1u | FIN_OUTSIDE, FIN_OUTSIDE, 0u,
+	1u, 0u, FIN_INSIDE, FIN_INSIDE, 1u | FIN_INSIDE, 1u);
+const uint FIN_SIDE_CORNER_COUNT = 6u; // of the outer and of the inner half
+
+/// theta, the transition: 1 at X', 0.5 on the edge, 0 at X''.
+float fin_theta(uint p_corner) {
+	const uint place = p_corner & 6u;
+	return place == FIN_OUTSIDE ? 1.0 : place == FIN_INSIDE ? 0.0 : 0.5;
+}
+
+/// The vertex's one normal in the light's view, unit; zero stays zero. Normals transform by the
+/// cofactors of the matrix, which are finite for every transform.
+vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
+	const vec3 x = p_push.view_from_node[0].xyz;
+	const vec3 y = p_push.view_from_node[1].xyz;
+	const vec3 z = p_push.view_from_node[2].xyz;
+	const vec3 n = cross(y, z) * p_normal_node.x + cross(z, x) * p_normal_node.y +
+			cross(x, y) * p_normal_node.z;
+	const float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
+	// By its largest part first: the square of a tiny scale's cofactors would be 0.
+	return size > 0.0 ? normalize(n / size) * p_push.normal_sign : vec3(0.0);
+}
+
+/// A corner in the light's clip space: LightView::compute_clip_from_view.
+vec4 fin_position_clip(FinsViewConstants p_view, FinsPush p_push, uint p_corner,
+		vec3 p_position_node, vec3 p_normal_node) {
+	precise vec3 position = (p_push.view_from_node * vec4(p_position_node, 1.0)).xyz;
+	const uint place = p_corner & 6u;
+	if (place != FIN_ON_EDGE) {
+		const float offset_m =
+				place == FIN_OUTSIDE ? p_view.outer_width_m : -p_view.inner_width_m;
+		position += offset_m * fin_normal_view(p_push, p_normal_node);
+	}
+	const vec2 xy = position.xy / p_view.half_extent;
+	return p_view.is_orthographic != 0u
+			? vec4(xy, (p_view.view_far_m - position.z) * p_view.depth_scale, 1.0)
+			: vec4(xy, p_view.depth_scale, position.z);
+}
+
+#endif

@@ -1,0 +1,23 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_penumbra_fins/bindings_inc.glsl"
+
+// r = t = 0: there are no fins, and cases 2 and 3 are all that is left, a plain shadow map.
+layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	float visibility = 0.0;
+	if (is_receiver_pixel(pixel)) {
+		uint view;
+		const MapPoint point = load_map_point(pixel, view);
+		visibility = is_surely_lit(point, view)
+				? 1.0
+				: lookup_hard(layer_1_texture, light_views.views[view], point);
+	}
+	imageStore(mask_image, pixel, vec4(visibility));
+}

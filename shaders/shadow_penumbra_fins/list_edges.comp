@@ -1,0 +1,53 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
+
+// Writes one caster's silhouette edges into a list, in their own order, so that the picture never
+// depends on scheduling, and the arguments of the draw that follows. One invocation per word.
+layout(local_size_x = FINS_WORDS_PER_BLOCK) in;
+layout(std430, set = 0, binding = EDGES_BINDING_WORDS) readonly buffer Words {
+	uint edge_words[];
+};
+layout(std430, set = 0, binding = EDGES_BINDING_BLOCKS) readonly buffer Blocks {
+	uint block_counts[];
+};
+layout(std430, set = 0, binding = EDGES_BINDING_LIST) writeonly buffer List {
+	uint edge_list[];
+};
+layout(std430, set = 0, binding = EDGES_BINDING_DRAWS) writeonly buffer Draws {
+	FinsDraw draws[];
+};
+layout(push_constant) uniform Push {
+	EdgesPush push;
+};
+
+void main() {
+	const uint word_index = gl_GlobalInvocationID.x;
+	const uint word_count = (push.edge_count + FINS_EDGES_PER_WORD - 1u) / FINS_EDGES_PER_WORD;
+	if (word_index >= word_count) {
+		return;
+	}
+	uint bits = edge_words[push.first_word + word_index];
+	const bool is_last = word_index + 1u == word_count;
+	if (bits == 0u && !is_last) {
+		return;
+	}
+	// Edges before this word: those of the whole blocks, then of the words in its own block.
+	const uint block = word_index / FINS_WORDS_PER_BLOCK;
+	uint place = 0u;
+	for (uint i = 0u; i < block; ++i) {
+		place += block_counts[push.first_block + i];
+	}
+	for (uint i = block * FINS_WORDS_PER_BLOCK; i < word_index; ++i) {
+		place += uint(bitCount(edge_words[push.first_word + i]));
+	}
+	while (bits != 0u) {
+		const int bit = findLSB(bits);
+		edge_list[push.first_in_list + place] = word_index * FINS_EDGES_PER_WORD + uint(bit);
+		++place;
+		bits &= bits - 1u;
+	}
+	if (is_last) {
+		draws[push.draw_index] = FinsDraw(place * push.vertices_per_edge, 1u, 0u, 0u);
+	}
+}

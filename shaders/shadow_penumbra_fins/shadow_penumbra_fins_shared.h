@@ -1,0 +1,118 @@
+#ifndef SHADOW_PENUMBRA_FINS_SHARED_H
+#define SHADOW_PENUMBRA_FINS_SHARED_H
+#include "shared/shared_begin.h"
+
+#define FINS_MAX_LAYERS 3
+#define FINS_GROUP_SIZE 8
+// An edge word holds one bit for each of 32 edges; a block counts the silhouettes of 64 words.
+#define FINS_EDGES_PER_WORD 32
+#define FINS_WORDS_PER_BLOCK 64
+
+// peel.frag and layers.frag
+#define PEEL_BINDING_NEARER 0
+#define PEEL_BINDING_FOUND 1
+#define LAYERS_BINDING_TEXELS 0
+
+// find_edges.comp and list_edges.comp
+#define EDGES_BINDING_POSITIONS 0
+#define EDGES_BINDING_EDGES 1
+#define EDGES_BINDING_WORDS 2
+#define EDGES_BINDING_BLOCKS 3
+#define EDGES_BINDING_LIST 4
+#define EDGES_BINDING_DRAWS 5
+
+// fins.vert, fins.geom, edge_fins.vert, fins.frag
+#define FINS_BINDING_CONSTANTS 0
+#define FINS_BINDING_POSITIONS 1
+#define FINS_BINDING_NORMALS 2
+#define FINS_BINDING_EDGES 3
+#define FINS_BINDING_LIST 4
+#define FINS_BINDING_FACE_FLAGS 5
+#define FINS_BINDING_LAYER_1 6
+#define FINS_BINDING_LAYER_2 7
+
+// resolve.comp, cases.comp and hard.comp
+#define RESOLVE_BINDING_FRAME 0
+#define RESOLVE_BINDING_VIEWS 1
+#define RESOLVE_BINDING_DEPTH 2
+#define RESOLVE_BINDING_NORMAL 3
+#define RESOLVE_BINDING_RECEIVERS 4
+#define RESOLVE_BINDING_LAYER_1 5
+#define RESOLVE_BINDING_LAYER_3 6
+#define RESOLVE_BINDING_COLOR 7
+#define RESOLVE_BINDING_PENUMBRA_DEPTH 8
+#define RESOLVE_BINDING_OUTPUT 9
+
+// Specialization constants
+#define FINS_CONSTANT_HAS_OUTER 0
+#define FINS_CONSTANT_HAS_INNER 1
+#define FINS_CONSTANT_LAYER_COUNT 2
+#define FINS_CONSTANT_CURVE 3
+#define FINS_CONSTANT_STARTS_DARK 4 // outer halves begin at 0: there are no inner ones
+#define LAYERS_CONSTANT_WIDTH_PX 5
+#define LAYERS_CONSTANT_TEXEL_COUNT 6
+#define PEEL_CONSTANT_TELLS_FOUND 7
+#define FINS_CURVE_SINE 0
+#define FINS_CURVE_LINEAR 1
+
+/// One light view, for drawing its fins. Lengths in metres.
+struct SHARED_ALIGN FinsViewConstants {
+	vec2 half_extent;  // of the map, see LightViewConstants
+	float depth_scale; // likewise
+	float view_far_m;  // likewise; orthographic only
+	uint is_orthographic;
+	uint layer;			 // of the texture arrays
+	float outer_width_m; // r
+	float inner_width_m; // t
+	float beta_m;		 // inner fins farther than this behind the first layer are invisible
+	float nearest_m;	 // fins nearer to the light are taken to be here; above 0
+	float farthest_m;	 // no fin is farther
+	float inner_divisor; // K: inner depths divided by it lie below every outer one
+};
+SHARED_SIZE(FinsViewConstants, 48);
+
+/// Push constants of the draws: one caster.
+struct SHARED_ALIGN FinsPush {
+	mat4 view_from_node;
+	vec4 light_node;	// xyz / w: the light's centre; w = 0: the direction towards it
+	uint first_in_list; // where the caster's edges begin in the list
+	float normal_sign;	// -1 where the normals point into the solid
+	uint padding0;
+	uint padding1;
+};
+SHARED_SIZE(FinsPush, 96);
+
+/// Push constants of find_edges.comp and list_edges.comp: one caster.
+struct SHARED_ALIGN EdgesPush {
+	vec4 light_node;
+	uint edge_count;
+	uint first_word;
+	uint first_block;
+	uint first_in_list;
+	uint draw_index;
+	uint vertices_per_edge;
+	uint padding0;
+	uint padding1;
+};
+SHARED_SIZE(EdgesPush, 48);
+
+/// VkDrawIndirectCommand.
+struct SHARED_ALIGN FinsDraw {
+	uint vertex_count;
+	uint instance_count;
+	uint first_vertex;
+	uint first_instance;
+};
+SHARED_SIZE(FinsDraw, 16);
+
+/// Push constants of resolve.comp, cases.comp and hard.comp.
+struct SHARED_ALIGN FinsResolvePush {
+	uint empty_views; // bit i: view i has no casters, its layers hold nothing
+	uint padding0;
+	uint padding1;
+	uint padding2;
+};
+SHARED_SIZE(FinsResolvePush, 16);
+
+#include "shared/shared_end.h"
+#endif

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+"""Searches the best r, t and beta of the penumbra fins for each study scene and light size.
+
+    search_fins.py [--scenes A,B] [--sizes R,R] [--jobs N] [--write]
+
+The error that falls is the MAE over penumbra pixels. From r = t = R/4 the widths are moved one by one, by factors
+that shrink, with 0 among them; then beta is tried over fixed values, then the widths once more. The table also
+shows what the derived widths, r = t = R, give. --write puts it into doc/techniques/penumbra_fins.md.
+Truths are traced once (the program keeps them in its cache).
+"""
+
+import argparse
+import json
+import os
+import statistics
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+
+from measure_techniques import MASK_SIZE, PAGES, ROOT, SCENES, SIZES_M, find_reference, format_number, render, run
+from run_benchmarks import format_table
+
+TECHNIQUE = "penumbra_fins"
+PAGE = os.path.join(PAGES, TECHNIQUE + ".md")
+BEGIN, END = "<!-- begin fins_search -->", "<!-- end fins_search -->"
+PROPERTIES = ("penumbra_outer_width", "penumbra_inner_width", "penumbra_fins_beta")  # the order in a point
+OUTER, INNER, BETA = range(3)
+DERIVED = -1.0
+START_SHARE = 1 / 4  # of R
+LEAST_SHARE = 1 / 32  # of R: where a width goes on from 0
+FACTORS = (2.0, 1.4, 1.2)
+BETAS_M = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
+MAX_EVALUATIONS = 40  # of one scene and size
+KEPT_EVALUATIONS = 6  # for the widths after beta
+LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the truth's noise
+ERRORS = ("mae", "bias", "umbra_over")
+
+
+def move(point, index, value):
+    """The point with another value; six digits, so that a way back meets the point it came from."""
+    return tuple(float("%.6g" % value) if i == index else old for i, old in enumerate(point))
+
+
+class Search:
+    """One scene and light size: every point that was evaluated, and the way to the best."""
+
+    def __init__(self, scene, size_m, reference, pool):
+        self.scene = scene
+        self.size_m = size_m
+        self.reference = reference
+        self.pool = pool
+        self.errors = {}  # point -> penumbra errors
+        self.derived = (size_m, size_m, DERIVED)
+        self.best = self.derived
+
+    def measure(self, point, truth):
+        settings = ["light_size=%g" % self.size_m] + ["%s=%g" % pair for pair in zip(PROPERTIES, point)]
+        with tempfile.TemporaryDirectory() as folder:
+            mask = os.path.join(folder, "mask.exr")
+            render(self.scene, TECHNIQUE, settings, mask)
+            return json.loads(run("compare", truth, mask))["penumbra"]
+
+    def evaluate(self, points, truth, limit):
+        """Adds the errors of the points that are new, up to `limit` errors in all. True when one is the best now."""
+        fresh = [point for point in dict.fromkeys(points) if point not in self.errors]
+        fresh = fresh[: max(0, limit - len(self.errors))]
+        results = self.pool.map(lambda point: self.measure(point, truth), fresh)
+        self.errors.update(zip(fresh, results))
+        found = min(fresh, key=self.get_error, default=self.best)
+        is_better = self.get_error(found) < self.get_error(self.best) - LEAST_GAIN
+        if is_better:
+            self.best = found
+        return is_better
+
+    def get_error(self, point):
+        return self.errors[point]["mae"]
+
+    def improve_width(self, index, factor, truth, limit):
+        """Moves r or t by the factor for as long as the error falls. True when it fell."""
+        is_better_once = False
+        while True:
+            value = self.best[index]
+            values = [value * factor, value / factor] if value > 0 else [LEAST_SHARE * self.size_m]
+            if factor == FACTORS[0]:
+                values.append(0.0)
+            if not self.evaluate([move(self.best, index, other) for other in values], truth, limit):
+                return is_better_once
+            is_better_once = True
+
+    def improve_widths(self, factor, truth, limit):
+        """Both in turn, until neither is better: a list, since any() alone would leave out t after r fell."""
+        while any([self.improve_width(index, factor, truth, limit) for index in (OUTER, INNER)]):
+            pass
+
+    def run(self):
+        start = START_SHARE * self.size_m
+        with tempfile.TemporaryDirectory() as folder:
+            truth = os.path.join(folder, "truth.exr")
+            self.pool.submit(render, self.scene, self.reference, ["light_size=%g" % self.size_m], truth).result()
+            self.evaluate([self.derived, (start, start, DERIVED)], truth, MAX_EVALUATIONS)
+            for factor in FACTORS:
+                self.improve_widths(factor, truth, MAX_EVALUATIONS - len(BETAS_M) - KEPT_EVALUATIONS)
+            if self.best[INNER] > 0:  # beta is of the inner fins
+                self.evaluate([move(self.best, BETA, beta_m) for beta_m in BETAS_M], truth, MAX_EVALUATIONS)
+            self.improve_widths(FACTORS[-1], truth, MAX_EVALUATIONS)
+        return self
+
+
+def build_table(searches):
+    """One row for each search, and a last one with the means. Prints the rows as they are found."""
+    rows, columns = [], []
+    for search in searches:
+        best = search.best
+        errors = [search.errors[search.derived]["mae"]] + [search.errors[best][name] for name in ERRORS]
+        cells = [format_number(error) for error in errors]
+        beta = "derived" if best[BETA] == DERIVED else "%g" % best[BETA]
+        rows.append((search.scene, "%g" % search.size_m, cells[0], "%.3g" % best[OUTER], "%.3g" % best[INNER], beta, *cells[1:]))
+        columns.append(errors)
+        print(" ".join(rows[-1]), "after %d evaluations" % len(search.errors), flush=True)
+    means = [format_number(statistics.fmean(values)) for values in zip(*columns)]
+    rows.append(("mean", "", means[0], "", "", "", *means[1:]))
+    header = ("scene", "R", "derived r = t = R: MAE", "best r", "best t", "best beta", "MAE", "bias", "`umbra_over`")
+    return format_table(header, rows)
+
+
+def split_page():
+    """The page before and after its table."""
+    if not os.path.isfile(PAGE):
+        raise SystemExit("ERROR: %s is missing. Write it with the lines %s and %s." % (os.path.relpath(PAGE, ROOT), BEGIN, END))
+    with open(PAGE, encoding="utf-8") as file:
+        before, begin, rest = file.read().partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        page = os.path.relpath(PAGE, ROOT)
+        raise SystemExit("ERROR: %s has no lines %s and %s. Add them where the table belongs." % (page, BEGIN, END))
+    return before + begin, end + after
+
+
+def read_choice(parser, name, text, allowed, convert):
+    """The values of a list with commas."""
+    try:
+        values = [convert(word) for word in text.split(",")]
+    except ValueError:
+        values = []
+    if not values or any(value not in allowed for value in values):
+        parser.error("%s is %s, must be of: %s" % (name, text, ",".join(str(value) for value in allowed)))
+    return values
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Searches the best r, t and beta of the penumbra fins.")
+    parser.add_argument("--scenes", default=",".join(SCENES), metavar="A,B", help="default: %(default)s")
+    parser.add_argument("--sizes", default=",".join("%g" % size for size in SIZES_M), metavar="R,R", help="default: %(default)s")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="evaluations at a time")
+    parser.add_argument("--write", action="store_true", help="into doc/techniques/penumbra_fins.md")
+    arguments = parser.parse_args()
+    scenes = read_choice(parser, "--scenes", arguments.scenes, SCENES, str)
+    sizes_m = read_choice(parser, "--sizes", arguments.sizes, SIZES_M, float)
+    if arguments.jobs < 1:
+        parser.error("--jobs is %d, must be 1 or more" % arguments.jobs)
+    if arguments.write:
+        split_page()  # before the work, not after it
+    reference = find_reference()
+    # One pool for the programs that run, and one for the searches that wait for them.
+    with ThreadPoolExecutor(arguments.jobs) as evaluations, ThreadPoolExecutor(arguments.jobs) as searches:
+        wanted = [Search(scene, size_m, reference, evaluations) for scene in scenes for size_m in sizes_m]
+        lines = build_table(searches.map(Search.run, wanted))
+    lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s." % MASK_SIZE]
+    print("\n" + "\n".join(lines))
+    if arguments.write:
+        before, after = split_page()
+        with open(PAGE, "w", encoding="utf-8") as file:
+            file.write(before + "\n" + "\n".join(lines) + "\n" + after)
+        print("Wrote %s" % os.path.relpath(PAGE, ROOT))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,80 @@
+// The corners of a fin against the same in double: B' = B + r N, B'' = B - t N (Sun et al. 2010,
+// section 2.1.1).
+
+#include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
+#include "tests/shaders/kernel_fixture.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace gnomon;
+
+namespace {
+
+struct FinCase {
+	glm::vec4 place;  // position_node, corner
+	glm::vec4 normal; // normal_node, sign
+	glm::vec4 widths; // r, t, is orthographic
+};
+
+glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_node) {
+	glm::dvec3 position = glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.place), 1.0));
+	// The definition, where fin_inc.glsl takes cofactors; its sign then makes up for mirroring.
+	const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(p_view_from_node)));
+	const glm::dvec3 normal = glm::normalize(normal_matrix * glm::dvec3(p_case.normal));
+	const uint32_t corner = static_cast<uint32_t>(p_case.place.w) & 6u;
+	position += corner == 2 ? double(p_case.widths.x) * normal
+			: corner == 4	? -double(p_case.widths.y) * normal
+							: glm::dvec3(0.0);
+	const glm::dvec2 xy = glm::dvec2(position) / glm::dvec2(0.5, 0.25);
+	return p_case.widths.z > 0.5f ? glm::dvec4(xy, (10.0 - position.z) * 0.1, 1.0)
+								  : glm::dvec4(xy, 0.001, position.z);
+}
+
+} // namespace
+
+TEST_CASE("[GPU][PenumbraFins] corners of fins stand where the paper puts them, under any "
+		  "transform") {
+	KernelFixture fixture;
+	TestRandom random;
+	const glm::dmat4 turned =
+			glm::rotate(glm::dmat4(1.0), 0.8, glm::normalize(glm::dvec3(1, -2, 0.5)));
+	for (const glm::dvec3 scale : { glm::dvec3(1.0), glm::dvec3(3, 0.2, 1), glm::dvec3(-2, 1, 1),
+				 glm::dvec3(1e-3), glm::dvec3(1e3) }) {
+		CAPTURE(scale.x);
+		const glm::dmat4 view_from_node =
+				glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, -0.2, 5) * std::abs(scale.x)) *
+				turned * glm::scale(glm::dmat4(1.0), scale);
+		std::vector<FinCase> cases;
+		for (int item = 0; item < 300; ++item) {
+			const float corner = float(item % 6);
+			const glm::dvec3 position = random.next_unit() * random.next();
+			cases.push_back({ glm::vec4(glm::vec3(position), corner),
+					glm::vec4(glm::vec3(random.next_unit()),
+							glm::determinant(glm::dmat3(view_from_node)) < 0 ? -1.0f : 1.0f),
+					glm::vec4(0.3 * scale.z, 0.1 * scale.z, item % 2, 0) });
+		}
+		const std::vector<glm::mat4> constants = { glm::mat4(view_from_node) };
+		std::vector<glm::vec4> input;
+		for (const FinCase &fin : cases) {
+			input.insert(input.end(), { fin.place, fin.normal, fin.widths });
+		}
+		const auto results =
+				fixture.run_with_constants("fin.comp", constants[0], input, cases.size(), 2);
+		for (size_t item = 0; item < cases.size(); ++item) {
+			const glm::dvec4 expected = compute_clip(cases[item], view_from_node);
+			const double tolerance = 2e-6 * glm::length(expected);
+			CHECK(glm::length(glm::dvec4(results[2 * item]) - expected) < tolerance);
+			const uint32_t corner = static_cast<uint32_t>(cases[item].place.w) & 6u;
+			CHECK(results[2 * item + 1].x == (corner == 2 ? 1.0f : corner == 4 ? 0.0f : 0.5f));
+		}
+	}
+}
+
+TEST_CASE("[GPU][PenumbraFins] a vertex without a normal has its corners on the edge") {
+	KernelFixture fixture;
+	const std::vector<glm::vec4> input = { { 1, 2, 3, 2 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 },
+		{ 1, 2, 3, 0 }, { 0, 0, 0, 1 }, { 5, 5, 0, 0 } };
+	const auto results = fixture.run_with_constants("fin.comp", glm::mat4(1.0f), input, 2, 2);
+	CHECK(results[0] == results[2]);
+}
