@@ -1,9 +1,9 @@
 #include "modules/shadow_map/shadow_map.h"
 
 #include "modules/core/error.h"
-#include "modules/render_graph/compute_pass.h"
-#include "modules/renderer/lighting.h"
 #include "modules/renderer/caster_pass.h"
+#include "modules/renderer/lighting.h"
+#include "modules/renderer/map_resolve.h"
 
 #include "shadow_map/shadow_map_shared.h"
 
@@ -90,24 +90,12 @@ RGTexture ShadowMap::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	ComputePipelineDesc desc = { "shadow_map resolve", "shadow_map/resolve.comp",
 		{ { SHADOW_MAP_CONSTANT_FILTER_WIDTH, get_filter_width(p_inputs.properties) } } };
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(desc);
-	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
-	const RGBuffer view_constants = r_graph.upload_constants("shadow map views",
-			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
-	const RGTexture mask =
-			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
+	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
+	bindings.push_back(PassBinding::read(SHADOW_MAP_BINDING_MAP, import_map(r_graph)));
+	bindings.push_back(PassBinding::write(SHADOW_MAP_BINDING_MASK, mask));
 	const shader::ShadowMapPush push = { empty_views, 0, 1, 0 };
-	add_compute_pass(r_graph, "resolve", pipeline,
-			{
-					PassBinding::constants(SHADOW_MAP_BINDING_FRAME, p_inputs.frame),
-					PassBinding::constants(SHADOW_MAP_BINDING_VIEWS, view_constants),
-					PassBinding::read(SHADOW_MAP_BINDING_DEPTH, p_inputs.depth),
-					PassBinding::read(SHADOW_MAP_BINDING_NORMAL, p_inputs.geometric_normal),
-					PassBinding::read(SHADOW_MAP_BINDING_RECEIVERS, p_inputs.receivers),
-					PassBinding::read(SHADOW_MAP_BINDING_MAP, import_map(r_graph)),
-					PassBinding::write(SHADOW_MAP_BINDING_MASK, mask),
-			},
-			p_inputs.size_px, push);
+	add_compute_pass(r_graph, "resolve", pipeline, bindings, p_inputs.size_px, push);
 	return mask;
 }
 

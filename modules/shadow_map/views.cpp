@@ -1,9 +1,9 @@
 #include "modules/shadow_map/views.h"
 
 #include "modules/core/error.h"
-#include "modules/render_graph/compute_pass.h"
-#include "modules/renderer/lighting.h"
 #include "modules/renderer/caster_pass.h"
+#include "modules/renderer/lighting.h"
+#include "modules/renderer/map_resolve.h"
 #include "modules/shadow_map/light_points.h"
 
 #include "shadow_map/shadow_map_shared.h"
@@ -64,9 +64,7 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	}
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "views accumulate", "shadow_map/accumulate.comp", {} });
-	const RGTexture mask =
-			r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT, p_inputs.size_px, 1,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture mask = create_mask(r_graph, p_inputs.size_px, Format::R32_SFLOAT);
 	const RGTexture map = r_graph.create_texture(
 			{ "map of one light point", Format::D32_SFLOAT, p_inputs.views[0].size_px,
 					views_per_point, TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
@@ -93,20 +91,13 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			is_map_written = true;
 		}
 		const LightSnapshot point = make_light_point(p_inputs.light, point_index, count, nearest_m);
-		const RGBuffer view_constants = r_graph.upload_constants("light point views",
-				compute_light_views_constants(point, p_inputs.scene.camera, views));
 		const PassBuilder::Content content =
 				point_index == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE;
-		add_compute_pass(r_graph, text("accumulate point ", point_index), pipeline,
-				{
-						PassBinding::constants(SHADOW_MAP_BINDING_FRAME, p_inputs.frame),
-						PassBinding::constants(SHADOW_MAP_BINDING_VIEWS, view_constants),
-						PassBinding::read(SHADOW_MAP_BINDING_DEPTH, p_inputs.depth),
-						PassBinding::read(SHADOW_MAP_BINDING_NORMAL, p_inputs.geometric_normal),
-						PassBinding::read(SHADOW_MAP_BINDING_RECEIVERS, p_inputs.receivers),
-						PassBinding::read(SHADOW_MAP_BINDING_MAP, map),
-						PassBinding::write(SHADOW_MAP_BINDING_MASK, mask, content),
-				},
+		std::vector<PassBinding> bindings =
+				make_map_resolve_bindings(r_graph, p_inputs, point, views);
+		bindings.push_back(PassBinding::read(SHADOW_MAP_BINDING_MAP, map));
+		bindings.push_back(PassBinding::write(SHADOW_MAP_BINDING_MASK, mask, content));
+		add_compute_pass(r_graph, text("accumulate point ", point_index), pipeline, bindings,
 				p_inputs.size_px, push);
 	}
 	return mask;

@@ -1,8 +1,8 @@
 #include "modules/shadow_penumbra_fins/shadow_penumbra_fins.h"
 
 #include "modules/core/error.h"
-#include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/lighting.h"
+#include "modules/renderer/map_resolve.h"
 #include "modules/shadow_penumbra_fins/layer_passes.h"
 
 namespace gnomon {
@@ -132,22 +132,11 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 		RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader) {
 	ComputePipelineDesc desc = { id + " " + p_shader,
 		text("shadow_penumbra_fins/", p_shader, ".comp"), {} };
-	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
-	const RGBuffer view_constants = r_graph.upload_constants("fins views",
-			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
-	const RGTexture output =
-			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture output = create_mask(r_graph, p_inputs.size_px);
 	const FinTargets targets = maps.get_targets();
-	std::vector<PassBinding> bindings = {
-		PassBinding::constants(RESOLVE_BINDING_FRAME, p_inputs.frame),
-		PassBinding::constants(RESOLVE_BINDING_VIEWS, view_constants),
-		PassBinding::read(RESOLVE_BINDING_DEPTH, p_inputs.depth),
-		PassBinding::read(RESOLVE_BINDING_NORMAL, p_inputs.geometric_normal),
-		PassBinding::read(RESOLVE_BINDING_RECEIVERS, p_inputs.receivers),
-		PassBinding::read(RESOLVE_BINDING_LAYER_1, targets.layer_1),
-		PassBinding::write(RESOLVE_BINDING_OUTPUT, output),
-	};
+	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
+	bindings.push_back(PassBinding::read(RESOLVE_BINDING_LAYER_1, targets.layer_1));
+	bindings.push_back(PassBinding::write(RESOLVE_BINDING_OUTPUT, output));
 	if (draws_fins) {
 		desc.constants = { { FINS_CONSTANT_HAS_INNER, settings.inner_width_m > 0 ? 1u : 0u },
 			{ FINS_CONSTANT_LAYER_COUNT, settings.layer_count },

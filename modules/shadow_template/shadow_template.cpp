@@ -1,8 +1,8 @@
 #include "modules/shadow_template/shadow_template.h"
 
 #include "modules/core/text.h"
-#include "modules/render_graph/compute_pass.h"
 #include "modules/renderer/caster_pass.h"
+#include "modules/renderer/map_resolve.h"
 
 #include "shadow_template/shadow_template_shared.h"
 
@@ -45,26 +45,14 @@ void ShadowTemplate::at_light_view(
 RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "template resolve", "shadow_template/resolve.comp", {} });
-	const std::vector<LightView> views(p_inputs.views.begin(), p_inputs.views.end());
-	const RGBuffer view_constants = r_graph.upload_constants("template views",
-			compute_light_views_constants(p_inputs.light, p_inputs.scene.camera, views));
-	const RGTexture mask =
-			r_graph.create_texture({ "visibility mask", Format::R16_SFLOAT, p_inputs.size_px, 1,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
+	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
+	bindings.push_back(PassBinding::read(SHADOW_TEMPLATE_BINDING_MAP, map));
+	bindings.push_back(PassBinding::write(SHADOW_TEMPLATE_BINDING_MASK, mask));
 	const auto strength =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };
-	add_compute_pass(r_graph, "resolve", pipeline,
-			{
-					PassBinding::constants(SHADOW_TEMPLATE_BINDING_FRAME, p_inputs.frame),
-					PassBinding::constants(SHADOW_TEMPLATE_BINDING_VIEWS, view_constants),
-					PassBinding::read(SHADOW_TEMPLATE_BINDING_DEPTH, p_inputs.depth),
-					PassBinding::read(SHADOW_TEMPLATE_BINDING_NORMAL, p_inputs.geometric_normal),
-					PassBinding::read(SHADOW_TEMPLATE_BINDING_RECEIVERS, p_inputs.receivers),
-					PassBinding::read(SHADOW_TEMPLATE_BINDING_MAP, map),
-					PassBinding::write(SHADOW_TEMPLATE_BINDING_MASK, mask),
-			},
-			p_inputs.size_px, push);
+	add_compute_pass(r_graph, "resolve", pipeline, bindings, p_inputs.size_px, push);
 	return mask;
 }
 

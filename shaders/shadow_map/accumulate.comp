@@ -9,14 +9,14 @@ layout(set = 0, binding = SHADOW_MAP_BINDING_MASK, r32f) uniform image2D mask_im
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+	if (!is_in_picture(pixel)) {
 		return;
 	}
 	float seen = 0.0;
-	if (texelFetch(receivers_texture, pixel, 0).r > 0.0) {
+	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		seen = is_surely_lit(point, view)
+		seen = is_surely_lit(point, view, push.empty_views)
 				? 1.0
 				: lookup_hard(map_texture, light_views.views[view], point);
 	}

@@ -8,14 +8,14 @@ layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+	if (!is_in_picture(pixel)) {
 		return;
 	}
 	float visibility = 0.0;
-	if (texelFetch(receivers_texture, pixel, 0).r > 0.0) {
+	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		if (is_surely_lit(point, view)) {
+		if (is_surely_lit(point, view, push.empty_views)) {
 			visibility = 1.0;
 		} else if (FILTER_WIDTH == 0) {
 			visibility = lookup_hard(map_texture, light_views.views[view], point);

@@ -1,16 +1,11 @@
 #ifndef SHADOW_MAP_SHARED_H
 #define SHADOW_MAP_SHARED_H
+#include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define SHADOW_MAP_BINDING_FRAME 0
-#define SHADOW_MAP_BINDING_VIEWS 1
-#define SHADOW_MAP_BINDING_DEPTH 2
-#define SHADOW_MAP_BINDING_NORMAL 3
-#define SHADOW_MAP_BINDING_RECEIVERS 4
-#define SHADOW_MAP_BINDING_MAP 5
-#define SHADOW_MAP_BINDING_MASK 6
+#define SHADOW_MAP_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
+#define SHADOW_MAP_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 1)
 #define SHADOW_MAP_CONSTANT_FILTER_WIDTH 0
-#define SHADOW_MAP_GROUP_SIZE 8
 
 /// Push constants of resolve.comp and accumulate.comp.
 struct SHARED_ALIGN ShadowMapPush {

@@ -15,7 +15,7 @@ void main() {
 	if (is_receiver_pixel(pixel)) {
 		uint view;
 		const MapPoint point = load_map_point(pixel, view);
-		visibility = is_surely_lit(point, view)
+		visibility = is_surely_lit(point, view, push.empty_views)
 				? 1.0
 				: lookup_hard(layer_1_texture, light_views.views[view], point);
 	}

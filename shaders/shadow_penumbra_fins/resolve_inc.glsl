@@ -108,7 +108,7 @@ FinsResult resolve_pixel(ivec2 p_pixel) {
 	}
 	uint view;
 	const MapPoint point = load_map_point(p_pixel, view);
-	return is_surely_lit(point, view) ? FinsResult(1.0, CASE_LIT)
+	return is_surely_lit(point, view, push.empty_views) ? FinsResult(1.0, CASE_LIT)
 									  : resolve_point(light_views.views[view], point);
 }
 

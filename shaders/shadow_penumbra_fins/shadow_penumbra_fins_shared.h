@@ -1,9 +1,9 @@
 #ifndef SHADOW_PENUMBRA_FINS_SHARED_H
 #define SHADOW_PENUMBRA_FINS_SHARED_H
+#include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
 #define FINS_MAX_LAYERS 3
-#define FINS_GROUP_SIZE 8
 // An edge word holds one bit for each of 32 edges; a block counts the silhouettes of 64 words.
 #define FINS_EDGES_PER_WORD 32
 #define FINS_WORDS_PER_BLOCK 64
@@ -32,16 +32,11 @@
 #define FINS_BINDING_LAYER_2 7
 
 // resolve.comp, cases.comp and hard.comp
-#define RESOLVE_BINDING_FRAME 0
-#define RESOLVE_BINDING_VIEWS 1
-#define RESOLVE_BINDING_DEPTH 2
-#define RESOLVE_BINDING_NORMAL 3
-#define RESOLVE_BINDING_RECEIVERS 4
-#define RESOLVE_BINDING_LAYER_1 5
-#define RESOLVE_BINDING_LAYER_3 6
-#define RESOLVE_BINDING_COLOR 7
-#define RESOLVE_BINDING_PENUMBRA_DEPTH 8
-#define RESOLVE_BINDING_OUTPUT 9
+#define RESOLVE_BINDING_LAYER_1 (MAP_RESOLVE_OWN_BINDING + 0)
+#define RESOLVE_BINDING_LAYER_3 (MAP_RESOLVE_OWN_BINDING + 1)
+#define RESOLVE_BINDING_COLOR (MAP_RESOLVE_OWN_BINDING + 2)
+#define RESOLVE_BINDING_PENUMBRA_DEPTH (MAP_RESOLVE_OWN_BINDING + 3)
+#define RESOLVE_BINDING_OUTPUT (MAP_RESOLVE_OWN_BINDING + 4)
 
 // Specialization constants
 #define FINS_CONSTANT_HAS_OUTER 0
