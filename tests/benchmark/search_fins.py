@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Searches the best r, t and beta of the penumbra fins for each study scene and light size.
+"""Searches the best r, t and beta of the penumbra fins for each demo scene, light and size.
 
-    search_fins.py [--scenes A,B] [--sizes R,R] [--jobs N] [--write]
+    search_fins.py [--scenes A,B] [--jobs N] [--write]
 
 The error that falls is the MAE over penumbra pixels. From r = t = R/4 the widths are moved one by one, by factors
 that shrink, with 0 among them; then beta is tried over fixed values, then the widths once more. The table also
-shows what the derived widths, r = t = R, give. --write puts it into doc/techniques/penumbra_fins.md.
+shows what the derived widths, r = t = R, give, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
 Truths are traced once (the program keeps them in its cache).
 """
 
 import argparse
 import json
+import math
 import os
 import statistics
 import sys
@@ -30,10 +31,35 @@ START_SHARE = 1 / 4  # of R
 LEAST_SHARE = 1 / 32  # of R: where a width goes on from 0
 FACTORS = (2.0, 1.4, 1.2)
 BETAS_M = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
-MAX_EVALUATIONS = 40  # of one scene and size
+MAX_EVALUATIONS = 40  # of one target
 KEPT_EVALUATIONS = 6  # for the widths after beta
+SCENE_SIZE_M = 4  # of the demo scenes: a sun's derived width is the tangent of half its angle times this
+SUN_ANGLES_DEG = (1.0, 6.0, 20.0)
 LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the truth's noise
 ERRORS = ("mae", "bias", "umbra_over")
+
+
+class Target:
+    """One light of one scene at one size."""
+
+    def __init__(self, scene, light, size):
+        self.scene = scene
+        self.light = light  # None: the scene has one
+        is_sun = light == "Sun"
+        self.setting = ("light_angular_distance=%g" if is_sun else "light_size=%g") % size
+        self.width_m = SCENE_SIZE_M * math.tan(math.radians(size / 2)) if is_sun else size  # derived r and t
+        self.name = scene if light is None else "%s, %s" % (scene, light)
+        self.size = "%g" % size + (" degrees" if is_sun else "")
+
+    def render(self, technique, settings, out):
+        light = ["--light", self.light] if self.light else []
+        render(self.scene, technique, [self.setting] + settings, out, *light)
+
+
+STUDY = [Target(scene, None, size_m) for scene in SCENES for size_m in SIZES_M]
+OTHERS = [Target(scene, None, size_m) for scene in ("bunny", "open_sheets") for size_m in SIZES_M]
+OTHERS += [Target("three_lights", light, size_m) for light in ("Spot", "Omni") for size_m in SIZES_M]
+OTHERS += [Target("three_lights", "Sun", angle_deg) for angle_deg in SUN_ANGLES_DEG]
 
 
 def move(point, index, value):
@@ -42,22 +68,21 @@ def move(point, index, value):
 
 
 class Search:
-    """One scene and light size: every point that was evaluated, and the way to the best."""
+    """One target: every point that was evaluated, and the way to the best."""
 
-    def __init__(self, scene, size_m, reference, pool):
-        self.scene = scene
-        self.size_m = size_m
+    def __init__(self, target, reference, pool):
+        self.target = target
         self.reference = reference
         self.pool = pool
         self.errors = {}  # point -> penumbra errors
-        self.derived = (size_m, size_m, DERIVED)
+        self.derived = (target.width_m, target.width_m, DERIVED)
         self.best = self.derived
 
     def measure(self, point, truth):
-        settings = ["light_size=%g" % self.size_m] + ["%s=%g" % pair for pair in zip(PROPERTIES, point)]
+        settings = ["%s=%g" % pair for pair in zip(PROPERTIES, point)]
         with tempfile.TemporaryDirectory() as folder:
             mask = os.path.join(folder, "mask.exr")
-            render(self.scene, TECHNIQUE, settings, mask)
+            self.target.render(TECHNIQUE, settings, mask)
             return json.loads(run("compare", truth, mask))["penumbra"]
 
     def evaluate(self, points, truth, limit):
@@ -80,7 +105,7 @@ class Search:
         is_better_once = False
         while True:
             value = self.best[index]
-            values = [value * factor, value / factor] if value > 0 else [LEAST_SHARE * self.size_m]
+            values = [value * factor, value / factor] if value > 0 else [LEAST_SHARE * self.target.width_m]
             if factor == FACTORS[0]:
                 values.append(0.0)
             if not self.evaluate([move(self.best, index, other) for other in values], truth, limit):
@@ -93,10 +118,10 @@ class Search:
             pass
 
     def run(self):
-        start = START_SHARE * self.size_m
+        start = START_SHARE * self.target.width_m
         with tempfile.TemporaryDirectory() as folder:
             truth = os.path.join(folder, "truth.exr")
-            self.pool.submit(render, self.scene, self.reference, ["light_size=%g" % self.size_m], truth).result()
+            self.pool.submit(self.target.render, self.reference, [], truth).result()
             self.evaluate([self.derived, (start, start, DERIVED)], truth, MAX_EVALUATIONS)
             for factor in FACTORS:
                 self.improve_widths(factor, truth, MAX_EVALUATIONS - len(BETAS_M) - KEPT_EVALUATIONS)
@@ -107,20 +132,30 @@ class Search:
 
 
 def build_table(searches):
-    """One row for each search, and a last one with the means. Prints the rows as they are found."""
+    """One row for each search, and behind the study's scenes their means. Prints the rows as they are found."""
     rows, columns = [], []
     for search in searches:
         best = search.best
         errors = [search.errors[search.derived]["mae"]] + [search.errors[best][name] for name in ERRORS]
         cells = [format_number(error) for error in errors]
         beta = "derived" if best[BETA] == DERIVED else "%g" % best[BETA]
-        rows.append((search.scene, "%g" % search.size_m, cells[0], "%.3g" % best[OUTER], "%.3g" % best[INNER], beta, *cells[1:]))
-        columns.append(errors)
+        target = search.target
+        if columns and target in OTHERS:
+            rows.append(build_means(columns))
+            columns = []
+        if target in STUDY:
+            columns.append(errors)
+        rows.append((target.name, target.size, cells[0], "%.3g" % best[OUTER], "%.3g" % best[INNER], beta, *cells[1:]))
         print(" ".join(rows[-1]), "after %d evaluations" % len(search.errors), flush=True)
-    means = [format_number(statistics.fmean(values)) for values in zip(*columns)]
-    rows.append(("mean", "", means[0], "", "", "", *means[1:]))
+    if columns:
+        rows.append(build_means(columns))
     header = ("scene", "R", "derived r = t = R: MAE", "best r", "best t", "best beta", "MAE", "bias", "`umbra_over`")
     return format_table(header, rows)
+
+
+def build_means(columns):
+    means = [format_number(statistics.fmean(values)) for values in zip(*columns)]
+    return ("**mean of the above**", "", means[0], "", "", "", *means[1:])
 
 
 def split_page():
@@ -136,26 +171,19 @@ def split_page():
     return before + begin, end + after
 
 
-def read_choice(parser, name, text, allowed, convert):
-    """The values of a list with commas."""
-    try:
-        values = [convert(word) for word in text.split(",")]
-    except ValueError:
-        values = []
-    if not values or any(value not in allowed for value in values):
-        parser.error("%s is %s, must be of: %s" % (name, text, ",".join(str(value) for value in allowed)))
-    return values
-
-
 def main():
     parser = argparse.ArgumentParser(description="Searches the best r, t and beta of the penumbra fins.")
-    parser.add_argument("--scenes", default=",".join(SCENES), metavar="A,B", help="default: %(default)s")
-    parser.add_argument("--sizes", default=",".join("%g" % size for size in SIZES_M), metavar="R,R", help="default: %(default)s")
+    parser.add_argument("--scenes", default="", metavar="A,B", help="these scenes only")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="evaluations at a time")
     parser.add_argument("--write", action="store_true", help="into doc/techniques/penumbra_fins.md")
     arguments = parser.parse_args()
-    scenes = read_choice(parser, "--scenes", arguments.scenes, SCENES, str)
-    sizes_m = read_choice(parser, "--sizes", arguments.sizes, SIZES_M, float)
+    targets = STUDY + OTHERS
+    if arguments.scenes:
+        names = sorted({target.scene for target in targets})
+        wanted = arguments.scenes.split(",")
+        if any(name not in names for name in wanted):
+            parser.error("--scenes is %s, must be of: %s" % (arguments.scenes, ",".join(names)))
+        targets = [target for target in targets if target.scene in wanted]
     if arguments.jobs < 1:
         parser.error("--jobs is %d, must be 1 or more" % arguments.jobs)
     if arguments.write:
@@ -163,9 +191,8 @@ def main():
     reference = find_reference()
     # One pool for the programs that run, and one for the searches that wait for them.
     with ThreadPoolExecutor(arguments.jobs) as evaluations, ThreadPoolExecutor(arguments.jobs) as searches:
-        wanted = [Search(scene, size_m, reference, evaluations) for scene in scenes for size_m in sizes_m]
-        lines = build_table(searches.map(Search.run, wanted))
-    lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s." % MASK_SIZE]
+        lines = build_table(searches.map(Search.run, [Search(target, reference, evaluations) for target in targets]))
+    lines += ["", "Errors over penumbra pixels, widths and beta in metres; masks of %s. A sun has degrees; its derived r and t are tan(R / 2) S." % MASK_SIZE]
     print("\n" + "\n".join(lines))
     if arguments.write:
         before, after = split_page()
