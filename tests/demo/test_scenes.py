@@ -103,7 +103,10 @@ class StudyNumbers(unittest.TestCase):
                 self.assertLess(distance_from_axis(node, (0.0, 0.1 if is_terrain else 0.4, 0.0)), 1e-7)
                 tangent = 0.85 if is_terrain else 0.95
                 self.assertAlmostEqual(light["spot"]["outerConeAngle"], math.atan(tangent), places=8)
-                self.assertEqual(light["extras"], {"light_size": 0.4, "shadow_enabled": True})
+                extras = dict(light["extras"])
+                widths = [extras.pop("penumbra_outer_width"), extras.pop("penumbra_inner_width")]
+                self.assertTrue(all(0 < width <= 1 for width in widths), widths)
+                self.assertEqual(extras, {"light_size": 0.4, "shadow_enabled": True})
                 camera = find_node(scene, "Camera")
                 self.assertEqual(camera["translation"], [-3.2, 4.6, 4.6])
                 target = (-0.35, 0.55, -0.25) if name == "contact_box" else (-0.3, 0.45, -0.2)
