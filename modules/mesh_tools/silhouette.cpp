@@ -14,8 +14,8 @@ bool is_finite(const glm::dvec4 &p_value) {
 }
 
 /// is_turned_to_light in silhouette_inc.glsl: the same operations in the same order.
-bool is_turned_to_light(const MeshTopology &p_topology, const glm::vec4 &p_light,
-		const glm::uvec3 &p_ids) {
+bool is_turned_to_light(
+		const MeshTopology &p_topology, const glm::vec4 &p_light, const glm::uvec3 &p_ids) {
 	const int first = p_ids.y < p_ids.x && p_ids.y < p_ids.z ? 1
 			: p_ids.z < p_ids.x && p_ids.z < p_ids.y		 ? 2
 															 : 0;
@@ -31,9 +31,8 @@ bool is_turned_to_light(const MeshTopology &p_topology, const glm::vec4 &p_light
 
 uint32_t find_third(const MeshTopology &p_topology, uint32_t p_face, const MeshEdge &p_edge) {
 	const uint32_t *corners = &p_topology.triangles[3 * size_t(p_face)];
-	return *std::find_if(corners, corners + 3, [&](uint32_t p_corner) {
-		return p_corner != p_edge.a && p_corner != p_edge.b;
-	});
+	return *std::find_if(corners, corners + 3,
+			[&](uint32_t p_corner) { return p_corner != p_edge.a && p_corner != p_edge.b; });
 }
 
 } // namespace

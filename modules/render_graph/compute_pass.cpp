@@ -24,7 +24,8 @@ void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineR
 		std::vector<Binding> resources;
 		for (const PassBinding &binding : bindings) {
 			if (binding.texture) {
-				resources.emplace_back(binding.binding, p_context.get(binding.texture), binding.sampler);
+				resources.emplace_back(
+						binding.binding, p_context.get(binding.texture), binding.sampler);
 			} else {
 				resources.emplace_back(binding.binding, p_context.get(binding.buffer));
 			}

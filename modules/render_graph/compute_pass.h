@@ -21,8 +21,8 @@ struct PassBinding {
 
 	/// Sampled or fetched.
 	static PassBinding read(uint32_t p_binding, RGTexture p_texture, SamplerRID p_sampler = {}) {
-		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE,
-			PassBuilder::Content::FRESH, p_sampler };
+		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE, PassBuilder::Content::FRESH,
+			p_sampler };
 	}
 	static PassBinding read(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::SHADER_READ_COMPUTE };

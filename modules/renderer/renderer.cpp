@@ -145,7 +145,9 @@ const ShadowTechnique::DebugView &Renderer::choose_debug_view(const Frame &p_fra
 	}
 	if (ids.empty()) {
 		fail("Debug view \"", p_frame.request.debug_view,
-				"\": the scene has no light that casts shadows. Set shadow_enabled on one.");
+				"\": no light in view has a shadow. `gnomon run --plan` says why; see "
+				"shadow_enabled, "
+				"intensity and range of the lights.");
 	}
 	fail("Debug view \"", p_frame.request.debug_view,
 			"\" does not exist for this light's technique, must be one of ", ids, ".");
@@ -249,20 +251,20 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 		Format::R16_SFLOAT };
 	frame.constants = frame.graph.upload_constants(
 			"frame constants", compute_frame_constants(scene, p_request.size_px));
-	uint32_t drawn_count = 0;
-	frame.gbuffer = add_gbuffer_pass(
-			frame.graph, device, meshes, scene, p_request.size_px, frame.constants, drawn_count);
-	result.plan.run("G-buffer");
-	if (drawn_count < scene.instances.size()) {
-		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
-				"outside the camera's view");
-	}
-	if (p_request.mask_light.empty()) {
-		add_picture(frame);
-	} else {
-		add_mask_only(frame);
-	}
 	try {
+		uint32_t drawn_count = 0;
+		frame.gbuffer = add_gbuffer_pass(frame.graph, device, meshes, scene, p_request.size_px,
+				frame.constants, drawn_count);
+		result.plan.run("G-buffer");
+		if (drawn_count < scene.instances.size()) {
+			result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
+					"outside the camera's view");
+		}
+		if (p_request.mask_light.empty()) {
+			add_picture(frame);
+		} else {
+			add_mask_only(frame);
+		}
 		frame.graph.execute(p_request.mode);
 	} catch (...) {
 		shadows.drop_techniques(); // they may count on passes that never ran

@@ -55,8 +55,8 @@ public:
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count = 1);
 	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index = 0);
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes);
-	/// Draws until end_conditional happen only if the buffer's first word is not 0 when the GPU gets
-	/// there. Inside one rendering. Needs DeviceFeatures::conditional_rendering.
+	/// Draws until end_conditional happen only if the buffer's first word is not 0 when the GPU
+	/// gets there. Inside one rendering. Needs DeviceFeatures::conditional_rendering.
 	void begin_conditional(BufferRID p_predicate);
 	void end_conditional();
 	void dispatch(glm::uvec3 p_group_count);

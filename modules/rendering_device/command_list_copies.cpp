@@ -64,8 +64,8 @@ void CommandList::copy_texture_to_buffer(
 			target.buffer, 1, &region);
 }
 
-void CommandList::copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer,
-		uint64_t p_source_offset_bytes) {
+void CommandList::copy_buffer_to_texture(
+		BufferRID p_source, TextureRID p_target, uint32_t p_layer, uint64_t p_source_offset_bytes) {
 	impl.check_copy("copy_buffer_to_texture");
 	const BufferResource &source = impl.device->buffers.get(p_source);
 	const TextureResource &target = impl.device->textures.get(p_target);

@@ -117,6 +117,7 @@ void CommandList::begin_rendering_of_size(
 void CommandList::end_rendering() {
 	impl.check_recording("end_rendering");
 	GNOMON_ASSERT(impl.is_rendering, "end_rendering without begin_rendering");
+	GNOMON_ASSERT(!impl.is_conditional, "end_rendering before end_conditional");
 	vkCmdEndRendering(impl.commands);
 	impl.is_rendering = false;
 }
@@ -208,18 +209,21 @@ void CommandList::begin_conditional(BufferRID p_predicate) {
 	GNOMON_ASSERT(impl.is_rendering, "begin_conditional outside begin_rendering .. end_rendering");
 	GNOMON_ASSERT(impl.device->begin_conditional_rendering,
 			"begin_conditional on a device without conditional rendering");
+	GNOMON_ASSERT(!impl.is_conditional, "begin_conditional before end_conditional");
 	const BufferResource &predicate = impl.device->buffers.get(p_predicate);
 	GNOMON_ASSERT(has_usage(predicate.desc.usage, BufferUsage::CONDITIONAL), "buffer '",
 			predicate.desc.name, "' lacks the usage CONDITIONAL");
 	const VkConditionalRenderingBeginInfoEXT info = {
-		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT,
-		.buffer = predicate.buffer
+		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT, .buffer = predicate.buffer
 	};
 	impl.device->begin_conditional_rendering(impl.commands, &info);
+	impl.is_conditional = true;
 }
 
 void CommandList::end_conditional() {
 	impl.check_recording("end_conditional");
+	GNOMON_ASSERT(impl.is_conditional, "end_conditional without begin_conditional");
+	impl.is_conditional = false;
 	impl.device->end_conditional_rendering(impl.commands);
 }
 

@@ -32,13 +32,15 @@ struct FeatureChain {
 
 /// What the device has, of what Gnomon uses; nothing else is enabled, so that the layers notice
 /// when a shader relies on more.
-void choose_features(const FeatureChain &p_present, bool p_wants_geometry, FeatureChain &r_wanted) {
+void choose_features(const FeatureChain &p_present, const DeviceOptions::Without &p_without,
+		FeatureChain &r_wanted) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;
 	VkPhysicalDeviceFeatures &wanted = r_wanted.v10.features;
-	wanted.geometryShader = p_wants_geometry && present.geometryShader;
-	wanted.depthClamp = present.depthClamp;
+	wanted.geometryShader = !p_without.geometry_shader && present.geometryShader;
+	wanted.depthClamp = !p_without.depth_clamp && present.depthClamp;
 	wanted.independentBlend = present.independentBlend;
-	wanted.fragmentStoresAndAtomics = present.fragmentStoresAndAtomics;
+	wanted.fragmentStoresAndAtomics =
+			!p_without.fragment_stores && present.fragmentStoresAndAtomics;
 	wanted.vertexPipelineStoresAndAtomics = present.vertexPipelineStoresAndAtomics;
 	wanted.occlusionQueryPrecise = present.occlusionQueryPrecise;
 	wanted.shaderStorageImageExtendedFormats = present.shaderStorageImageExtendedFormats;
@@ -108,7 +110,8 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 		}
 		return is_present;
 	};
-	const bool has_conditional = enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
+	const bool has_conditional = !p_options.without.conditional_rendering &&
+			enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
 	const bool has_budget = enable_if_present(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
 	if (p_options.needs_surface) {
 		enable_if_present(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
@@ -116,7 +119,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	FeatureChain present(has_conditional);
 	vkGetPhysicalDeviceFeatures2(physical.handle, &present.v10);
 	FeatureChain wanted(has_conditional);
-	choose_features(present, !p_options.without_geometry_shader, wanted);
+	choose_features(present, p_options.without, wanted);
 
 	const VkPhysicalDeviceFeatures &enabled = wanted.v10.features;
 	features.geometry_shader = enabled.geometryShader;

@@ -22,7 +22,13 @@ struct DeviceOptions {
 	uint64_t memory_budget_bytes = 0; // 0 = what the device reports, at most 90 % of its heap
 	bool needs_surface = false;		  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
-	bool without_geometry_shader = false;		  // for tests: pretend that the device lacks it
+	/// For tests: pretend that the device lacks these.
+	struct Without {
+		bool geometry_shader = false;
+		bool depth_clamp = false;
+		bool fragment_stores = false;
+		bool conditional_rendering = false;
+	} without;
 };
 
 /// One device as `gnomon info` lists it.

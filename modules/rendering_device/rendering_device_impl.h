@@ -111,6 +111,7 @@ struct CommandList::Impl {
 	bool is_recording = false;
 	bool is_in_span = false;
 	bool is_rendering = false;
+	bool is_conditional = false;
 	std::vector<Format> target_color_formats;
 	bool has_target_depth = false;
 	bool is_target_depth_read_only = false;
@@ -173,7 +174,8 @@ struct RenderingDevice::Impl {
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
 	PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
 	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
-	PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering = nullptr; // or the device lacks it
+	PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering =
+			nullptr; // or the device lacks it
 	PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering = nullptr;
 
 	// device_creation.cpp

@@ -57,8 +57,8 @@ enum class BufferUsage : uint32_t {
 	INDIRECT = 16,
 	COPY_SOURCE = 32,
 	COPY_TARGET = 64,
+	TEXEL = 128,	   // uniform texel buffer; then BufferDesc::texel_format counts
 	CONDITIONAL = 256, // read by CommandList::begin_conditional
-	TEXEL = 128, // uniform texel buffer; then BufferDesc::texel_format counts
 };
 template <typename T>
 concept UsageFlags = std::is_same_v<T, TextureUsage> || std::is_same_v<T, BufferUsage>;

@@ -33,13 +33,14 @@ struct LightSnapshot {
 	float light_size_m = 0.0f;				 // R: radius; spot and omni
 	float light_angular_distance_deg = 0.0f; // apparent diameter; directional
 	bool casts_shadow = true;
-	std::string technique_id;			 // empty = the registry's default
-	/// r and t of Sun et al. 2010, with -1 already replaced: by R for spot and omni; for directional,
-	/// whose R is a tangent, by R times S, so that a scaled scene has a scaled penumbra.
+	std::string technique_id; // empty = the registry's default
+	/// r and t of Sun et al. 2010, with -1 already replaced: by R for spot and omni; for
+	/// directional, whose R is a tangent, by R times S, so that a scaled scene has a scaled
+	/// penumbra.
 	float penumbra_outer_width_m = 0.0f;
 	float penumbra_inner_width_m = 0.0f;
-	PropertyValues properties;			 // the technique's; only what was set
-	std::string file_path;				 // for messages: "lights[0]"
+	PropertyValues properties; // the technique's; only what was set
+	std::string file_path;	   // for messages: "lights[0]"
 
 	glm::dvec3 get_direction_world() const { return -world_from_light[2]; }
 	/// R for spot and omni; the tangent of half the apparent diameter for directional.

@@ -1,5 +1,6 @@
 #include "modules/shadow_penumbra_fins/fin_casters.h"
 
+#include "modules/core/error.h"
 #include "modules/renderer/mesh_store.h"
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 namespace gnomon {
 
 namespace {
+
+// Twelve vertices an edge still have 32-bit indices.
+constexpr uint32_t MAX_EDGE_COUNT = 300'000'000;
 
 uint32_t divide_up(uint32_t p_value, uint32_t p_divisor) {
 	return (p_value + p_divisor - 1) / p_divisor;
@@ -57,6 +61,10 @@ FinCasters build_fin_casters(
 		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh);
 		if (caster.gpu->edge_count == 0) {
 			continue;
+		}
+		if (caster.gpu->edge_count > MAX_EDGE_COUNT - result.edge_count) {
+			fail("Light \"", p_inputs.light.name, "\": its casters have more than ", MAX_EDGE_COUNT,
+					" edges, which is the most for fins. Let fewer meshes cast shadows.");
 		}
 		caster.normal_sign = compute_normal_sign(*caster.gpu->topology, instance);
 		caster.first_word = result.word_count;

@@ -26,14 +26,15 @@ struct FinCasters {
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
 	uint32_t edge_count = 0;
-	uint32_t zero_normal_count = 0;	  // vertices that get no fin: their faces' normals cancel
+	uint32_t zero_normal_count = 0;	  // vertices where fins end in the edge: normals cancel
 	uint32_t flat_instance_count = 0; // with a singular transform: they have no inside and get none
 
 	/// Null for an instance without fins.
 	const FinCaster *find(uint32_t p_instance_index) const;
 };
 
-/// The casters of all views that are listed in p_view_indices.
+/// The casters of all views that are listed in p_view_indices. More edges than a 32-bit index can
+/// name are an Error.
 FinCasters build_fin_casters(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices);
 

@@ -113,8 +113,6 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, const FinsSettings &p_settings, const FinCasters &p_casters,
 		const EdgeLists &p_lists, const FinTargets &p_targets) {
 	const bool is_geometry_shader = p_settings.method == FinMethod::GEOMETRY_SHADER;
-	const PipelineRID pipeline =
-			p_inputs.device.get_raster_pipeline(make_pipeline_desc(p_inputs.device, p_settings));
 	const RGBuffer constants = r_graph.upload_constants(
 			"fins view", compute_fins_view_constants(p_inputs, p_view_index, p_settings));
 	const RGTexture layer_1 = p_targets.layer_1;
@@ -131,6 +129,8 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		pass.execute([](PassContext &) {}); // cleared, and that is all
 		return;
 	}
+	const PipelineRID pipeline =
+			p_inputs.device.get_raster_pipeline(make_pipeline_desc(p_inputs.device, p_settings));
 	if (!is_geometry_shader) {
 		pass.reads(p_lists.list, Access::SHADER_READ_VERTEX)
 				.reads(p_lists.draws, Access::INDIRECT_READ);

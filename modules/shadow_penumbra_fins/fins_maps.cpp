@@ -10,7 +10,8 @@ bool FinsMaps::prepare(RenderingDevice &p_device, const std::string &p_light, gl
 	const TextureDesc desc = { "depth layer of " + p_light, Format::D32_SFLOAT, p_size_px,
 		p_view_count,
 		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET };
-	has_content = layers.size() == p_layer_count && layer_desc == desc && bool(color) == p_has_fins;
+	has_content = layers.size() == p_layer_count && layer_desc == desc &&
+			bool(color) == p_has_fins && bool(penumbra_depth) == p_has_fins;
 	if (has_content) {
 		return true;
 	}

@@ -3,7 +3,6 @@
 #include "modules/rendering_device/rendering_device.h"
 
 #include <algorithm>
-#include <set>
 
 namespace gnomon {
 
@@ -11,7 +10,9 @@ namespace {
 
 // Derived beta, in parts of S.
 constexpr float DERIVED_BETA_PER_SCENE_SIZE = 0.25f;
-// One pass over more triangles than this beats three peels on a CPU driver (doc/benchmarks.md).
+// From so many triangles in a view on, one pass beats three peels on a software driver: at 7,692
+// three peels took 4.2 times a shadow map and one pass 5.0, at 30,012 4.2 and 3.4
+// (doc/benchmarks.md). Not measured on a GPU.
 constexpr uint64_t ONE_PASS_MIN_TRIANGLES = 20000;
 
 int64_t read_int(const PropertyValues &p_properties, const std::string &p_name) {
@@ -22,32 +23,9 @@ const std::string &read_choice(const PropertyValues &p_properties, const std::st
 	return std::get<std::string>(p_properties.at(p_name));
 }
 
-uint64_t count_triangles(const ShadowTechnique::Inputs &p_inputs) {
-	uint64_t count = 0;
-	for (const CasterList &casters : p_inputs.casters) {
-		for (uint32_t index : casters.instances) {
-			count += p_inputs.scene.instances[index].mesh->get_triangle_count();
-		}
-	}
-	return count;
-}
-
-Peeling choose_peeling(const std::string &p_choice, const FinsSettings &p_settings,
-		const ShadowTechnique::Inputs &p_inputs) {
-	const DeviceFeatures &features = p_inputs.device.get_features();
-	const uint64_t bytes = uint64_t(p_settings.map_size_px) * p_settings.map_size_px *
-			sizeof(uint32_t) * p_settings.layer_count;
-	const bool is_possible = features.fragment_stores && bytes <= features.max_storage_buffer_bytes;
-	if (!is_possible || p_settings.layer_count == 1 || p_choice == "passes") {
-		return Peeling::PASSES;
-	}
-	return p_choice == "one_pass" || count_triangles(p_inputs) > ONE_PASS_MIN_TRIANGLES
-			? Peeling::ONE_PASS
-			: Peeling::PASSES;
-}
-
 FinMethod choose_method(const std::string &p_choice, const DeviceFeatures &p_features) {
-	// auto: compute, which was faster at every size that was measured (doc/benchmarks.md).
+	// auto: compute, which was faster from 7,692 triangles on and cost the same at 1,996, on a
+	// software driver (doc/benchmarks.md). Not measured on a GPU.
 	return p_choice == "geometry_shader" && p_features.geometry_shader ? FinMethod::GEOMETRY_SHADER
 																	   : FinMethod::COMPUTE;
 }
@@ -111,10 +89,36 @@ FinsSettings read_fins_settings(
 				? beta_m
 				: DERIVED_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
 		settings.layer_count = static_cast<uint32_t>(read_int(properties, p_id + "_layers"));
-		settings.peeling =
-				choose_peeling(read_choice(properties, p_id + "_peeling"), settings, p_inputs);
+		const std::string &peeling = read_choice(properties, p_id + "_peeling");
+		if (peeling != "auto") {
+			settings.peeling = peeling == "passes" ? Peeling::PASSES : Peeling::ONE_PASS;
+		}
 	}
 	return settings;
+}
+
+bool FinsSettings::gives_maps_of(const FinsSettings &p_other) const {
+	return outer_width_m == p_other.outer_width_m && inner_width_m == p_other.inner_width_m &&
+			beta_m == p_other.beta_m && map_size_px == p_other.map_size_px &&
+			layer_count == p_other.layer_count && curve == p_other.curve &&
+			has_inner_half == p_other.has_inner_half;
+}
+
+Peeling choose_peeling(const FinsSettings &p_settings, const ShadowTechnique::Inputs &p_inputs,
+		uint32_t p_view_index) {
+	const DeviceFeatures &features = p_inputs.device.get_features();
+	const uint64_t bytes = uint64_t(p_settings.map_size_px) * p_settings.map_size_px *
+			sizeof(uint32_t) * p_settings.layer_count;
+	const bool is_possible = features.fragment_stores && p_settings.layer_count > 1 &&
+			bytes <= features.max_storage_buffer_bytes;
+	if (!is_possible || p_settings.peeling) {
+		return is_possible ? *p_settings.peeling : Peeling::PASSES;
+	}
+	uint64_t triangle_count = 0;
+	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
+		triangle_count += p_inputs.scene.instances[index].mesh->get_triangle_count();
+	}
+	return triangle_count >= ONE_PASS_MIN_TRIANGLES ? Peeling::ONE_PASS : Peeling::PASSES;
 }
 
 } // namespace gnomon

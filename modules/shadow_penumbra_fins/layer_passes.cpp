@@ -11,10 +11,10 @@ namespace gnomon {
 namespace {
 
 /// A word that a peel sets when it finds anything: the predicate of the peel after it.
-RGBuffer add_found_flag(RenderGraph &r_graph) {
+RGBuffer add_found_flag(RenderGraph &r_graph, uint32_t p_view_index) {
 	const RGBuffer flag = r_graph.create_buffer({ "layer found", sizeof(uint32_t),
 			BufferUsage::STORAGE | BufferUsage::CONDITIONAL | BufferUsage::COPY_TARGET });
-	r_graph.add_pass("clear layer found")
+	r_graph.add_pass(text("clear layer found view ", p_view_index))
 			.writes(flag, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
 				p_context.commands.fill_buffer(p_context.get(flag), 0);
@@ -23,7 +23,8 @@ RGBuffer add_found_flag(RenderGraph &r_graph) {
 }
 
 /// Behind the front of a closed caster is its back. Only where there is none, a second layer may be
-/// empty, and only then the peels ask: asking costs a third of a peel.
+/// empty, and only then the peels ask: asking made the second peel of a ground and a sphere, 5,132
+/// triangles, 800 x 800, 7.0 ms instead of 4.6 on a software driver.
 bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterList &p_casters) {
 	return std::none_of(
 			p_casters.instances.begin(), p_casters.instances.end(), [&](uint32_t p_index) {
@@ -32,61 +33,67 @@ bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterL
 			});
 }
 
-PipelineRID get_peel_pipeline(RenderingDevice &p_device, bool p_tells_found) {
-	RasterPipelineDesc desc = make_caster_pipeline_desc(p_device);
+/// What one peel has to do with the flag.
+enum class FlagUse { NONE, TELLS, ASKS };
+
+void add_peel(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
+		const std::string &p_name, RGTexture p_nearer, RGTexture p_layer, FlagUse p_use,
+		RGBuffer p_found) {
+	RasterPipelineDesc desc = make_caster_pipeline_desc(p_inputs.device);
 	desc.name = "peel";
-	desc.fragment_shader = "shadow_penumbra_fins/peel.frag";
-	desc.constants = { { PEEL_CONSTANT_TELLS_FOUND, p_tells_found ? 1u : 0u } };
-	return p_device.get_raster_pipeline(desc);
+	desc.fragment_shader = p_use == FlagUse::TELLS ? "shadow_penumbra_fins/peel_telling.frag"
+												   : "shadow_penumbra_fins/peel.frag";
+	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
+	PassBuilder pass = r_graph.add_pass(p_name);
+	pass.reads(p_nearer, Access::SHADER_READ_FRAGMENT)
+			.depth(p_layer, LoadOp::CLEAR, 0.0f, p_view_index);
+	if (p_use == FlagUse::TELLS) {
+		pass.writes(p_found, Access::SHADER_WRITE_FRAGMENT, PassBuilder::Content::UPDATE);
+	} else if (p_use == FlagUse::ASKS) {
+		pass.reads(p_found, Access::CONDITIONAL_READ);
+	}
+	pass.execute([=,
+						 draws = build_caster_draws(p_inputs, p_inputs.views[p_view_index],
+								 p_inputs.casters[p_view_index])](PassContext &p_context) {
+		CommandList &commands = p_context.commands;
+		std::vector<Binding> bindings = { { PEEL_BINDING_NEARER, p_context.get(p_nearer) } };
+		bindings[0].layer = p_view_index;
+		if (p_use == FlagUse::TELLS) {
+			bindings.emplace_back(PEEL_BINDING_FOUND, p_context.get(p_found));
+		}
+		commands.bind_pipeline(pipeline);
+		commands.bind_resources(bindings);
+		if (p_use == FlagUse::ASKS) {
+			commands.begin_conditional(p_context.get(p_found));
+		}
+		record_caster_draws(commands, draws);
+		if (p_use == FlagUse::ASKS) {
+			commands.end_conditional();
+		}
+	});
 }
 
 void add_peels(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
 		std::span<const RGTexture> p_layers) {
-	const LightView &view = p_inputs.views[p_view_index];
 	const CasterList &casters = p_inputs.casters[p_view_index];
-	add_depth_pass(r_graph, text("layer 1 view ", p_view_index), p_inputs, view, casters,
-			p_layers[0], p_view_index);
-	if (p_layers.size() == 1) {
-		return;
-	}
+	add_depth_pass(r_graph, text("layer 1 view ", p_view_index), p_inputs,
+			p_inputs.views[p_view_index], casters, p_layers[0], p_view_index);
 	const DeviceFeatures &features = p_inputs.device.get_features();
-	const bool is_conditional = p_inputs.may_leave_out && features.conditional_rendering &&
-			features.fragment_stores && p_layers.size() > 2 &&
+	const bool is_conditional = p_layers.size() > 2 && p_inputs.may_leave_out &&
+			features.conditional_rendering && features.fragment_stores &&
 			may_layer_2_be_empty(p_inputs, casters);
-	const RGBuffer found = add_found_flag(r_graph);
+	const RGBuffer found = is_conditional ? add_found_flag(r_graph, p_view_index) : RGBuffer();
 	for (uint32_t layer = 1; layer < p_layers.size(); ++layer) {
-		const RGTexture nearer = p_layers[layer - 1];
-		const bool tells_found = is_conditional && layer == 1;
-		const bool asks_found = is_conditional && layer == 2;
-		const PipelineRID pipeline = get_peel_pipeline(p_inputs.device, tells_found);
-		PassBuilder pass = r_graph.add_pass(text("layer ", layer + 1, " view ", p_view_index));
-		pass.reads(nearer, Access::SHADER_READ_FRAGMENT)
-				.depth(p_layers[layer], LoadOp::CLEAR, 0.0f, p_view_index);
-		if (asks_found) {
-			pass.reads(found, Access::CONDITIONAL_READ);
-		} else {
-			pass.writes(found, Access::SHADER_WRITE_FRAGMENT, PassBuilder::Content::UPDATE);
-		}
-		pass.execute([=, draws = build_caster_draws(p_inputs, view, casters)](
-							 PassContext &p_context) {
-			CommandList &commands = p_context.commands;
-			Binding nearer_layer(PEEL_BINDING_NEARER, p_context.get(nearer));
-			nearer_layer.layer = p_view_index;
-			commands.bind_pipeline(pipeline);
-			commands.bind_resources({ nearer_layer, { PEEL_BINDING_FOUND, p_context.get(found) } });
-			if (asks_found) {
-				commands.begin_conditional(p_context.get(found));
-			}
-			record_caster_draws(commands, draws);
-			if (asks_found) {
-				commands.end_conditional();
-			}
-		});
+		const FlagUse use = !is_conditional ? FlagUse::NONE
+				: layer == 1				? FlagUse::TELLS
+											: FlagUse::ASKS;
+		add_peel(r_graph, p_inputs, p_view_index, text("layer ", layer + 1, " view ", p_view_index),
+				p_layers[layer - 1], p_layers[layer], use, found);
 	}
 }
 
 void add_one_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		uint32_t p_view_index, std::span<const RGTexture> p_layers) {
+		uint32_t p_view_index, std::span<const RGTexture> p_layers, RGBuffer &r_texels) {
 	const LightView &view = p_inputs.views[p_view_index];
 	const uint32_t texel_count = view.size_px.x * view.size_px.y;
 	const uint64_t layer_bytes = uint64_t(texel_count) * sizeof(uint32_t);
@@ -99,8 +106,11 @@ void add_one_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		{ LAYERS_CONSTANT_TEXEL_COUNT, texel_count },
 		{ FINS_CONSTANT_LAYER_COUNT, static_cast<uint32_t>(p_layers.size()) } };
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
-	const RGBuffer texels = r_graph.create_buffer({ "depth layers", layer_bytes * p_layers.size(),
-			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE | BufferUsage::COPY_TARGET });
+	if (!r_texels) {
+		r_texels = r_graph.create_buffer({ "depth layers", layer_bytes * p_layers.size(),
+				BufferUsage::STORAGE | BufferUsage::COPY_SOURCE | BufferUsage::COPY_TARGET });
+	}
+	const RGBuffer texels = r_texels;
 	r_graph.add_pass(text("clear layers view ", p_view_index))
 			.writes(texels, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
@@ -137,11 +147,12 @@ void add_one_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 } // namespace
 
 void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling) {
+		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
+		RGBuffer &r_texels) {
 	GNOMON_ASSERT(!p_layers.empty() && p_layers.size() <= FINS_MAX_LAYERS, p_layers.size(),
 			" depth layers");
 	if (p_peeling == Peeling::ONE_PASS && p_layers.size() > 1) {
-		add_one_pass(r_graph, p_inputs, p_view_index, p_layers);
+		add_one_pass(r_graph, p_inputs, p_view_index, p_layers, r_texels);
 	} else {
 		add_peels(r_graph, p_inputs, p_view_index, p_layers);
 	}

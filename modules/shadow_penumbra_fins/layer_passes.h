@@ -15,6 +15,7 @@ namespace gnomon {
 /// Where no caster is closed, a third layer behind an empty second one is not drawn: the peel
 /// before tells it, on the GPU.
 void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling);
+		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
+		RGBuffer &r_texels);
 
 } // namespace gnomon

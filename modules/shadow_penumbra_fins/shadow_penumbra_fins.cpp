@@ -5,6 +5,8 @@
 #include "modules/renderer/map_resolve.h"
 #include "modules/shadow_penumbra_fins/layer_passes.h"
 
+#include <algorithm>
+
 namespace gnomon {
 
 namespace {
@@ -21,8 +23,9 @@ void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const Sce
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =
 			read_fins_view_settings(id, has_inner_half, p_light, p_properties);
-	r_views = build_light_views(p_light, p_scene, view_settings.map_size_px, BORDER_PX,
-			std::max(view_settings.outer_width_m, view_settings.inner_width_m));
+	// Inner fins lie behind their own casters, so that only the outer ones reach farther.
+	r_views = build_light_views(
+			p_light, p_scene, view_settings.map_size_px, BORDER_PX, view_settings.outer_width_m);
 }
 
 void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
@@ -55,7 +58,7 @@ void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_pla
 		maps.reset();
 		maps.forget_frame();
 	}
-	if (!has_content || !(settings == drawn_settings)) {
+	if (!has_content || !settings.gives_maps_of(drawn_settings)) {
 		drawn_hashes.assign(view_count, 0);
 		drawn_settings = settings;
 	}
@@ -68,7 +71,7 @@ void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_pla
 		} else if (p_inputs.may_leave_out && p_inputs.may_keep && drawn_hashes[index] == hash) {
 			r_plan.leave_out_light_view(index, "kept: neither the light nor a caster moved");
 		} else {
-			drawn_hashes[index] = hash;
+			drawn_hashes[index] = 0; // until it is drawn
 			drawn_views.push_back(index);
 		}
 	}
@@ -77,25 +80,34 @@ void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_pla
 void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	fin_casters = {};
 	edge_lists = {};
+	layer_texels = {};
 	if (drawn_views.empty()) {
 		return;
 	}
 	if (settings.layer_count > 1) {
-		r_plan.run(settings.peeling == Peeling::ONE_PASS
-						? text(settings.layer_count, " layers, in one pass")
-						: text(settings.layer_count, " layers, one after the other"));
+		const auto one_pass_count =
+				std::count_if(drawn_views.begin(), drawn_views.end(), [&](uint32_t p_view_index) {
+					return choose_peeling(settings, p_inputs, p_view_index) == Peeling::ONE_PASS;
+				});
+		const auto peeled_count = static_cast<ptrdiff_t>(drawn_views.size()) - one_pass_count;
+		for (const auto &[count, how] : { std::pair(peeled_count, "one after the other"),
+					 std::pair(one_pass_count, "in one pass") }) {
+			if (count > 0) {
+				r_plan.run(text(settings.layer_count, " layers ", how, ", views: ", count));
+			}
+		}
 	}
-	if (!settings.has_fins()) {
+	if (!draws_fins) {
 		r_plan.leave_out("fins", "r and t are 0: a plain shadow map");
 		return;
 	}
 	fin_casters = build_fin_casters(p_inputs, drawn_views);
 	r_plan.run(settings.method == FinMethod::GEOMETRY_SHADER ? "fins by geometry shader"
 															 : "fins by compute");
-	if (settings.outer_width_m == 0) {
+	if (settings.has_fins() && settings.outer_width_m == 0) {
 		r_plan.leave_out("outer fins", "r is 0");
 	}
-	if (has_inner_half && settings.inner_width_m == 0) {
+	if (has_inner_half && settings.has_fins() && settings.inner_width_m == 0) {
 		r_plan.leave_out("inner fins", "t is 0");
 	}
 	if (fin_casters.zero_normal_count > 0) {
@@ -111,7 +123,9 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 void ShadowPenumbraFins::before_light_view(
 		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	maps.import(r_graph);
-	add_layer_passes(r_graph, p_inputs, p_view_index, maps.get_layers(), settings.peeling);
+	add_layer_passes(r_graph, p_inputs, p_view_index, maps.get_layers(),
+			choose_peeling(settings, p_inputs, p_view_index), layer_texels);
+	drawn_hashes[p_view_index] = p_inputs.casters[p_view_index].content_hash;
 }
 
 void ShadowPenumbraFins::at_light_view(
@@ -120,7 +134,8 @@ void ShadowPenumbraFins::at_light_view(
 		return;
 	}
 	// What is a silhouette depends on the light's place alone: its views share one list.
-	if (settings.method == FinMethod::COMPUTE && !edge_lists.list && !fin_casters.casters.empty()) {
+	if (settings.method == FinMethod::COMPUTE && settings.has_fins() && !edge_lists.list &&
+			!fin_casters.casters.empty()) {
 		edge_lists = add_edge_passes(
 				r_graph, p_inputs.device, fin_casters, get_vertices_per_edge(settings));
 	}
@@ -157,22 +172,31 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 	return output;
 }
 
+glm::vec2 ShadowPenumbraFins::compute_layer_range(const Inputs &p_inputs) const {
+	uint32_t view_index = 0;
+	while ((empty_views & (1u << view_index)) != 0) {
+		++view_index; // not all are empty
+	}
+	const shader::FinsViewConstants view =
+			compute_fins_view_constants(p_inputs, view_index, settings);
+	return view.is_orthographic != 0 ? glm::vec2(0.0f, 1.0f)
+									 : view.depth_scale * glm::vec2(1.0f, 3.0f) / view.farthest_m;
+}
+
 RGTexture ShadowPenumbraFins::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	cases = {};
 	if (is_all_empty) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
 	maps.import(r_graph);
+	if (p_inputs.wants_debug_views) {
+		layer_range = compute_layer_range(p_inputs);
+	}
 	if (!draws_fins) {
 		return add_resolve_pass(r_graph, p_inputs, "hard");
 	}
 	if (p_inputs.wants_debug_views) {
 		cases = add_resolve_pass(r_graph, p_inputs, "cases");
-		const shader::FinsViewConstants view = compute_fins_view_constants(p_inputs, 0, settings);
-		// From the farthest caster (black) to a third of its distance (white); orthographic: all.
-		layer_range = view.is_orthographic != 0
-				? glm::vec2(0.0f, 1.0f)
-				: view.depth_scale * glm::vec2(1.0f, 3.0f) / view.farthest_m;
 	}
 	return add_resolve_pass(r_graph, p_inputs, "resolve");
 }
@@ -194,9 +218,9 @@ void ShadowPenumbraFins::get_debug_views(std::vector<DebugView> &r_views) const 
 
 std::vector<std::string> ShadowPenumbraFins::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "peel.frag", "layers.frag", "find_edges.comp", "list_edges.comp",
-				 "fins.vert", "fins.geom", "edge_fins.vert", "fins.frag", "resolve.comp",
-				 "cases.comp", "hard.comp" }) {
+	for (const char *name : { "peel.frag", "peel_telling.frag", "layers.frag", "find_edges.comp",
+				 "list_edges.comp", "fins.vert", "fins.geom", "edge_fins.vert", "fins.frag",
+				 "resolve.comp", "cases.comp", "hard.comp" }) {
 		files.push_back(text("shadow_penumbra_fins/", name));
 	}
 	return files;

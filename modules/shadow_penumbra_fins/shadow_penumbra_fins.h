@@ -34,7 +34,10 @@ public:
 private:
 	void plan_views(const Inputs &p_inputs, TechniquePlan &r_plan);
 	void plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan);
-	/// Of resolve.comp or cases.comp: one texel per pixel.
+	/// Depths that debug views of layers show black and white: from the farthest caster to a third
+	/// of its distance; orthographic: all.
+	glm::vec2 compute_layer_range(const Inputs &p_inputs) const;
+	/// Of resolve.comp, hard.comp or cases.comp: one texel per pixel.
 	RGTexture add_resolve_pass(
 			RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader);
 
@@ -53,6 +56,7 @@ private:
 	std::vector<uint32_t> drawn_views;
 	FinCasters fin_casters;
 	EdgeLists edge_lists;
+	RGBuffer layer_texels; // see add_layer_passes
 	RGTexture cases;
 	glm::vec2 layer_range = glm::vec2(0.0f, 1.0f); // depths that the debug views show
 };

@@ -30,7 +30,7 @@ layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 void main() {
 	const uint side_count = (HAS_OUTER ? 1u : 0u) + (HAS_INNER ? 1u : 0u);
 	const uint per_edge = FIN_SIDE_CORNER_COUNT * side_count;
-	const uint first = HAS_OUTER ? 0u : FIN_SIDE_CORNER_COUNT;
+	const uint first = HAS_OUTER ? FIN_OUTER_CORNERS : FIN_INNER_CORNERS;
 	const TopologyEdge edge =
 			edges[edge_list[push.first_in_list + uint(gl_VertexIndex) / per_edge]];
 	const uint corner_index = first + uint(gl_VertexIndex) % per_edge;
@@ -39,5 +39,5 @@ void main() {
 	gl_Position = fin_position_clip(
 			view, push, corner, positions_node[vertex].xyz, normals_node[vertex].xyz);
 	out_theta = fin_theta(corner);
-	out_is_outer = corner_index < FIN_SIDE_CORNER_COUNT ? 1u : 0u;
+	out_is_outer = corner_index < FIN_INNER_CORNERS ? 1u : 0u;
 }

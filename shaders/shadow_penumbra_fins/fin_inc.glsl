@@ -13,6 +13,8 @@ const uint FIN_CORNERS[12] = uint[12](
 	0u, 1u, 1u | FIN_OUTSIDE, 1u | FIN_OUTSIDE, FIN_OUTSIDE, 0u,
 	1u, 0u, FIN_INSIDE, FIN_INSIDE, 1u | FIN_INSIDE, 1u);
 const uint FIN_SIDE_CORNER_COUNT = 6u; // of the outer and of the inner half
+const uint FIN_OUTER_CORNERS = 0u;	   // where the halves begin
+const uint FIN_INNER_CORNERS = FIN_SIDE_CORNER_COUNT;
 
 /// theta, the transition: 1 at X', 0.5 on the edge, 0 at X''.
 float fin_theta(uint p_corner) {
@@ -26,11 +28,13 @@ vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
 	const vec3 x = p_push.view_from_node[0].xyz;
 	const vec3 y = p_push.view_from_node[1].xyz;
 	const vec3 z = p_push.view_from_node[2].xyz;
-	const vec3 n = cross(y, z) * p_normal_node.x + cross(z, x) * p_normal_node.y +
+	precise const vec3 n = cross(y, z) * p_normal_node.x + cross(z, x) * p_normal_node.y +
 			cross(x, y) * p_normal_node.z;
 	const float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
 	// By its largest part first: the square of a tiny scale's cofactors would be 0.
-	return size > 0.0 ? normalize(n / size) * p_push.normal_sign : vec3(0.0);
+	precise const vec3 scaled = n / size;
+	precise const float length2 = dot(scaled, scaled);
+	return size > 0.0 ? scaled * (p_push.normal_sign / sqrt(length2)) : vec3(0.0);
 }
 
 /// A corner in the light's clip space: LightView::compute_clip_from_view.
@@ -43,10 +47,10 @@ vec4 fin_position_clip(FinsViewConstants p_view, FinsPush p_push, uint p_corner,
 				place == FIN_OUTSIDE ? p_view.outer_width_m : -p_view.inner_width_m;
 		position += offset_m * fin_normal_view(p_push, p_normal_node);
 	}
-	const vec2 xy = position.xy / p_view.half_extent;
-	return p_view.is_orthographic != 0u
-			? vec4(xy, (p_view.view_far_m - position.z) * p_view.depth_scale, 1.0)
-			: vec4(xy, p_view.depth_scale, position.z);
+	precise const vec2 xy = position.xy / p_view.half_extent;
+	precise const float depth = (p_view.view_far_m - position.z) * p_view.depth_scale;
+	return p_view.is_orthographic != 0u ? vec4(xy, depth, 1.0)
+										: vec4(xy, p_view.depth_scale, position.z);
 }
 
 #endif

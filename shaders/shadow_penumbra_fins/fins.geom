@@ -24,15 +24,14 @@ layout(push_constant) uniform Push {
 layout(constant_id = FINS_CONSTANT_HAS_OUTER) const bool HAS_OUTER = true;
 layout(constant_id = FINS_CONSTANT_HAS_INNER) const bool HAS_INNER = true;
 
-void emit_side(uint p_b, uint p_c, bool p_is_outer) {
-	const uint first = p_is_outer ? 0u : FIN_SIDE_CORNER_COUNT;
+void emit_side(uint p_b, uint p_c, uint p_first_corner) {
 	for (uint i = 0u; i < FIN_SIDE_CORNER_COUNT; ++i) {
-		const uint corner = FIN_CORNERS[first + i];
+		const uint corner = FIN_CORNERS[p_first_corner + i];
 		const uint vertex = (corner & 1u) != 0u ? p_c : p_b;
 		gl_Position = fin_position_clip(
 				view, push, corner, in_position_node[vertex], in_normal_node[vertex]);
 		out_theta = fin_theta(corner);
-		out_is_outer = p_is_outer ? 1u : 0u;
+		out_is_outer = p_first_corner == FIN_OUTER_CORNERS ? 1u : 0u;
 		EmitVertex();
 		if (i % 3u == 2u) {
 			EndPrimitive();
@@ -56,10 +55,10 @@ void main() {
 		const uint b = 2u * edge;
 		const uint c = (b + 2u) % 6u;
 		if (HAS_OUTER) {
-			emit_side(b, c, true);
+			emit_side(b, c, FIN_OUTER_CORNERS);
 		}
 		if (HAS_INNER) {
-			emit_side(b, c, false);
+			emit_side(b, c, FIN_INNER_CORNERS);
 		}
 	}
 }

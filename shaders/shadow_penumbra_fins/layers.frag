@@ -18,7 +18,7 @@ void main() {
 	const uvec2 texel = uvec2(gl_FragCoord.xy);
 	uint slot = texel.y * WIDTH_PX + texel.x;
 	const uint end = slot + LAYER_COUNT * TEXEL_COUNT;
-	uint depth = floatBitsToUint(clamp(gl_FragCoord.z, 0.0, 1.0));
+	uint depth = floatBitsToUint(clamp(gl_FragCoord.z, 0.0, 1.0)) & 0x7fffffffu; // -0 is 0
 	// Slots only grow: what the last one hides already can be dropped without an atomic.
 	depth = depth > depth_bits[end - TEXEL_COUNT] ? depth : 0u;
 	[[dont_unroll]] while (depth != 0u && slot < end) {

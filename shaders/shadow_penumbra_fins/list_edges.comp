@@ -21,33 +21,38 @@ layout(push_constant) uniform Push {
 	EdgesPush push;
 };
 
+shared uint edges_before_block;
+
 void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + FINS_EDGES_PER_WORD - 1u) / FINS_EDGES_PER_WORD;
+	// A work group is a block: together it adds up the blocks before.
+	const uint block = gl_WorkGroupID.x;
+	if (gl_LocalInvocationID.x == 0u) {
+		edges_before_block = 0u;
+	}
+	barrier();
+	uint count = 0u;
+	for (uint i = gl_LocalInvocationID.x; i < block; i += FINS_WORDS_PER_BLOCK) {
+		count += block_counts[push.first_block + i];
+	}
+	if (count != 0u) {
+		atomicAdd(edges_before_block, count);
+	}
+	barrier();
 	if (word_index >= word_count) {
 		return;
 	}
-	uint bits = edge_words[push.first_word + word_index];
-	const bool is_last = word_index + 1u == word_count;
-	if (bits == 0u && !is_last) {
-		return;
-	}
-	// Edges before this word: those of the whole blocks, then of the words in its own block.
-	const uint block = word_index / FINS_WORDS_PER_BLOCK;
-	uint place = 0u;
-	for (uint i = 0u; i < block; ++i) {
-		place += block_counts[push.first_block + i];
-	}
+	uint place = edges_before_block;
 	for (uint i = block * FINS_WORDS_PER_BLOCK; i < word_index; ++i) {
 		place += uint(bitCount(edge_words[push.first_word + i]));
 	}
-	while (bits != 0u) {
-		const int bit = findLSB(bits);
-		edge_list[push.first_in_list + place] = word_index * FINS_EDGES_PER_WORD + uint(bit);
+	for (uint bits = edge_words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
+		const uint bit = uint(findLSB(bits));
+		edge_list[push.first_in_list + place] = word_index * FINS_EDGES_PER_WORD + bit;
 		++place;
-		bits &= bits - 1u;
 	}
-	if (is_last) {
+	if (word_index + 1u == word_count) {
 		draws[push.draw_index] = FinsDraw(place * push.vertices_per_edge, 1u, 0u, 0u);
 	}
 }

@@ -27,7 +27,7 @@ float penumbra_transition(float p_theta, bool p_is_outer, int p_curve, bool p_st
 
 /// Visibility on the silhouette itself, where the inner and the outer half meet.
 float penumbra_border(int p_curve) {
-	return penumbra_transition(0.5, true, p_curve, false);
+	return p_curve == FINS_CURVE_LINEAR ? 0.5 : PENUMBRA_INNER_SHARE;
 }
 
 /// Depth of a light view (1 near .. 0 far) to the distance along the view, metres.

@@ -96,7 +96,8 @@ FinsResult resolve_point(LightViewConstants p_view, MapPoint p_point) {
 	}
 	if (is_undecided) {
 		return around.has_outer && around.has_inner ? FinsResult(border, CASE_INNER_PENUMBRA)
-													: FinsResult(0.0, CASE_UMBRA_NO_FIN);
+				: is_before_layer_3					? FinsResult(0.0, CASE_UMBRA_NO_FIN)
+													: FinsResult(0.0, CASE_UMBRA_BEHIND);
 	}
 	return is_before_layer_3 ? FinsResult(color.r, CASE_INNER_PENUMBRA)
 							 : FinsResult(0.0, CASE_UMBRA_BEHIND);

@@ -8,7 +8,7 @@
 #define FINS_EDGES_PER_WORD 32
 #define FINS_WORDS_PER_BLOCK 64
 
-// peel.frag and layers.frag
+// peel.frag, peel_telling.frag and layers.frag
 #define PEEL_BINDING_NEARER 0
 #define PEEL_BINDING_FOUND 1
 #define LAYERS_BINDING_TEXELS 0
@@ -46,7 +46,6 @@
 #define FINS_CONSTANT_STARTS_DARK 4 // outer halves begin at 0: there are no inner ones
 #define LAYERS_CONSTANT_WIDTH_PX 5
 #define LAYERS_CONSTANT_TEXEL_COUNT 6
-#define PEEL_CONSTANT_TELLS_FOUND 7
 #define FINS_CURVE_SINE 0
 #define FINS_CURVE_LINEAR 1
 

@@ -32,7 +32,8 @@ PAPER_PEELING = {2000: 1.92, 7700: 2.12, 30000: 2.19, 69000: 2.86, 97000: 2.72}
 PAPER_FRAME = {30000: 1.45, 7700: 1.38, 46000: 1.46}
 
 SIZE_PX = 800  # of the picture and of the maps, as in the paper
-LIGHT = ("light_size=0.4", "penumbra_outer_width=0.1", "penumbra_inner_width=0.1")
+WIDTHS_M = (0.1, 0.1)  # r and t
+LIGHT = ("light_size=0.4", "penumbra_outer_width=%g" % WIDTHS_M[0], "penumbra_inner_width=%g" % WIDTHS_M[1])
 SEGMENTS_PER_SIDE = 500 / 30  # the study's knot
 
 # Neither way of making the fins depends on how the layers were found: two runs measure two of each.
@@ -45,8 +46,7 @@ VARIANTS = {
 FRAME_VARIANTS = ("outer", "auto")
 
 SHADOW_MAP = ("layer 1 view 0",)
-# Passes of one name are one median in the file of times: the flag is cleared before either peel.
-PEELS = ("layer 1 view 0", "clear layer found", "layer 2 view 0", "clear layer found", "layer 3 view 0")
+PEELS = ("layer 1 view 0", "layer 2 view 0", "layer 3 view 0")
 ONE_PASS = ("clear layers view 0", "layers view 0", "copy layers view 0")
 GEOMETRY_SHADER = ("fins view 0",)
 COMPUTE = ("clear edges", "find edges", "list edges", "fins view 0")
@@ -57,7 +57,7 @@ def make_knot(triangle_count):
     quad_count = (triangle_count - len(make_box(GROUND_HALF).triangles)) / 2
     around_count = round(math.sqrt(quad_count / SEGMENTS_PER_SIDE))
     along_count = round(quad_count / around_count)
-    document = make_document()
+    document = make_document(WIDTHS_M)
     add_ground(document)
     material = document.add_material("Amber", AMBER, roughness=0.4)
     document.add_object("Knot", make_torus_knot(0.36, 0.16, along_count, around_count), material, (0.0, 1.4, 0.0))

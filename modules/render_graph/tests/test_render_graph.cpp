@@ -44,8 +44,8 @@ void add_copy(RenderGraph &r_graph, RGTexture p_source, RGTexture p_target) {
 			});
 }
 
-/// The first texel, read on the CPU; keeps everything before it alive.
-void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value) {
+/// A layer's first texel, read on the CPU; keeps everything before it alive.
+void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value, uint32_t p_layer = 0) {
 	const glm::uvec2 size_px = r_graph.get_desc(p_texture).size_px;
 	const RGBuffer buffer = r_graph.create_buffer({ "readback", 4ull * size_px.x * size_px.y,
 			BufferUsage::COPY_TARGET, MemoryKind::READBACK });
@@ -54,7 +54,7 @@ void add_read(RenderGraph &r_graph, RGTexture p_texture, float &r_value) {
 			.writes(buffer, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
 				p_context.commands.copy_texture_to_buffer(
-						p_context.get(p_texture), p_context.get(buffer));
+						p_context.get(p_texture), p_context.get(buffer), p_layer);
 			});
 	r_graph.add_pass("host read")
 			.reads(buffer, Access::HOST_READ)
@@ -143,6 +143,28 @@ TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame t
 	add_read(graph, copy, value);
 	graph.execute(RenderGraph::Mode::WAIT);
 	CHECK(value == 3.0f);
+}
+
+TEST_CASE("[GPU][RenderGraph] drawing one layer of an array leaves the other layers as they were") {
+	GraphFixture fixture;
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	TextureDesc desc = make_desc("array");
+	desc.layer_count = 3;
+	desc.usage = desc.usage | TextureUsage::COLOR_ATTACHMENT;
+	const RGTexture array = graph.create_texture(desc);
+	for (uint32_t layer = 0; layer < 3; ++layer) {
+		graph.add_pass("clear a layer")
+				.color(array, LoadOp::CLEAR, glm::vec4(1.0f + float(layer)), layer)
+				.execute([](PassContext &) {});
+	}
+	float values[3] = {};
+	for (uint32_t layer = 0; layer < 3; ++layer) {
+		add_read(graph, array, values[layer], layer);
+	}
+	graph.execute(RenderGraph::Mode::WAIT);
+	for (uint32_t layer = 0; layer < 3; ++layer) {
+		CHECK(values[layer] == 1.0f + float(layer));
+	}
 }
 
 TEST_CASE("[GPU][RenderGraph] passes have names and times, and wall time when run one by one") {

@@ -111,8 +111,10 @@ struct RenderFixture {
 	std::unique_ptr<Renderer> renderer;
 
 	/// p_device: as DeviceOptions::device.
-	explicit RenderFixture(const std::string &p_device = "") {
+	explicit RenderFixture(
+			const std::string &p_device = "", const DeviceOptions::Without &p_without = {}) {
 		DeviceOptions options;
+		options.without = p_without;
 		options.validation = true;
 		options.device = p_device;
 		device = RenderingDevice::create(options);

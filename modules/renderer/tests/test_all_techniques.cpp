@@ -232,6 +232,14 @@ TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
 		request.technique_override = p_info.id;
 		request.wants_image = true;
 		CHECK(fixture.renderer->render(request).image.size() == 16 * 16 * 4);
+		// One of them answers as it does alone.
+		request.wants_image = false;
+		request.mask_light = "Light 40";
+		request.wants_mask = true;
+		const RenderResult among = fixture.renderer->render(request);
+		CHECK(is_valid_mask(among));
+		RenderFixture alone;
+		CHECK(alone.renderer->render(request).visibility == among.visibility);
 	});
 }
 

@@ -80,7 +80,7 @@ TEST_CASE(
 }
 
 TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses their pipelines") {
-	DeviceFixture fixture({ .without_geometry_shader = true });
+	DeviceFixture fixture({ .without = { .geometry_shader = true } });
 	CHECK_FALSE(fixture.device->get_features().geometry_shader);
 	const std::string error = catch_error([&] {
 		fixture.device->get_raster_pipeline({ .name = "fins",

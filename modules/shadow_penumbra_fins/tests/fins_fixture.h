@@ -11,6 +11,8 @@ namespace gnomon {
 
 /// Runs the passes of this module by themselves and reads what they leave.
 struct FinsFixture : RenderFixture {
+	using RenderFixture::RenderFixture;
+
 	MeshStore meshes{ *device };
 	TransientPool transients{ *device };
 
@@ -99,8 +101,9 @@ struct FinsFixture : RenderFixture {
 								TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED |
 										TextureUsage::COPY_TARGET | TextureUsage::COPY_SOURCE }));
 			}
+			RGBuffer texels;
 			for (uint32_t view = 0; view < view_count; ++view) {
-				add_layer_passes(r_graph, p_inputs, view, layers, p_peeling);
+				add_layer_passes(r_graph, p_inputs, view, layers, p_peeling, texels);
 				for (uint32_t layer = 0; layer < p_layer_count; ++layer) {
 					read_back(r_graph, layers[layer], view, bytes[view][layer]);
 				}
@@ -131,7 +134,8 @@ struct FinsFixture : RenderFixture {
 				usage | TextureUsage::DEPTH_ATTACHMENT };
 			const std::vector<RGTexture> layers = { r_graph.create_texture(layer_desc),
 				r_graph.create_texture(layer_desc) };
-			add_layer_passes(r_graph, p_inputs, 0, layers, Peeling::PASSES);
+			RGBuffer texels;
+			add_layer_passes(r_graph, p_inputs, 0, layers, Peeling::PASSES, texels);
 			const FinTargets targets = { r_graph.create_texture(
 												 { "color", Format::RG16_SFLOAT, size_px, 1,
 														 usage | TextureUsage::COLOR_ATTACHMENT }),

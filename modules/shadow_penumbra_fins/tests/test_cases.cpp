@@ -215,45 +215,6 @@ TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] maps are kept while nothing moves, and drawn anew for another r") {
-	RenderFixture fixture;
-	SmallScene scene = make_scene(LightType::OMNI);
-	const RenderResult first = fixture.render_mask(scene, "penumbra_fins");
-	const RenderResult second = fixture.render_mask(scene, "penumbra_fins");
-	CHECK(first.visibility == second.visibility);
-	const auto count_drawn = [](const RenderResult &p_result) {
-		return std::count_if(
-				p_result.timings.begin(), p_result.timings.end(), [](const PassTiming &p_timing) {
-					return p_timing.name.find("fins view") != std::string::npos;
-				});
-	};
-	CHECK(count_drawn(first) > 0);
-	CHECK(count_drawn(second) == 0);
-	scene.light->properties["penumbra_outer_width"] = 0.1;
-	const RenderResult third = fixture.render_mask(scene, "penumbra_fins");
-	CHECK(count_drawn(third) == count_drawn(first));
-	CHECK(third.visibility != first.visibility);
-}
-
-TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reach into it") {
-	// The caster lies just beyond the border between two views; without the margin its fins would
-	// end there in a straight line.
-	RenderFixture fixture;
-	SmallScene scene(LightType::OMNI);
-	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(1.72, 2.0, 0));
-	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 3.2, 0));
-	scene.light->properties["penumbra_outer_width"] = 0.5;
-	scene.light->properties["penumbra_inner_width"] = 0.0;
-	scene.camera->parent_from_node = look_at({ 3.0, 5.0, 0.1 }, { 3.0, 0, 0 });
-	const RenderResult omni = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(96));
-	// The same light turned by 45 degrees has its borders elsewhere.
-	scene.light->parent_from_node =
-			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
-	const RenderResult turned = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(96));
-	CHECK(compute_mask_difference(omni, turned) < 0.01);
-	CHECK(is_valid_mask(omni));
-}
-
 TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside them stay valid") {
 	RenderFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {

@@ -266,3 +266,39 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 		CHECK((depth >= 0.0f && depth <= 1.0f));
 	}
 }
+
+TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditions or depth clamp "
+		  "draw the same maps") {
+	FinsFixture able;
+	const Mesh torus = test_meshes::make_torus(60, 40);
+	const SmallScene scene = make_scene(share("torus", torus));
+	const FinsFixture::Frame frame = able.make_frame(scene, 128, 0.2f);
+	const auto expected = able.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
+	const auto expected_layers = able.find_layers(frame, 3, Peeling::PASSES);
+	const SmallScene sheet_scene = make_scene(share("quad", test_meshes::make_quad()));
+	const auto expected_sheet =
+			able.find_layers(able.make_frame(sheet_scene, 64), 3, Peeling::PASSES);
+	for (int lacking = 0; lacking < 4; ++lacking) {
+		CAPTURE(lacking);
+		DeviceOptions::Without without;
+		without.geometry_shader = lacking == 0;
+		without.fragment_stores = lacking == 1;
+		without.conditional_rendering = lacking == 2;
+		without.depth_clamp = lacking == 3;
+		FinsFixture lacks("", without);
+		const auto maps = lacks.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
+		CHECK(maps.color == expected.color);
+		CHECK(maps.depth == expected.depth);
+		CHECK(lacks.find_layers(frame, 3, Peeling::PASSES) == expected_layers);
+		CHECK(lacks.find_layers(lacks.make_frame(sheet_scene, 64), 3, Peeling::PASSES) ==
+				expected_sheet);
+		// A wish for one pass is granted only where it can be.
+		FinsSettings wish = make_settings(0.2f, 0.1f, FinMethod::COMPUTE);
+		wish.map_size_px = 128;
+		wish.peeling = Peeling::ONE_PASS;
+		lacks.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
+			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) ==
+					without.fragment_stores);
+		});
+	}
+}

@@ -1,0 +1,146 @@
+// What the fins keep from frame to frame, and what makes them draw anew.
+
+#include "modules/core/error.h"
+#include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+
+using namespace gnomon;
+
+namespace {
+
+RenderResult render(RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep,
+		const std::string &p_technique = "penumbra_fins") {
+	RenderRequest request;
+	request.scene = p_scene.snap();
+	request.size_px = glm::uvec2(64);
+	request.technique_override = p_technique;
+	request.mask_light = p_scene.light->name;
+	request.wants_mask = true;
+	request.may_keep = p_may_keep;
+	return r_fixture.renderer->render(request);
+}
+
+size_t count_drawn_views(const RenderResult &p_result) {
+	return static_cast<size_t>(std::count_if(
+			p_result.timings.begin(), p_result.timings.end(), [](const PassTiming &p_timing) {
+				return p_timing.name.find("fins view") != std::string::npos;
+			}));
+}
+
+} // namespace
+
+TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fresh ones give") {
+	RenderFixture keeping;
+	RenderFixture fresh;
+	SmallScene scene(LightType::OMNI);
+	scene.light->properties["penumbra_outer_width"] = 0.2;
+	scene.light->properties["penumbra_inner_width"] = 0.15;
+	scene.light->properties["penumbra_fins_map_size"] = int64_t(256);
+	const auto set = [&](const char *p_name, PropertyValue p_value) {
+		return [&scene, p_name, p_value] { scene.light->properties[p_name] = p_value; };
+	};
+	struct Step {
+		const char *what;
+		std::function<void()> change;
+		bool draws_all; // every view that has casters; else none
+	};
+	const std::vector<Step> steps = {
+		{ "first frame", [] {}, true },
+		{ "nothing", [] {}, false },
+		{ "r", set("penumbra_outer_width", 0.1), true },
+		{ "t", set("penumbra_inner_width", 0.1), true },
+		{ "beta", set("penumbra_fins_beta", 0.01), true },
+		{ "curve", set("penumbra_fins_curve", std::string("linear")), true },
+		{ "layers", set("penumbra_fins_layers", int64_t(2)), true },
+		{ "map size", set("penumbra_fins_map_size", int64_t(128)), true },
+		{ "way to peel", set("penumbra_fins_peeling", std::string("one_pass")), false },
+		{ "way to make fins", set("penumbra_fins_method", std::string("geometry_shader")), false },
+		{ "light's place", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
+		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
+		{ "no t", set("penumbra_inner_width", 0.0), true },
+		{ "no r either", set("penumbra_outer_width", 0.0), false }, // draws layers, no fins
+		{ "r and t again",
+				[&] {
+					scene.light->properties["penumbra_outer_width"] = 0.2;
+					scene.light->properties["penumbra_inner_width"] = 0.2;
+				},
+				true },
+		{ "no casters", [&] { scene.box->casts_shadow = scene.ground->casts_shadow = false; },
+				false },
+		{ "casters again", [&] { scene.box->casts_shadow = scene.ground->casts_shadow = true; },
+				true },
+	};
+	size_t full_count = 0;
+	for (const Step &step : steps) {
+		CAPTURE(step.what);
+		step.change();
+		const RenderResult kept = render(keeping, scene, true);
+		const RenderResult anew = render(fresh, scene, false);
+		CHECK(kept.visibility == anew.visibility);
+		full_count = std::max(full_count, count_drawn_views(kept));
+		CHECK((count_drawn_views(kept) > 0) == step.draws_all);
+		CHECK(kept.visibility == render(keeping, scene, true).visibility);
+	}
+	// A caster that moves within two views draws these two alone.
+	scene.box->parent_from_node[3].x += 0.05;
+	const RenderResult moved = render(keeping, scene, true);
+	CHECK(moved.visibility == render(fresh, scene, false).visibility);
+	CHECK(count_drawn_views(moved) > 0);
+	CHECK(count_drawn_views(moved) < full_count);
+}
+
+TEST_CASE("[GPU][PenumbraFins] another technique and back draws the maps anew") {
+	RenderFixture fixture;
+	const SmallScene scene;
+	const RenderResult first = render(fixture, scene, true);
+	render(fixture, scene, true, "outer_fins");
+	const RenderResult again = render(fixture, scene, true);
+	CHECK(again.visibility == first.visibility);
+	CHECK(count_drawn_views(again) == 1);
+}
+
+TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing that is kept") {
+	RenderFixture fixture;
+	const SmallScene scene;
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(64);
+	request.technique_override = "penumbra_fins";
+	request.wants_image = true;
+	request.debug_view = "no such view"; // refused after the technique has planned its frame
+	CHECK_THROWS_AS(fixture.renderer->render(request), Error);
+	RenderFixture fresh;
+	CHECK(render(fixture, scene, true).visibility == render(fresh, scene, true).visibility);
+}
+
+TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reach into it") {
+	// The box stands outside the view downwards; its outer fins reach into it and darken the
+	// ground.
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(2.4, 2.0, 0));
+	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 3.2, 0));
+	scene.light->properties["penumbra_outer_width"] = 1.0;
+	scene.light->properties["penumbra_inner_width"] = 0.0;
+	scene.camera->parent_from_node = look_at({ 2.0, 6.0, 0.1 }, { 2.0, 0, 0 });
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	const uint32_t down_view = 3;
+	const InstanceSnapshot &box = snapshot->instances[1];
+	CHECK_FALSE(build_light_views(snapshot->lights[0], *snapshot, 256, 2)[down_view].may_see(
+			box.bounds_world));
+	CHECK(build_light_views(snapshot->lights[0], *snapshot, 256, 2, 1.0f)[down_view].may_see(
+			box.bounds_world));
+	const RenderResult omni = render(fixture, scene, true);
+	// The same light turned by 45 degrees has its borders elsewhere.
+	scene.light->parent_from_node =
+			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
+	const RenderResult turned = render(fixture, scene, true);
+	CHECK(compute_mask_difference(omni, turned) < 0.001);
+	// And the fins do darken what the downward view holds, within 45 degrees of the light's foot.
+	scene.light->properties["penumbra_outer_width"] = 0.0;
+	CHECK(compute_mask_difference(render(fixture, scene, true), omni) > 0.004);
+}
