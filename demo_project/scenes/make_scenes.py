@@ -59,7 +59,7 @@ def add_ground(document):
 
 
 def make_light_extras(size_name, size, widths_m):
-    """Size and widths (r, t) of a light's shadow; the best widths that tests/benchmark/search_fins.py found."""
+    """Size and widths (r, t) of a light's shadow; widths near the best that tests/benchmark/search_fins.py found."""
     return {
         size_name: size,
         "penumbra_outer_width": widths_m[0],
