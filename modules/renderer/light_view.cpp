@@ -141,6 +141,16 @@ bool LightView::may_see(const Bounds &p_bounds_world) const {
 			[](int p_count) { return p_count == 8; });
 }
 
+glm::dvec2 LightView::compute_distance_range_m(const Bounds &p_bounds_world) const {
+	glm::dvec2 range(view_from_world[3].z); // the view's third row tells which corners
+	for (int axis = 0; axis < 3; ++axis) {
+		const double low = view_from_world[axis].z * p_bounds_world.minimum[axis];
+		const double high = view_from_world[axis].z * p_bounds_world.maximum[axis];
+		range += glm::dvec2(std::min(low, high), std::max(low, high));
+	}
+	return range;
+}
+
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
 	if (p_light.type == LightType::DIRECTIONAL) {

@@ -33,6 +33,9 @@ struct LightView {
 	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
 	/// behind it.
 	bool may_see(const Bounds &p_bounds_world) const;
+	/// Least and greatest distance of the box along the view, metres; negative behind the view. Of
+	/// the whole box, wherever it lies.
+	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
 	bool operator==(const LightView &) const = default;
 };
 

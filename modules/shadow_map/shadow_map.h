@@ -1,7 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
-#include "modules/rendering_device/rendering_device.h"
+#include "modules/renderer/kept_depth_map.h"
 
 namespace gnomon {
 
@@ -21,14 +20,7 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 private:
-	RGTexture import_map(RenderGraph &r_graph);
-
-	OwnedTexture map; // one layer per view
-	TextureDesc map_desc;
-	std::vector<uint64_t> drawn_hashes; // per view; 0 = its layer holds nothing of use
-	uint32_t empty_views = 0;			// bits, this frame
-	bool has_content = false;			// of the map, before this frame
-	RGTexture frame_map;				// this frame's handle of map
+	KeptDepthMap maps;
 };
 
 } // namespace gnomon

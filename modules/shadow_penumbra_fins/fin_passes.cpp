@@ -83,14 +83,7 @@ shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inp
 	double farthest_m = 0;
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
 		const Bounds &bounds = p_inputs.scene.instances[index].bounds_world;
-		// The corner farthest along the view: the view's third row picks it.
-		const glm::dmat4 &v = view.view_from_world;
-		double distance_m = v[3].z;
-		for (int axis = 0; axis < 3; ++axis) {
-			distance_m +=
-					std::max(v[axis].z * bounds.minimum[axis], v[axis].z * bounds.maximum[axis]);
-		}
-		farthest_m = std::max(farthest_m, distance_m);
+		farthest_m = std::max(farthest_m, view.compute_distance_range_m(bounds).y);
 	}
 	farthest_m += std::max(p_settings.outer_width_m, p_settings.inner_width_m);
 	const float nearest_limit_m = static_cast<float>(farthest_m) * NEAREST_PER_FARTHEST;

@@ -11,12 +11,9 @@ struct MapPoint {
 	vec2 w_slope; // dw/dx, dw/dy on the receiver's plane: exact, since w is linear on a plane
 };
 
-/// Index of the view that holds a position, by the largest component in the light's own axes.
-uint find_view(LightViewsConstants p_views, vec3 p_position) {
-	if (p_views.view_count <= 1u) {
-		return 0u;
-	}
-	const vec3 r = (p_views.light_from_camera_relative * vec4(p_position, 1.0)).xyz;
+/// Which of six views holds a direction, in the light's own axes: by its largest component.
+uint find_view_of_direction(vec3 p_direction_light) {
+	const vec3 r = p_direction_light;
 	const vec3 size = abs(r);
 	if (size.x >= size.y && size.x >= size.z) {
 		return r.x >= 0.0 ? 0u : 1u;
@@ -25,6 +22,14 @@ uint find_view(LightViewsConstants p_views, vec3 p_position) {
 		return r.y >= 0.0 ? 2u : 3u;
 	}
 	return r.z >= 0.0 ? 4u : 5u;
+}
+
+/// Index of the view that holds a position.
+uint find_view(LightViewsConstants p_views, vec3 p_position) {
+	return p_views.view_count <= 1u
+			? 0u
+			: find_view_of_direction(
+					  (p_views.light_from_camera_relative * vec4(p_position, 1.0)).xyz);
 }
 
 MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_normal) {

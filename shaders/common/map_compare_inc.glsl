@@ -15,6 +15,19 @@ const float MAX_STRETCH = 40.0;
 // Steeper planes leave the map's resolution: w changes by more than this part within the offset.
 const float MAX_RELATIVE_CHANGE = 0.25;
 
+/// How far above its plane a receiver must be hidden to count, in w: what the map cannot resolve.
+float hiding_margin(LightViewConstants p_view, MapPoint p_point) {
+	const vec2 extent = texel_extent(p_view);
+	const float scale = p_view.is_orthographic != 0u ? 1.0 / p_view.depth_scale : p_point.w;
+	const float limit = MAX_RELATIVE_CHANGE * scale;
+	const float snap = min(dot(abs(p_point.w_slope), extent) * SNAP_TEXELS, limit);
+	const float w_unit = p_view.is_orthographic != 0u ? 1.0 : p_point.w;
+	// Grazing light stretches a texel over the surface, and the rise over it once more.
+	const float steepness = length(p_point.w_slope) / w_unit;
+	const float stretch = min(1.0 + steepness * steepness, MAX_STRETCH);
+	return snap + CURVATURE_TEXELS * stretch * max(extent.x, extent.y) * w_unit;
+}
+
 /// The w that a caster in the texel must exceed to hide the receiver: the receiver's own plane at
 /// the texel's centre (receiver-plane bias), plus what the map cannot resolve.
 float hiding_w(LightViewConstants p_view, MapPoint p_point, ivec2 p_texel) {
@@ -23,13 +36,7 @@ float hiding_w(LightViewConstants p_view, MapPoint p_point, ivec2 p_texel) {
 	const float scale = p_view.is_orthographic != 0u ? 1.0 / p_view.depth_scale : p_point.w;
 	const float limit = MAX_RELATIVE_CHANGE * scale;
 	const float change = clamp(dot(p_point.w_slope, centre - p_point.xy), -limit, limit);
-	const float snap = min(dot(abs(p_point.w_slope), extent) * SNAP_TEXELS, limit);
-	const float w_unit = p_view.is_orthographic != 0u ? 1.0 : p_point.w;
-	// Grazing light stretches a texel over the surface, and the rise over it once more.
-	const float steepness = length(p_point.w_slope) / w_unit;
-	const float stretch = min(1.0 + steepness * steepness, MAX_STRETCH);
-	const float curvature = CURVATURE_TEXELS * stretch * max(extent.x, extent.y) * w_unit;
-	return p_point.w + change + snap + curvature;
+	return p_point.w + change + hiding_margin(p_view, p_point);
 }
 
 /// 1 lit, 0 hidden. p_stored: the map's depth at the texel.

@@ -18,6 +18,16 @@ layout(set = 0, binding = MAP_RESOLVE_BINDING_DEPTH) uniform texture2D depth_tex
 layout(set = 0, binding = MAP_RESOLVE_BINDING_NORMAL) uniform utexture2D normal_texture;
 layout(set = 0, binding = MAP_RESOLVE_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 
+/// The pixel of this invocation. Rows of work groups are dealt out in two hands, even ones first:
+/// drivers that give each core one half of a dispatch then give it every other row, and no core waits
+/// where one half of the picture costs more.
+ivec2 find_pixel() {
+	const uint even_count = (gl_NumWorkGroups.y + 1u) / 2u;
+	const uint group = gl_WorkGroupID.y;
+	const uint row = group < even_count ? 2u * group : 2u * (group - even_count) + 1u;
+	return ivec2(gl_GlobalInvocationID.x, row * gl_WorkGroupSize.y + gl_LocalInvocationID.y);
+}
+
 bool is_in_picture(ivec2 p_pixel) {
 	return all(lessThan(p_pixel, ivec2(frame.size_px)));
 }

@@ -1,0 +1,21 @@
+#include "modules/shadow_pcss/register_types.h"
+
+#include "modules/renderer/shadow_registry.h"
+#include "modules/shadow_pcss/shadow_pcss.h"
+
+namespace gnomon {
+
+void initialize_shadow_pcss_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		ShadowRegistry::add({ "pcss", "Percentage-closer soft shadows", "Fernando 2005",
+				[] { return std::make_unique<ShadowPcss>(); } });
+	}
+}
+
+void uninitialize_shadow_pcss_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		ShadowRegistry::remove("pcss");
+	}
+}
+
+} // namespace gnomon

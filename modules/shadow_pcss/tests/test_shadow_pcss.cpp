@@ -1,0 +1,81 @@
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace gnomon;
+
+namespace {
+
+double compute_mean(const RenderResult &p_result) {
+	double sum = 0;
+	for (float value : p_result.visibility) {
+		sum += value;
+	}
+	return sum / double(count_receivers(p_result));
+}
+
+size_t count_shades(const RenderResult &p_result) {
+	return static_cast<size_t>(std::count_if(p_result.visibility.begin(), p_result.visibility.end(),
+			[](float p_value) { return p_value > 0.01f && p_value < 0.99f; }));
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Pcss] a light without size has a hard shadow, a larger one a wider penumbra") {
+	RenderFixture fixture;
+	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		SmallScene scene(type);
+		size_t before = 0;
+		for (double size : { 0.0, 1.0, 3.0 }) {
+			scene.light->properties["light_size"] = 0.15 * size;
+			scene.light->properties["light_angular_distance"] = 4.0 * size;
+			const RenderResult mask = fixture.render_mask(scene, "pcss");
+			const size_t shades = count_shades(mask);
+			CHECK((size == 0.0 ? shades < 20 : shades > before + 20));
+			before = shades;
+		}
+	}
+}
+
+TEST_CASE("[GPU][Pcss] more taps change the noise, not the mean") {
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.light->properties["light_size"] = 0.4;
+	const auto render = [&](int64_t p_tap_count) {
+		scene.light->properties["pcss_taps"] = p_tap_count;
+		return fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	};
+	const RenderResult many = render(256);
+	const double few_difference = compute_mask_difference(render(8), many);
+	const double more_difference = compute_mask_difference(render(64), many);
+	CHECK(more_difference < 0.6 * few_difference);
+	CHECK(compute_mean(render(16)) == doctest::Approx(compute_mean(many)).epsilon(0.01));
+}
+
+TEST_CASE("[GPU][Pcss] an omni light's penumbra does not end at the border of a view") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	scene.light->properties["light_size"] = 0.5;
+	scene.light->properties["pcss_taps"] = int64_t(128);
+	// Borders of the views pass through the penumbra.
+	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.6, 2.9, 0.1));
+	const RenderResult mask = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	scene.light->parent_from_node =
+			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
+	const RenderResult turned = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	CHECK(count_shades(mask) > 100);
+	CHECK(compute_mask_difference(mask, turned) < 0.01);
+}
+
+TEST_CASE("[GPU][Pcss] a static scene's second frame draws no map, another tap count neither") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult first = fixture.render_mask(scene, "pcss");
+	scene.light->properties["pcss_taps"] = int64_t(16);
+	const RenderResult second = fixture.render_mask(scene, "pcss");
+	CHECK_FALSE(first.plan.is_left_out("Light", "light view 0"));
+	CHECK(second.plan.is_left_out("Light", "light view 0"));
+	CHECK(first.visibility != second.visibility);
+}

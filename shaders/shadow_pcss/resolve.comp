@@ -1,0 +1,29 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "common/pcss_inc.glsl"
+#include "shadow_pcss/shadow_pcss_shared.h"
+
+layout(set = 0, binding = SHADOW_PCSS_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = SHADOW_PCSS_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(push_constant) uniform Push {
+	ShadowPcssPush push;
+};
+
+void main() {
+	const ivec2 pixel = find_pixel();
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	float visibility = 0.0;
+	if (is_receiver_pixel(pixel)) {
+		uint view;
+		const MapPoint point = load_map_point(pixel, view);
+		visibility = point.w <= 0.0
+				? 1.0
+				: pcss(map_texture, push.empty_views, light_views.views[view], point,
+						  push.disc_radius, push.nearest_w, push.tap_count,
+						  interleaved_noise(pixel) * TWO_PI);
+	}
+	imageStore(mask_image, pixel, vec4(visibility));
+}

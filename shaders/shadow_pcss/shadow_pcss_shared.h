@@ -1,0 +1,19 @@
+#ifndef SHADOW_PCSS_SHARED_H
+#define SHADOW_PCSS_SHARED_H
+#include "shared/map_resolve_shared.h"
+#include "shared/shared_begin.h"
+
+#define SHADOW_PCSS_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
+#define SHADOW_PCSS_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 1)
+
+/// Push constants of resolve.comp.
+struct SHARED_ALIGN ShadowPcssPush {
+	uint empty_views; // bit i: view i has no casters, its layer was not drawn
+	uint tap_count;	  // of each of both steps
+	float disc_radius; // R in metres; directional: tangent of half the angular distance
+	float nearest_w;   // no caster has a greater w, see LightViewConstants
+};
+SHARED_SIZE(ShadowPcssPush, 16);
+
+#include "shared/shared_end.h"
+#endif
