@@ -16,7 +16,7 @@ GltfContainer make_rich_container() {
 	const Json lamp = make_lamp();
 	json["extensions"] = lamp["extensions"];
 	json["extensions"]["KHR_lights_punctual"]["lights"][0]["extras"] = { { "light_size", 0.2 },
-		{ "pcss_taps", 16 } };
+		{ "later_taps", 16 } };
 	json["nodes"].push_back(lamp["nodes"][0]);
 	json["nodes"].push_back({ { "camera", 0 }, { "translation", { 1, 2, 3 } } });
 	json["nodes"][0]["children"] = { 1, 2 };

@@ -181,7 +181,7 @@ TEST_CASE("[GltfLights] a light of unknown type is no light; a reference to none
 }
 
 TEST_CASE("[GltfLights] technique properties are checked when known and kept when not") {
-	static const PropertyInfo TAPS = { "pcss_taps", PropertyType::INT, int64_t(16), "1,64,1",
+	static const PropertyInfo TAPS = { "later_taps", PropertyType::INT, int64_t(16), "1,64,1",
 		"Taps." };
 	GltfLoadOptions options;
 	options.find_technique_property = [](std::string_view p_name) {
@@ -191,20 +191,20 @@ TEST_CASE("[GltfLights] technique properties are checked when known and kept whe
 	GltfTestLog log;
 	Json json = make_lamp();
 	get_light(json)["extras"] =
-			Json::parse(R"({"pcss_taps": 8.0, "later_bias": 0.5, "later_on": true,
+			Json::parse(R"({"later_taps": 8.0, "later_bias": 0.5, "later_on": true,
 		"later_mode": "soft", "later_count": 3, "later_list": [1, 2]})");
 	const auto scene = folder.load(json, options);
 	const PropertyValues &values = scene->find_nodes<Light3D>().at(0)->properties;
 	CHECK(values ==
-			PropertyValues{ { "pcss_taps", int64_t(8) }, { "later_bias", 0.5 },
+			PropertyValues{ { "later_taps", int64_t(8) }, { "later_bias", 0.5 },
 					{ "later_on", true }, { "later_mode", std::string("soft") },
 					{ "later_count", int64_t(3) } });
 	CHECK(log.errors.empty());
-	get_light(json)["extras"] = { { "pcss_taps", 65 } };
-	json["nodes"][0]["extras"] = { { "pcss_taps", 4 } }; // the first present decides, good or bad
+	get_light(json)["extras"] = { { "later_taps", 65 } };
+	json["nodes"][0]["extras"] = { { "later_taps", 4 } }; // the first present decides, good or bad
 	CHECK(folder.load(json, options)->find_nodes<Light3D>().at(0)->properties.empty());
 	CHECK(GltfTestLog::contains(
-			log.errors, "lights[0].extras.pcss_taps is 65, must be 1..64; 16 is used"));
+			log.errors, "lights[0].extras.later_taps is 65, must be 1..64; 16 is used"));
 }
 
 TEST_CASE("[GltfLights] Blender's light below its object has the object's properties") {

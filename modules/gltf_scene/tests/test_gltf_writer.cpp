@@ -73,7 +73,7 @@ std::unique_ptr<Scene> make_generated_scene() {
 		light->inner_cone_rad = type == LightType::SPOT ? 0.1f : 0.0f;
 		light->outer_cone_rad = type == LightType::SPOT ? 0.76f : 0.785398163f;
 		light->properties = { { "light_size", 0.4 }, { "shadow_enabled", false },
-			{ "shadow_technique", std::string("pcss") }, { "pcss_taps", int64_t(32) } };
+			{ "shadow_technique", std::string("later") }, { "later_taps", int64_t(32) } };
 		light->parent_from_node = glm::inverse(
 				glm::lookAt(glm::dvec3(1.8, 6, 1.2), glm::dvec3(0, 0.4, 0), glm::dvec3(0, 1, 0)));
 	}
