@@ -51,23 +51,6 @@ def _embed(target, source, env):
         file.write("\n".join(lines))
 
 
-def find_missing_folders(path, modules):
-    """Shader folders that an entry point includes, of modules that this build does not have."""
-    shaders = os.path.dirname(os.path.abspath(__file__))
-    built = {module.name for module in modules} | {"common", "shared"}
-    missing, seen, waiting = set(), set(), [path]
-    while waiting:
-        current = waiting.pop()
-        if current in seen or not os.path.isfile(current):
-            continue
-        seen.add(current)
-        with open(current, encoding="utf-8") as file:
-            included = _INCLUDE.findall(file.read())
-        missing.update(name.split("/")[0] for name in included if name.split("/")[0] not in built)
-        waiting += [os.path.join(shaders, name) for name in included]
-    return missing
-
-
 def add_builders(env):
     """Adds the builders `Spirv` and `EmbeddedShaders`."""
     scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
