@@ -1,0 +1,22 @@
+#include "modules/shadow_jittered_pcf/register_types.h"
+
+#include "modules/renderer/shadow_registry.h"
+#include "modules/shadow_jittered_pcf/shadow_jittered_pcf.h"
+
+namespace gnomon {
+
+void initialize_shadow_jittered_pcf_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		ShadowRegistry::add({ "jittered_pcf", "Jittered percentage-closer filter",
+				"OpenGL 4 Shading Language Cookbook, chapter 7",
+				[] { return std::make_unique<ShadowJitteredPcf>(); } });
+	}
+}
+
+void uninitialize_shadow_jittered_pcf_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		ShadowRegistry::remove("jittered_pcf");
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,58 @@
+// One tap of a filter that reaches far over a light's maps.
+#ifndef MAP_TAP_INC_GLSL
+#define MAP_TAP_INC_GLSL
+
+#extension GL_EXT_control_flow_attributes : require
+
+#include "common/map_compare_inc.glsl"
+#include "common/map_resolve_inc.glsl"
+
+// Taps where the receiver's plane is farther than this part of its own w count as this: beyond the
+// plane's horizon everything is above it.
+const float FARTHEST_PLANE = 0.02;
+
+/// The w of what the maps hold along the line from the light through a place of the receiver's view,
+/// as that view has it; 0: nothing.
+float lookup_w(
+		texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, vec2 p_xy) {
+	const ivec2 texel = ivec2(floor(texels_from_map(p_view, p_xy)));
+	const bool is_inside =
+			all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(p_view.size_px)));
+	const ivec2 fetched = clamp(texel, ivec2(0), ivec2(p_view.size_px) - 1);
+	const float stored = texelFetch(p_map, ivec3(fetched, p_view.layer), 0).r;
+	const bool is_drawn = (p_empty_views & (1u << p_view.layer)) == 0u;
+	// The side of a single view goes on as its last texel: what a spot's cone leaves out still hides
+	// it, and beside a directional light's map, which holds every caster, that texel is empty.
+	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
+	// Beyond the side of one of six views another one goes on. A loop and no branch: software drivers
+	// run what a branch skips, but leave a loop.
+	[[dont_unroll]] for (bool is_asked = !is_inside && light_views.view_count > 1u; is_asked;
+			is_asked = false) {
+		const vec3 direction =
+				transpose(mat3(p_view.view_from_camera_relative)) * vec3(p_xy, 1.0);
+		const uint other_index =
+				find_view_of_direction(mat3(light_views.light_from_camera_relative) * direction);
+		const LightViewConstants other = light_views.views[other_index];
+		const vec3 r = mat3(other.view_from_camera_relative) * direction;
+		const ivec2 place = clamp(ivec2(floor(texels_from_map(other, r.xy / r.z))), ivec2(0),
+				ivec2(other.size_px) - 1);
+		// On one line from the light, w of two views differ by the ratio of their distances.
+		w = texelFetch(p_map, ivec3(place, other.layer), 0).r / other.depth_scale * r.z;
+		w = (p_empty_views & (1u << other_index)) != 0u ? 0.0 : w;
+	}
+	return w;
+}
+
+/// Does what lies at a tap hide the receiver? r_w: of what lies there.
+bool is_hidden_at(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, MapPoint p_point,
+		float p_margin, vec2 p_xy, out float r_w) {
+	// The receiver's own plane at the texel's centre, not at the tap: no depth bias to tune.
+	const vec2 extent = texel_extent(p_view);
+	const vec2 centre =
+			(floor(texels_from_map(p_view, p_xy)) + 0.5) * extent - p_view.half_extent;
+	const float plane_w = p_point.w + dot(p_point.w_slope, centre - p_point.xy);
+	r_w = lookup_w(p_map, p_empty_views, p_view, p_xy);
+	return r_w > max(plane_w, p_point.w * FARTHEST_PLANE) + p_margin;
+}
+
+#endif
