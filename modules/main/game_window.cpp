@@ -163,6 +163,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		request.size_px = size_px;
 		request.acquire_window_image = [&] { return swapchain.acquire(size_px); };
 		request.debug_view = state.shows_mask ? "mask" : p_options.debug_view;
+		// A view that never was is refused; one that T or a light has taken away gives way.
+		request.needs_debug_view = drawn_count == 0;
 		request.wants_image = is_last && !p_options.capture.empty();
 		request.overlay = state.shows_text
 				? make_overlay_text(describe_frame(request, device->get_info(), result, seconds),

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/renderer/kept_views.h"
 #include "modules/rendering_device/rendering_device.h"
-
-#include <vector>
 
 namespace gnomon {
 
@@ -24,17 +22,15 @@ public:
 	RGTexture get_imported() const { return frame_map; }
 
 	/// Bit i: view i has no casters, and its layer holds nothing.
-	uint32_t get_empty_views() const { return empty_views; }
+	uint32_t get_empty_views() const { return views.get_empty_views(); }
 	/// No view has a caster: everything is lit.
-	bool is_all_empty() const { return is_empty; }
+	bool is_all_empty() const { return views.is_all_empty(); }
 
 private:
 	OwnedTexture map;
 	TextureDesc map_desc;
-	std::vector<uint64_t> drawn_hashes; // per view; 0 = its layer holds nothing of use
-	bool has_content = false;			// of the map, before this frame
-	uint32_t empty_views = 0;
-	bool is_empty = false;
+	KeptViews views;
+	bool has_content = false; // of the map, before this frame
 	RGTexture frame_map;
 };
 

@@ -135,13 +135,19 @@ void Renderer::add_mask_only(Frame &r_frame) {
 	fail("Light \"", request.mask_light, "\" is not in the scene.");
 }
 
-const ShadowTechnique::DebugView &Renderer::choose_debug_view(const Frame &p_frame) {
+const ShadowTechnique::DebugView *Renderer::choose_debug_view(const Frame &p_frame) {
+	if (p_frame.request.debug_view.empty()) {
+		return nullptr;
+	}
 	std::string ids;
 	for (const ShadowTechnique::DebugView &view : p_frame.debug_views) {
 		if (view.id == p_frame.request.debug_view) {
-			return view;
+			return &view;
 		}
 		ids += (ids.empty() ? "\"" : ", \"") + view.id + "\"";
+	}
+	if (!p_frame.request.needs_debug_view) {
+		return nullptr;
 	}
 	if (ids.empty()) {
 		fail("Debug view \"", p_frame.request.debug_view,
@@ -184,9 +190,8 @@ void Renderer::add_picture(Frame &r_frame) {
 		r_frame.result.debug_views.push_back(view.id);
 	}
 	RGTexture picture;
-	if (!request.debug_view.empty()) {
-		picture = add_debug_view_pass(
-				graph, device, r_frame.constants, choose_debug_view(r_frame), request.size_px);
+	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame)) {
+		picture = add_debug_view_pass(graph, device, r_frame.constants, *view, request.size_px);
 		plan.run("debug view");
 	} else {
 		picture = add_tone_map_pass(graph, device, r_frame.constants, radiance, request.size_px);

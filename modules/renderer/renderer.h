@@ -29,6 +29,9 @@ struct RenderRequest {
 	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or
 	/// "mask".
 	std::string debug_view;
+	/// False: where there is no such view the picture is shown, as a user expects who changes the
+	/// technique or the lights while looking at one.
+	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
 	std::string mask_light;
@@ -74,7 +77,8 @@ private:
 	void add_mask_only(Frame &r_frame);
 	void add_picture(Frame &r_frame);
 	/// The one that was asked for; an unknown one is an Error that lists those there are.
-	static const ShadowTechnique::DebugView &choose_debug_view(const Frame &p_frame);
+	/// Null: the picture is shown.
+	static const ShadowTechnique::DebugView *choose_debug_view(const Frame &p_frame);
 	void add_overlay(Frame &r_frame, RGTexture p_target);
 	/// A pass that copies a texture where the CPU can read it, and fills r_bytes.
 	void add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes);

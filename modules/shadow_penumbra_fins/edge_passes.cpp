@@ -21,8 +21,7 @@ std::vector<EdgeDispatch> build_dispatches(
 		EdgeDispatch dispatch;
 		dispatch.positions = caster.gpu->positions.get();
 		dispatch.edges = caster.gpu->edges.get();
-		dispatch.word_count =
-				(caster.gpu->edge_count + FINS_EDGES_PER_WORD - 1) / FINS_EDGES_PER_WORD;
+		dispatch.word_count = caster.word_count;
 		dispatch.push = { caster.light_node, caster.gpu->edge_count, caster.first_word,
 			caster.first_block, caster.first_in_list, static_cast<uint32_t>(dispatches.size()),
 			p_vertices_per_edge, 0, 0 };

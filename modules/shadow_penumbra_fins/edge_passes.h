@@ -6,7 +6,7 @@ namespace gnomon {
 
 /// Silhouette edges of all casters as buffers of one frame.
 struct EdgeLists {
-	RGBuffer list;	// edge indices; a caster's begin at its first_in_list, in the mesh's order
+	RGBuffer list;	// places in GpuTopology::edges, ascending, from a caster's first_in_list on
 	RGBuffer draws; // one shader::FinsDraw per caster
 };
 

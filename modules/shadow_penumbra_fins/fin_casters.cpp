@@ -70,9 +70,9 @@ FinCasters build_fin_casters(
 		caster.first_word = result.word_count;
 		caster.first_block = result.block_count;
 		caster.first_in_list = result.edge_count;
-		const uint32_t word_count = divide_up(caster.gpu->edge_count, FINS_EDGES_PER_WORD);
-		result.word_count += word_count;
-		result.block_count += divide_up(word_count, FINS_WORDS_PER_BLOCK);
+		caster.word_count = divide_up(caster.gpu->edge_count, FINS_EDGES_PER_WORD);
+		result.word_count += caster.word_count;
+		result.block_count += divide_up(caster.word_count, FINS_WORDS_PER_BLOCK);
 		result.edge_count += caster.gpu->edge_count;
 		result.zero_normal_count += caster.gpu->topology->counts.zero_normal_count;
 		result.casters.push_back(caster);

@@ -16,6 +16,7 @@ struct FinCaster {
 	glm::vec4 light_node = glm::vec4(0.0f); // as FinsPush::light_node
 	float normal_sign = 1.0f;
 	// Where its edges stand in the buffers that all casters share.
+	uint32_t word_count = 0;
 	uint32_t first_word = 0;
 	uint32_t first_block = 0;
 	uint32_t first_in_list = 0;

@@ -37,50 +37,30 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	}
 	draws_fins = settings.has_fins() || !p_inputs.may_leave_out;
 	plan_views(p_inputs, r_plan);
-	if (!is_all_empty) {
+	if (!views.is_all_empty()) {
 		plan_fins(p_inputs, r_plan);
 	}
 }
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
-	empty_views = 0;
-	for (uint32_t index = 0; index < view_count; ++index) {
-		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
-			empty_views |= 1u << index;
-		}
-	}
-	is_all_empty = empty_views == (1u << view_count) - 1;
-	const bool has_content = !is_all_empty &&
-			maps.prepare(p_inputs.device, p_inputs.light.name, p_inputs.views[0].size_px,
-					view_count, settings.layer_count, draws_fins);
-	if (is_all_empty) {
+	views.begin(p_inputs);
+	bool has_content = false;
+	if (views.is_all_empty()) {
 		maps.reset();
 		maps.forget_frame();
+	} else {
+		has_content = maps.prepare(p_inputs.device, p_inputs.light.name, p_inputs.views[0].size_px,
+				static_cast<uint32_t>(p_inputs.views.size()), settings.layer_count, draws_fins);
 	}
-	if (!has_content || !settings.gives_maps_of(drawn_settings)) {
-		drawn_hashes.assign(view_count, 0);
-		drawn_settings = settings;
-	}
-	drawn_views.clear();
-	for (uint32_t index = 0; index < view_count; ++index) {
-		const uint64_t hash = p_inputs.casters[index].content_hash;
-		if ((empty_views & (1u << index)) != 0) {
-			drawn_hashes[index] = 0;
-			r_plan.leave_out_light_view(index, "no casters");
-		} else if (p_inputs.may_leave_out && p_inputs.may_keep && drawn_hashes[index] == hash) {
-			r_plan.leave_out_light_view(index, "kept: neither the light nor a caster moved");
-		} else {
-			drawn_hashes[index] = 0; // until it is drawn
-			drawn_views.push_back(index);
-		}
-	}
+	views.plan(p_inputs, r_plan, has_content && settings.gives_maps_of(drawn_settings));
+	drawn_settings = settings;
 }
 
 void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	fin_casters = {};
 	edge_lists = {};
 	layer_texels = {};
+	const std::vector<uint32_t> &drawn_views = views.get_wanted_views();
 	if (drawn_views.empty()) {
 		return;
 	}
@@ -125,7 +105,7 @@ void ShadowPenumbraFins::before_light_view(
 	maps.import(r_graph);
 	add_layer_passes(r_graph, p_inputs, p_view_index, maps.get_layers(),
 			choose_peeling(settings, p_inputs, p_view_index), layer_texels);
-	drawn_hashes[p_view_index] = p_inputs.casters[p_view_index].content_hash;
+	views.set_drawn(p_inputs, p_view_index);
 }
 
 void ShadowPenumbraFins::at_light_view(
@@ -166,7 +146,7 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 		bindings.push_back(
 				PassBinding::read(RESOLVE_BINDING_PENUMBRA_DEPTH, targets.penumbra_depth));
 	}
-	const shader::FinsResolvePush push = { empty_views, 0, 0, 0 };
+	const shader::FinsResolvePush push = { views.get_empty_views(), 0, 0, 0 };
 	add_compute_pass(r_graph, p_shader, p_inputs.device.get_compute_pipeline(desc), bindings,
 			p_inputs.size_px, push);
 	return output;
@@ -174,7 +154,7 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 
 glm::vec2 ShadowPenumbraFins::compute_layer_range(const Inputs &p_inputs) const {
 	uint32_t view_index = 0;
-	while ((empty_views & (1u << view_index)) != 0) {
+	while ((views.get_empty_views() & (1u << view_index)) != 0) {
 		++view_index; // not all are empty
 	}
 	const shader::FinsViewConstants view =
@@ -185,7 +165,7 @@ glm::vec2 ShadowPenumbraFins::compute_layer_range(const Inputs &p_inputs) const 
 
 RGTexture ShadowPenumbraFins::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	cases = {};
-	if (is_all_empty) {
+	if (views.is_all_empty()) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
 	maps.import(r_graph);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/renderer/kept_views.h"
 #include "modules/shadow_penumbra_fins/fins_maps.h"
 
 namespace gnomon {
@@ -46,14 +46,11 @@ private:
 	FinsMaps maps;
 	OwnedSampler sampler; // linear
 	FinsSettings drawn_settings;
-	std::vector<uint64_t> drawn_hashes; // per view; 0 = its texture layers hold nothing of use
+	KeptViews views;
 
 	// This frame.
 	FinsSettings settings;
 	bool draws_fins = false;
-	bool is_all_empty = false;
-	uint32_t empty_views = 0; // bits
-	std::vector<uint32_t> drawn_views;
 	FinCasters fin_casters;
 	EdgeLists edge_lists;
 	RGBuffer layer_texels; // see add_layer_passes

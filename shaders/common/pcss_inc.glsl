@@ -8,8 +8,8 @@
 /// Visibility of a receiver. p_empty_views: bit i, the layer of view i was not drawn; p_radius: R in
 /// metres, directional: the tangent of half the angular distance; p_nearest_w: no caster has a greater
 /// w; p_angle_rad turns the taps.
-float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, MapPoint p_point, float p_radius,
-		float p_nearest_w, uint p_tap_count, float p_angle_rad) {
+float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, MapPoint p_point,
+		float p_radius, float p_nearest_w, uint p_tap_count, float p_angle_rad) {
 	const float margin = hiding_margin(p_view, p_point);
 	// A blocker of w hides the part of the light's disc that its offset / (w - w_receiver) covers.
 	const vec2 extent = texel_extent(p_view);

@@ -272,6 +272,10 @@ TEST_CASE("[GPU][Techniques] every debug view can be shown, and an unknown one i
 		request.debug_view = "no such view";
 		CHECK_THROWS_WITH_AS(
 				fixture.renderer->render(request), doctest::Contains("\"mask\""), Error);
+		request.needs_debug_view = false;
+		const std::vector<uint8_t> instead = fixture.renderer->render(request).image;
+		request.debug_view = "";
+		CHECK(instead == fixture.renderer->render(request).image);
 	});
 }
 
