@@ -13,7 +13,7 @@ BUILD_PACKAGES=(
 DEMO_PACKAGES=(glmark2-data)
 # What the tests use beside that.
 TEST_PACKAGES=(
-    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps assimp-testmodels
+    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps assimp-testmodels chromium
 )
 
 is_package_installed() {

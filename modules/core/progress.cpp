@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 
 namespace gnomon {
@@ -12,13 +13,16 @@ namespace {
 constexpr double QUIET_SECONDS = 1.0;
 constexpr int BAR_WIDTH = 30;
 
+std::atomic<int> alive_count = 0;
+
 } // namespace
 
 Progress::Progress(std::string p_what) :
 		what(std::move(p_what)), start(std::chrono::steady_clock::now()),
-		is_terminal(::isatty(STDERR_FILENO) != 0) {}
+		is_terminal(::isatty(STDERR_FILENO) != 0), is_inner(alive_count++ > 0) {}
 
 Progress::~Progress() {
+	--alive_count;
 	if (is_terminal && shown_percent >= 0) {
 		std::fprintf(stderr, "\r\033[K");
 	}
@@ -29,7 +33,7 @@ void Progress::update(double p_fraction) {
 			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	const int step = is_terminal ? 1 : 10;
 	const int percent = static_cast<int>(std::clamp(p_fraction, 0.0, 1.0) * 100) / step * step;
-	if (seconds < QUIET_SECONDS || percent <= shown_percent) {
+	if (is_inner || seconds < QUIET_SECONDS || percent <= shown_percent) {
 		return;
 	}
 	shown_percent = percent;

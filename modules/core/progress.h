@@ -6,7 +6,7 @@
 namespace gnomon {
 
 /// Shows how far a long job is: a bar on a terminal, a plain line every 10 % elsewhere. On stderr.
-/// A job that ends within a second shows nothing.
+/// A job that ends within a second shows nothing, nor does one inside another that is shown.
 class Progress {
 public:
 	explicit Progress(std::string p_what);
@@ -21,6 +21,7 @@ private:
 	std::string what;
 	std::chrono::steady_clock::time_point start;
 	bool is_terminal;
+	bool is_inner; // another one is alive
 	int shown_percent = -1;
 };
 

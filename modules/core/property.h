@@ -31,6 +31,15 @@ struct PropertyInfo {
 	std::string special;
 };
 
+/// One step of a technique's ladder from cheap to good, which the error report measures.
+struct QualitySetting {
+	std::string name; // "32 taps"; its own in the technique
+	/// Of the technique, or of every light (penumbra_outer_width). Replace the light's own.
+	PropertyValues properties;
+	/// So slow that the report measures it at one light size only.
+	bool is_expensive = false;
+};
+
 /// The properties of one kind of object, in the order in which they are shown.
 class PropertyList {
 public:

@@ -2,7 +2,7 @@ import subprocess
 
 
 def get_dependencies():
-    return ["core"]
+    return ["core", "scene", "mesh_tools"]
 
 
 def get_layer():
@@ -10,7 +10,7 @@ def get_layer():
 
 
 def get_description():
-    return "Masks in files, their error against a truth, and pictures of it"
+    return "Masks and their error against a truth; reports of error against run time"
 
 
 def can_build(env):

@@ -13,8 +13,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint8_t NO_RECEIVER_GREY = 96; // neither white (no error) nor on the way to a colour
-
 uint8_t to_byte(float p_value) {
 	return static_cast<uint8_t>(std::lround(std::clamp(p_value, 0.0f, 1.0f) * 255.0f));
 }
@@ -23,6 +21,12 @@ void append_bytes(void *r_bytes, void *p_data, int p_count) {
 	const uint8_t *data = static_cast<const uint8_t *>(p_data);
 	std::vector<uint8_t> &bytes = *static_cast<std::vector<uint8_t> *>(r_bytes);
 	bytes.insert(bytes.end(), data, data + p_count);
+}
+
+glm::u8vec3 compute_heat_map_color(float p_error) {
+	const float error = p_error / HEAT_MAP_RANGE;
+	const uint8_t rest = to_byte(1.0f - std::abs(error));
+	return { error > 0 ? 255 : rest, rest, error > 0 ? rest : 255 };
 }
 
 } // namespace
@@ -48,32 +52,50 @@ std::vector<uint8_t> compute_error_pixels(const MaskImage &p_truth, const MaskIm
 			pixels.insert(pixels.end(), 3, NO_RECEIVER_GREY);
 			continue;
 		}
-		const float error = (p_result.visibility[i] - p_truth.visibility[i]) / HEAT_MAP_RANGE;
-		const uint8_t rest = to_byte(1.0f - std::abs(error));
-		pixels.push_back(error > 0 ? 255 : rest);
-		pixels.push_back(rest);
-		pixels.push_back(error > 0 ? rest : 255);
+		const glm::u8vec3 color =
+				compute_heat_map_color(p_result.visibility[i] - p_truth.visibility[i]);
+		pixels.insert(pixels.end(), { color.x, color.y, color.z });
 	}
 	return pixels;
 }
 
-void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
-		uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {
+std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count) {
+	std::vector<glm::u8vec3> colors;
+	for (uint32_t index = 0; index < p_count; ++index) {
+		colors.push_back(compute_heat_map_color(
+				HEAT_MAP_RANGE * (2.0f * float(index) / float(p_count - 1) - 1.0f)));
+	}
+	return colors;
+}
+
+std::vector<uint8_t> encode_png(
+		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {
 	if (p_size_px.x < 1 || p_size_px.y < 1 || p_size_px.x > MaskImage::MAX_SIZE_PX ||
 			p_size_px.y > MaskImage::MAX_SIZE_PX) {
-		fail("Picture ", p_path, ": the size is ", p_size_px.x, " x ", p_size_px.y, ", must be 1..",
+		fail("the size is ", p_size_px.x, " x ", p_size_px.y, ", must be 1..",
 				MaskImage::MAX_SIZE_PX, " on each side.");
 	}
 	const size_t row_bytes = static_cast<size_t>(p_size_px.x) * p_channel_count;
 	GNOMON_ASSERT(p_channel_count >= 1 && p_channel_count <= 4 &&
 					p_pixels.size() == row_bytes * p_size_px.y,
-			p_path, ": ", p_pixels.size(), " bytes for ", p_channel_count, " channels");
+			p_pixels.size(), " bytes for ", p_channel_count, " channels");
 	std::vector<uint8_t> bytes;
 	const int is_written = stbi_write_png_to_func(append_bytes, &bytes,
 			static_cast<int>(p_size_px.x), static_cast<int>(p_size_px.y),
 			static_cast<int>(p_channel_count), p_pixels.data(), static_cast<int>(row_bytes));
 	if (is_written == 0 || bytes.empty()) {
-		fail("Picture ", p_path, ": cannot be encoded, memory is short. Use a smaller size.");
+		fail("it cannot be encoded, memory is short. Use a smaller size.");
+	}
+	return bytes;
+}
+
+void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
+		uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {
+	std::vector<uint8_t> bytes;
+	try {
+		bytes = encode_png(p_size_px, p_channel_count, p_pixels);
+	} catch (const Error &error) {
+		fail("Picture ", p_path, ": ", error.what());
 	}
 	save_file_atomically(p_path, bytes);
 }

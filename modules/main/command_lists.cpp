@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 namespace gnomon {
@@ -84,17 +83,6 @@ void list_modules(bool p_as_json) {
 	}
 }
 
-std::string find_cpu_name() {
-	std::ifstream stream("/proc/cpuinfo");
-	for (std::string line; std::getline(stream, line);) {
-		const size_t colon = line.find(": ");
-		if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-			return line.substr(colon + 2);
-		}
-	}
-	return "unknown";
-}
-
 void print_info(bool p_as_json, const CommonOptions &p_common) {
 	const std::vector<DeviceInfo> devices = RenderingDevice::list_devices();
 	// Creating it says which one a command would take, and why none can be.
@@ -116,8 +104,8 @@ void print_info(bool p_as_json, const CommonOptions &p_common) {
 	}
 	const unsigned threads = std::thread::hardware_concurrency();
 	if (p_as_json) {
-		const Json json = { { "version", "0.1.0" }, { "devices", list }, { "chosen", chosen },
-			{ "cpu", find_cpu_name() }, { "threads", threads },
+		const Json json = { { "version", PROGRAM_VERSION }, { "devices", list },
+			{ "chosen", chosen }, { "cpu", find_cpu_name() }, { "threads", threads },
 			{ "cache", get_cache_folder().string() } };
 		std::printf("%s\n", json.dump(2).c_str());
 	} else {

@@ -16,6 +16,8 @@ class App;
 
 namespace gnomon {
 
+inline constexpr const char *PROGRAM_VERSION = "0.1.0";
+
 /// Options of every command.
 struct CommonOptions {
 	std::string device;
@@ -26,6 +28,7 @@ struct CommonOptions {
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);
 void add_compare_command(CLI::App &r_app);
+void add_report_command(CLI::App &r_app, CommonOptions &r_common);
 void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
 
 /// "640x480" to a size of 1..16384 each; else a UsageError.
@@ -46,6 +49,10 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name);
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting);
 /// Creates the device that the options ask for.
 std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common);
+/// The processor's name as the system knows it.
+std::string find_cpu_name();
+/// Version and hash of this program, so that results of another build are told apart.
+std::string describe_program();
 /// An Error now rather than after minutes of work: the file's folder must exist and be writable.
 void check_writable(const std::filesystem::path &p_path);
 

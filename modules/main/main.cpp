@@ -19,11 +19,12 @@ using namespace gnomon;
 int run_program(int p_argument_count, char **p_arguments) {
 	CLI::App app("Gnomon: soft shadows that are measured against the exact ones.", "gnomon");
 	app.require_subcommand(1);
-	app.set_version_flag("--version", "gnomon 0.1.0");
+	app.set_version_flag("--version", std::string("gnomon ") + PROGRAM_VERSION);
 	CommonOptions common;
 	add_run_command(app, common);
 	add_visibility_command(app, common);
 	add_compare_command(app);
+	add_report_command(app, common);
 	add_list_commands(app, common);
 	try {
 		app.parse(p_argument_count, p_arguments);

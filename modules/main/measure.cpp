@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <map>
+#include <chrono>
+#include <set>
 #include <thread>
 
 namespace gnomon {
@@ -14,85 +14,79 @@ namespace gnomon {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
 
-double compute_percentile(std::vector<double> p_values, double p_share) {
-	if (p_values.empty()) {
-		return 0;
-	}
-	std::sort(p_values.begin(), p_values.end());
-	const double position = p_share * static_cast<double>(p_values.size() - 1);
-	const size_t below = static_cast<size_t>(position);
-	const size_t above = std::min(below + 1, p_values.size() - 1);
-	return p_values[below] + (p_values[above] - p_values[below]) * (position - double(below));
-}
+const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the shadow
 
-struct PassSamples {
-	std::vector<double> gpu_ms;
-	std::vector<double> wall_ms;
-};
-
-/// Frames' samples per pass, in the order of the first frame, and their sums per frame.
-struct Samples {
-	std::vector<std::string> names;
-	std::map<std::string, PassSamples> passes;
-	PassSamples totals;
-
-	void add(const std::vector<PassTiming> &p_timings, const std::string &p_prefix) {
-		PassTiming sum;
-		for (const PassTiming &timing : p_timings) {
-			if (timing.name.rfind(p_prefix, 0) != 0) {
+/// The passes of the light, or of every light, without its name.
+std::vector<PassCost> select_passes(
+		const std::vector<PassTiming> &p_timings, const RenderRequest &p_request) {
+	std::vector<PassCost> passes;
+	for (const PassTiming &timing : p_timings) {
+		for (const LightSnapshot &light : p_request.scene->lights) {
+			const std::string prefix = light.name + ": ";
+			const bool is_asked =
+					p_request.mask_light.empty() || light.name == p_request.mask_light;
+			if (!is_asked || timing.name.rfind(prefix, 0) != 0) {
 				continue;
 			}
-			const std::string name = timing.name.substr(p_prefix.size());
-			if (passes.find(name) == passes.end()) {
-				names.push_back(name);
+			std::string name = timing.name.substr(prefix.size());
+			if (name == LIGHTING_PASS) {
+				break;
 			}
-			passes[name].gpu_ms.push_back(timing.gpu_ms);
-			passes[name].wall_ms.push_back(timing.wall_ms);
-			sum.gpu_ms += timing.gpu_ms;
-			sum.wall_ms += timing.wall_ms;
+			// Of several lights each has its own row.
+			name = p_request.mask_light.empty() ? timing.name : name;
+			passes.push_back({ name, timing.gpu_ms, timing.wall_ms, timing.is_on_host });
+			break;
 		}
-		totals.gpu_ms.push_back(sum.gpu_ms);
-		totals.wall_ms.push_back(sum.wall_ms);
 	}
-};
-
-Json describe_totals(const PassSamples &p_samples) {
-	return { { "gpu_ms", compute_percentile(p_samples.gpu_ms, 0.5) },
-		{ "gpu_ms_p90", compute_percentile(p_samples.gpu_ms, 0.9) },
-		{ "wall_ms", compute_percentile(p_samples.wall_ms, 0.5) },
-		{ "wall_ms_p90", compute_percentile(p_samples.wall_ms, 0.9) } };
+	return passes;
 }
 
 } // namespace
 
-std::string measure_mask_time(
-		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count) {
+MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
+		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress) {
 	p_request.wants_mask = false;
+	p_request.wants_surfaces = false;
 	p_request.may_keep = false;
 	p_request.mode = RenderGraph::Mode::ONE_BY_ONE;
-	Progress progress("Measuring");
-	Samples moving;
-	PassSamples frames;
-	for (uint32_t index = 0; index < p_warm_up_count + p_count; ++index) {
-		progress.update(double(index) / (p_warm_up_count + p_count));
-		const RenderResult result = r_renderer.render(p_request);
-		if (index >= p_warm_up_count) {
-			moving.add(result.timings, p_request.mask_light + ": ");
+	TimingSamples samples;
+	for (uint32_t index = 0; index < p_limits.warm_up_count; ++index) {
+		r_renderer.render(p_request);
+	}
+	const Clock::time_point start = Clock::now();
+	while (samples.get_frame_count() < p_limits.frame_count) {
+		if (p_progress) {
+			p_progress(double(samples.get_frame_count()) / p_limits.frame_count);
+		}
+		samples.add_frame(select_passes(r_renderer.render(p_request).timings, p_request));
+		const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+		const bool is_enough = seconds >= p_limits.seconds ||
+				samples.compute_median_error() <= p_limits.median_error;
+		if (is_enough && samples.get_frame_count() >= p_limits.least_frame_count) {
+			break;
 		}
 	}
-	p_request.mode = RenderGraph::Mode::WAIT;
-	for (uint32_t index = 0; index < p_count; ++index) {
-		const RenderResult result = r_renderer.render(p_request);
-		frames.gpu_ms.push_back(result.gpu_ms);
-		frames.wall_ms.push_back(result.wall_ms);
-	}
+	return samples.compute();
+}
 
-	Json passes = Json::array();
-	for (const std::string &name : moving.names) {
-		passes.push_back({ { "name", name },
-				{ "gpu_ms", compute_percentile(moving.passes[name].gpu_ms, 0.5) },
-				{ "wall_ms", compute_percentile(moving.passes[name].wall_ms, 0.5) } });
+std::string measure_mask_time(
+		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count) {
+	Progress progress("Measuring");
+	const MaskTiming timing =
+			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
+					[&](double p_share) { progress.update(p_share * 0.5); });
+	p_request.wants_mask = false;
+	p_request.may_keep = false;
+	p_request.mode = RenderGraph::Mode::WAIT;
+	std::vector<double> gpu_ms;
+	std::vector<double> wall_ms;
+	for (uint32_t index = 0; index < p_count; ++index) {
+		progress.update(0.5 + 0.5 * double(index) / p_count);
+		const RenderResult result = r_renderer.render(p_request);
+		gpu_ms.push_back(result.gpu_ms);
+		wall_ms.push_back(result.wall_ms);
 	}
 	uint64_t triangle_count = 0;
 	uint64_t edge_count = 0;
@@ -105,8 +99,9 @@ std::string measure_mask_time(
 	const DeviceInfo &info = r_renderer.get_device().get_info();
 	const Json json = { { "device", info.name }, { "driver", info.driver },
 		{ "threads", std::thread::hardware_concurrency() }, { "frames", p_count },
-		{ "triangles", triangle_count }, { "edges", edge_count }, { "passes", passes },
-		{ "total", describe_totals(moving.totals) }, { "frame", describe_totals(frames) },
+		{ "triangles", triangle_count }, { "edges", edge_count },
+		{ "passes", to_json(timing.passes) }, { "total", to_json(timing.total) },
+		{ "frame", to_json(compute_frame_cost(gpu_ms, wall_ms)) },
 		{ "bytes", r_renderer.get_device().get_memory_use().used_bytes } };
 	return json.dump(2) + "\n";
 }

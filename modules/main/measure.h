@@ -1,16 +1,32 @@
 #pragma once
 
+#include "modules/error_report/mask_timing.h"
 #include "modules/renderer/renderer.h"
-#include "modules/scene/scene_snapshot.h"
 
+#include <cstdint>
+#include <functional>
 #include <string>
 
 namespace gnomon {
 
-/// What one light's mask costs, as `visibility --time` writes it (doc/command_line.md): medians
-/// and 90th percentiles over the frames, per pass and in total. The passes are those of the light;
-/// the G-buffer is not counted. Nothing is kept between the frames, as if the light moved.
-/// p_request: a mask request; its mode and outputs are replaced.
+/// When a measurement ends: after frame_count frames, or earlier once there are enough and the time
+/// is over or the median is known well.
+struct MeasureLimits {
+	uint32_t warm_up_count = 5;
+	uint32_t frame_count = 20;
+	uint32_t least_frame_count = 20;
+	double seconds = 0;		 // of the measured frames
+	double median_error = 0; // its standard error, as a share of it
+};
+
+/// What the masks of a light cost (of all lights where the request names none), pass by pass. The
+/// G-buffer and the lighting are not counted. Nothing is kept between the frames, as if the light
+/// moved. p_request: its mode and outputs are replaced. p_progress gets 0..1; may be empty.
+MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
+		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress);
+
+/// As measure_mask_timing, with whole frames beside it, in the form of `visibility --time`
+/// (doc/command_line.md).
 std::string measure_mask_time(
 		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count);
 

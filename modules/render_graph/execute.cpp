@@ -141,7 +141,7 @@ void RenderGraph::run_passes(Mode p_mode) {
 			const Clock::time_point host_start = Clock::now();
 			HostContext context(*this);
 			pass.run_on_host(context);
-			timings.push_back({ pass.name, 0, compute_milliseconds_since(host_start) });
+			timings.push_back({ pass.name, 0, compute_milliseconds_since(host_start), true });
 			continue;
 		}
 		if (!commands) {

@@ -60,6 +60,7 @@ struct PassTiming {
 	std::string name;
 	double gpu_ms = 0;
 	double wall_ms = 0;
+	bool is_on_host = false; // a host pass: its cost is wall_ms, its gpu_ms is 0
 };
 
 /// Declares one pass: what it reads, what it writes, then the function that records it.

@@ -25,6 +25,14 @@ float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &
 
 } // namespace
 
+glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
+		glm::uvec2 p_pixel, float p_depth) {
+	const glm::vec2 uv = (glm::vec2(p_pixel) + 0.5f) / glm::vec2(p_size_px);
+	return p_frame.near_m / p_depth *
+			(glm::vec3(p_frame.forward) + (2.0f * uv.x - 1.0f) * glm::vec3(p_frame.right_tangent) +
+					(1.0f - 2.0f * uv.y) * glm::vec3(p_frame.up_tangent));
+}
+
 float compute_exposure(const SceneSnapshot &p_scene) {
 	Bounds bounds;
 	for (const InstanceSnapshot &instance : p_scene.instances) {

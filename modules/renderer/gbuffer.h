@@ -22,6 +22,11 @@ struct GBuffer {
 /// The camera as the shaders read it. Exposure and ambient: see compute_exposure.
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);
 
+/// A pixel's point relative to the camera, from its reversed depth (above 0): position_from_depth
+/// of depth_inc.glsl, for passes that run on the CPU.
+glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
+		glm::uvec2 p_pixel, float p_depth);
+
 /// Scales radiance so that a white surface at the middle of the casters, facing the brightest
 /// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.
 float compute_exposure(const SceneSnapshot &p_scene);

@@ -101,6 +101,11 @@ ShadowTechnique &LightShadows::get_technique(
 	return *slot.technique;
 }
 
+float LightShadows::get_standard_error(const std::string &p_light_name) const {
+	const auto slot = slots.find(p_light_name);
+	return slot == slots.end() ? 0.0f : slot->second.technique->get_standard_error();
+}
+
 void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 	if (technique_revision != ShadowRegistry::get_revision()) {
 		technique_revision = ShadowRegistry::get_revision();

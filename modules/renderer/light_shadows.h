@@ -48,6 +48,8 @@ public:
 			std::vector<ShadowTechnique::DebugView> &r_debug_views);
 	/// Drops techniques of lights that are gone, and all when a registry changed. Once a frame.
 	void collect_garbage(const SceneSnapshot &p_scene);
+	/// Of the light's mask of the last frame; see ShadowTechnique.
+	float get_standard_error(const std::string &p_light_name) const;
 	/// Forgets every technique and what it kept; after a frame that failed half-way.
 	void drop_techniques() { slots.clear(); }
 

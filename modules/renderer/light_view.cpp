@@ -33,16 +33,6 @@ float widen_for_border(uint32_t p_map_size_px, uint32_t p_border_px) {
 	return static_cast<float>(p_map_size_px) / static_cast<float>(p_map_size_px - 2 * p_border_px);
 }
 
-Bounds compute_caster_bounds(const SceneSnapshot &p_scene) {
-	Bounds bounds;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow) {
-			bounds.add(instance.bounds_world);
-		}
-	}
-	return bounds;
-}
-
 template <typename Function> void for_each_corner(const Bounds &p_bounds, Function p_function) {
 	for (int corner = 0; corner < 8; ++corner) {
 		p_function(glm::dvec3(corner & 1 ? p_bounds.maximum.x : p_bounds.minimum.x,
@@ -57,7 +47,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapsh
 	view.is_orthographic = true;
 	view.size_px = glm::uvec2(p_map_size_px);
 	const glm::dmat3 &axes = p_light.world_from_light;
-	Bounds bounds = compute_caster_bounds(p_scene);
+	Bounds bounds = p_scene.compute_caster_bounds();
 	if (bounds.is_empty()) {
 		bounds.add(p_scene.camera.position_world);
 	}

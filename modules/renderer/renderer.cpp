@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
+#include "modules/renderer/normal_packing.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -42,6 +43,25 @@ std::vector<float> read_mask(const std::vector<uint8_t> &p_bytes, Format p_forma
 	return values;
 }
 
+std::vector<SurfacePoint> read_surfaces(const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
+		const std::vector<uint8_t> &p_depths, const std::vector<uint8_t> &p_normals) {
+	const shader::FrameConstants frame = compute_frame_constants(p_scene, p_size_px);
+	std::vector<SurfacePoint> surfaces(size_t(p_size_px.x) * p_size_px.y);
+	for (size_t index = 0; index < surfaces.size(); ++index) {
+		float depth = 0;
+		uint32_t packed_normal = 0;
+		std::memcpy(&depth, p_depths.data() + index * sizeof(depth), sizeof(depth));
+		std::memcpy(&packed_normal, p_normals.data() + index * sizeof(packed_normal),
+				sizeof(packed_normal));
+		if (depth > 0.0f) {
+			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
+			surfaces[index] = { true, compute_position(frame, p_size_px, pixel, depth),
+				unpack_normal(packed_normal) };
+		}
+	}
+	return surfaces;
+}
+
 } // namespace
 
 struct Renderer::Frame {
@@ -54,6 +74,8 @@ struct Renderer::Frame {
 	bool has_asked_for_debug_view = false;
 	std::vector<uint8_t> mask_bytes;
 	std::vector<uint8_t> receiver_bytes;
+	std::vector<uint8_t> depth_bytes;
+	std::vector<uint8_t> normal_bytes;
 	Format mask_format = Format::R16_SFLOAT;
 };
 
@@ -127,6 +149,10 @@ void Renderer::add_mask_only(Frame &r_frame) {
 		if (request.wants_mask) {
 			add_readback(r_frame, mask, r_frame.mask_bytes);
 			add_readback(r_frame, receivers, r_frame.receiver_bytes);
+			if (request.wants_surfaces) {
+				add_readback(r_frame, r_frame.gbuffer.depth, r_frame.depth_bytes);
+				add_readback(r_frame, r_frame.gbuffer.geometric_normal, r_frame.normal_bytes);
+			}
 		} else {
 			r_frame.graph.add_pass("mask").reads(mask, Access::SHADER_READ_COMPUTE).keep();
 		}
@@ -252,8 +278,8 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	const SceneSnapshot &scene = *p_request.scene;
 	RenderResult result;
 	shadows.collect_garbage(scene);
-	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, false, {}, {},
-		Format::R16_SFLOAT };
+	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, false, {}, {}, {},
+		{}, Format::R16_SFLOAT };
 	frame.constants = frame.graph.upload_constants(
 			"frame constants", compute_frame_constants(scene, p_request.size_px));
 	try {
@@ -287,7 +313,12 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	result.dot = frame.graph.to_dot();
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();
 	result.aliased_bytes = frame.graph.get_aliased_bytes();
+	if (!frame.depth_bytes.empty()) {
+		result.surfaces =
+				read_surfaces(scene, p_request.size_px, frame.depth_bytes, frame.normal_bytes);
+	}
 	if (!frame.mask_bytes.empty()) {
+		result.standard_error = shadows.get_standard_error(p_request.mask_light);
 		const size_t pixel_count = size_t(p_request.size_px.x) * p_request.size_px.y;
 		result.visibility = read_mask(frame.mask_bytes, frame.mask_format, pixel_count);
 		result.receiver.resize(pixel_count);

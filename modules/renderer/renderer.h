@@ -20,6 +20,13 @@ struct OverlayVertex {
 	glm::vec4 color;	   // sRGB-encoded, alpha not premultiplied
 };
 
+/// What the camera sees in one pixel.
+struct SurfacePoint {
+	bool is_there = false;						  // false: background
+	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative: the world's axes, in metres
+	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
+};
+
 /// What one frame is to make.
 struct RenderRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
@@ -35,7 +42,8 @@ struct RenderRequest {
 	bool wants_image = false; // RenderResult::image
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
 	std::string mask_light;
-	bool wants_mask = false; // with mask_light: RenderResult::visibility and receiver
+	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver
+	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces
 	/// Gets the window's next image to show the picture in; see RenderGraph::import_window_image.
 	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
@@ -55,6 +63,8 @@ struct RenderResult {
 	std::vector<std::string> debug_views; // that there are, when one was asked for
 	std::vector<float> visibility;		  // Y: 0 where receiver is 0
 	std::vector<float> receiver;		  // 1 or 0
+	float standard_error = 0;			  // of visibility, see ShadowTechnique
+	std::vector<SurfacePoint> surfaces;	  // one per pixel
 	std::string dot;					  // the frame's graph for Graphviz
 	uint64_t unaliased_bytes = 0;		  // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;

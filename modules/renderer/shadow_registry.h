@@ -15,6 +15,7 @@ struct ShadowTechniqueInfo {
 	std::string id; // stored in scene files; never changes
 	std::string name;
 	std::string source; // paper, book, section
+	std::string color;	// "#rrggbb", its own: it is drawn so in every plot
 	std::function<std::unique_ptr<ShadowTechnique>()> make;
 	/// The highest rank is what a light without shadow_technique gets; 0 = never by default.
 	int default_rank = 0;
@@ -22,6 +23,8 @@ struct ShadowTechniqueInfo {
 	bool is_fallback = false;
 	/// Exact within its sampling error: what the others are measured against.
 	bool is_reference = false;
+	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
+	bool is_example = false;
 };
 
 /// All techniques there are. Modules add and remove; main thread only.

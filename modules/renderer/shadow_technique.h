@@ -89,6 +89,10 @@ public:
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on
 	/// any instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
+	/// Settings worth comparing for that light, whose r and t are derived from its size. Cheapest
+	/// first; empty: the defaults alone. Called on any instance, at any time.
+	virtual void get_quality_settings(const LightSnapshot & /*p_light*/,
+			std::vector<QualitySetting> & /*r_settings*/) const {}
 	/// Called once a frame with p_properties as in Inputs. Leave empty when nothing is rendered
 	/// from the light.
 	virtual void get_light_views(const LightSnapshot & /*p_light*/,
@@ -105,6 +109,9 @@ public:
 	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
 	/// Called after resolve() while a debug view is shown.
 	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}
+	/// Called after the frame ran: the standard error of its mask where the technique takes samples
+	/// at random and knows it, else 0.
+	virtual float get_standard_error() const { return 0.0f; }
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;
 };

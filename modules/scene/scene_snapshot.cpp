@@ -128,7 +128,6 @@ Bounds compute_bounds_world(const Bounds &p_bounds_node, const glm::dmat4 &p_wor
 /// node to compute its own would cost the square of the depth.
 struct TreeReader {
 	SceneSnapshot &snapshot;
-	Bounds caster_bounds;
 
 	void read(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
 		const glm::dmat4 world_from_node = p_world_from_parent * p_node.parent_from_node;
@@ -162,9 +161,6 @@ struct TreeReader {
 			}
 			instance.casts_shadow = p_node.casts_shadow;
 			instance.is_planar_receiver = p_node.is_planar_receiver;
-			if (instance.casts_shadow) {
-				caster_bounds.add(instance.bounds_world);
-			}
 			snapshot.instances.push_back(std::move(instance));
 		}
 	}
@@ -189,6 +185,16 @@ glm::mat4 SceneSnapshot::get_camera_relative_from_node(const InstanceSnapshot &p
 	return glm::mat4(camera_relative_from_node);
 }
 
+Bounds SceneSnapshot::compute_caster_bounds() const {
+	Bounds bounds;
+	for (const InstanceSnapshot &instance : instances) {
+		if (instance.casts_shadow) {
+			bounds.add(instance.bounds_world);
+		}
+	}
+	return bounds;
+}
+
 LightSnapshot build_light_snapshot(const Light3D &p_light) {
 	return build_light_snapshot_at(p_light, p_light.compute_world_from_node());
 }
@@ -197,11 +203,11 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 		const Scene &p_scene, const Camera3D &p_camera) {
 	auto snapshot = std::make_shared<SceneSnapshot>();
 	snapshot->camera = build_camera_snapshot(p_camera);
-	TreeReader reader{ *snapshot, {} };
+	TreeReader reader{ *snapshot };
 	reader.read(*p_scene.root, glm::dmat4(1.0));
 	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
 	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M,
-			has_own_size ? p_scene.scene_size_m : reader.caster_bounds.get_diagonal());
+			has_own_size ? p_scene.scene_size_m : snapshot->compute_caster_bounds().get_diagonal());
 	for (LightSnapshot &light : snapshot->lights) {
 		const float derived_m =
 				light.get_disc_radius() * static_cast<float>(snapshot->scene_size_m);

@@ -72,6 +72,8 @@ struct SceneSnapshot {
 	}
 	/// Node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
+	/// Of all that casts a shadow; empty without casters.
+	Bounds compute_caster_bounds() const;
 };
 
 /// Reads the tree. The camera is p_camera. Nodes with a transform that is not finite are an Error

@@ -8,7 +8,7 @@ namespace gnomon {
 void initialize_shadow_jittered_pcf_module(ModuleLevel p_level) {
 	if (p_level == ModuleLevel::FEATURES) {
 		ShadowRegistry::add({ "jittered_pcf", "Jittered percentage-closer filter",
-				"OpenGL 4 Shading Language Cookbook, chapter 7",
+				"OpenGL 4 Shading Language Cookbook, chapter 7", "#2ca02c",
 				[] { return std::make_unique<ShadowJitteredPcf>(); } });
 	}
 }

@@ -1,6 +1,7 @@
 #include "modules/shadow_jittered_pcf/shadow_jittered_pcf.h"
 
 #include "modules/core/files.h"
+#include "modules/core/text.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/map_resolve.h"
 #include "modules/shadow_jittered_pcf/jitter_offsets.h"
@@ -23,6 +24,15 @@ void ShadowJitteredPcf::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "jittered_pcf_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
 			"Width and height of each map. Larger maps have finer edges and cost memory.", "px",
 			"Jittered filter" });
+}
+
+void ShadowJitteredPcf::get_quality_settings(
+		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
+	// One radius serves one light size; which is best is what the report shows.
+	for (const double radius_uv : { 0.003, 0.01, 0.03 }) {
+		r_settings.push_back(
+				{ text("radius ", radius_uv), { { "jittered_pcf_radius_uv", radius_uv } } });
+	}
 }
 
 void ShadowJitteredPcf::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,

@@ -11,11 +11,12 @@ void initialize_shadow_map_module(ModuleLevel p_level) {
 		return;
 	}
 	ShadowTechniqueInfo map = { "shadow_map", "Shadow map, hard or filtered",
-		"Williams 1978; Reeves, Salesin, Cook 1987", [] { return std::make_unique<ShadowMap>(); } };
+		"Williams 1978; Reeves, Salesin, Cook 1987", "#7f7f7f",
+		[] { return std::make_unique<ShadowMap>(); } };
 	map.default_rank = 1;
 	map.is_fallback = true;
 	ShadowRegistry::add(std::move(map));
-	ShadowRegistry::add({ "views", "Mean of many hard shadow maps", "Brute force",
+	ShadowRegistry::add({ "views", "Mean of many hard shadow maps", "Brute force", "#8c564b",
 			[] { return std::make_unique<Views>(); } });
 }
 

@@ -30,6 +30,12 @@ void Views::get_light_properties(PropertyList &r_list) const {
 			"Width and height of each map.", "px", "Views" });
 }
 
+void Views::get_quality_settings(
+		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
+	r_settings.push_back({ "16 views", { { "views_count", int64_t(16) } } });
+	r_settings.push_back({ "64 views", { { "views_count", int64_t(64) } }, true });
+}
+
 void Views::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =

@@ -7,7 +7,7 @@ namespace gnomon {
 
 void initialize_shadow_pcss_module(ModuleLevel p_level) {
 	if (p_level == ModuleLevel::FEATURES) {
-		ShadowRegistry::add({ "pcss", "Percentage-closer soft shadows", "Fernando 2005",
+		ShadowRegistry::add({ "pcss", "Percentage-closer soft shadows", "Fernando 2005", "#1f77b4",
 				[] { return std::make_unique<ShadowPcss>(); } });
 	}
 }

@@ -1,5 +1,6 @@
 #include "modules/shadow_pcss/shadow_pcss.h"
 
+#include "modules/core/text.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/map_resolve.h"
 
@@ -59,6 +60,13 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "pcss_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
 			"Width and height of each map. Larger maps have finer edges and cost memory.", "px",
 			"PCSS" });
+}
+
+void ShadowPcss::get_quality_settings(
+		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
+	for (const int64_t taps : { 16, 32, 64 }) {
+		r_settings.push_back({ text(taps, " taps"), { { "pcss_taps", taps } } });
+	}
 }
 
 void ShadowPcss::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,

@@ -10,12 +10,12 @@ void initialize_shadow_penumbra_fins_module(ModuleLevel p_level) {
 		return;
 	}
 	ShadowRegistry::add({ "penumbra_fins", "Depth peeling and penumbra fins",
-			"Sun, Lü, Liu, Wu 2010, 1006-8961(2010)09-1391-07", [] {
+			"Sun, Lü, Liu, Wu 2010, 1006-8961(2010)09-1391-07", "#d62728", [] {
 				return std::make_unique<ShadowPenumbraFins>(
 						ShadowPenumbraFins::Halves::OUTER_AND_INNER);
 			} });
 	ShadowRegistry::add({ "outer_fins", "Outer penumbra fins",
-			"Lü, Meng, Xue et al. 2009, after Chan, Durand 2003", [] {
+			"Lü, Meng, Xue et al. 2009, after Chan, Durand 2003", "#e377c2", [] {
 				return std::make_unique<ShadowPenumbraFins>(ShadowPenumbraFins::Halves::OUTER);
 			} });
 }

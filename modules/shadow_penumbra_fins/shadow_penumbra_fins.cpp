@@ -19,6 +19,22 @@ void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {
 	add_fins_properties(id, has_inner_half, r_list);
 }
 
+void ShadowPenumbraFins::get_quality_settings(
+		const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const {
+	// Near the best widths of tests/benchmark/search_fins.py over scenes and light sizes.
+	const double outer_width_m = p_light.penumbra_outer_width_m * 0.25;
+	const double inner_width_m = p_light.penumbra_inner_width_m * 0.5;
+	if (!has_inner_half) {
+		r_settings.push_back({ "r = R/4", { { "penumbra_outer_width", outer_width_m } } });
+		return;
+	}
+	r_settings.push_back({ "r = t = R",
+			{ { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } } });
+	r_settings.push_back({ "r = R/4, t = R/2",
+			{ { "penumbra_outer_width", outer_width_m },
+					{ "penumbra_inner_width", inner_width_m } } });
+}
+
 void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =

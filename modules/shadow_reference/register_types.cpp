@@ -10,7 +10,7 @@ void initialize_shadow_reference_module(ModuleLevel p_level) {
 		return;
 	}
 	ShadowTechniqueInfo info = { "reference", "Exact, by ray tracing on the CPU",
-		"Area integral over the light's disc, Embree rays",
+		"Area integral over the light's disc, Embree rays", "#17becf",
 		[] { return std::make_unique<ShadowReference>(); } };
 	info.is_reference = true;
 	ShadowRegistry::add(std::move(info));

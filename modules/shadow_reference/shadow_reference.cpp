@@ -61,14 +61,6 @@ struct ShadowReference::Job {
 	std::string light_name;
 	bool may_keep = true;
 
-	glm::vec3 compute_position(uint32_t p_x, uint32_t p_y, float p_depth) const {
-		// As position_from_depth in depth_inc.glsl.
-		const glm::vec2 uv = (glm::vec2(p_x, p_y) + 0.5f) / glm::vec2(size_px);
-		return frame.near_m / p_depth *
-				(glm::vec3(frame.forward) + (2.0f * uv.x - 1.0f) * glm::vec3(frame.right_tangent) +
-						(1.0f - 2.0f * uv.y) * glm::vec3(frame.up_tangent));
-	}
-
 	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
 		uint64_t key = add_to_hash(std::span<const glm::vec3>(triangles.positions), TRUTH_VERSION);
 		key = add_to_hash(std::span<const uint32_t>(triangles.indices), key);
@@ -126,7 +118,7 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 		if (points[index].is_receiver) {
 			const uint32_t x = static_cast<uint32_t>(index % p_job.size_px.x);
 			const uint32_t y = static_cast<uint32_t>(index / p_job.size_px.x);
-			points[index].position = p_job.compute_position(x, y, depth);
+			points[index].position = compute_position(p_job.frame, p_job.size_px, { x, y }, depth);
 			points[index].geometric_normal = unpack_normal(packed_normal);
 		}
 	}

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <set>
 
 using namespace gnomon;
 
@@ -294,5 +295,38 @@ TEST_CASE("[Techniques] every shader file exists, every property has a tooltip a
 		}
 		CHECK_FALSE(p_info.name.empty());
 		CHECK_FALSE(p_info.source.empty());
+	});
+}
+
+TEST_CASE("[Techniques] quality settings name properties that exist, with values in range") {
+	LightSnapshot light;
+	light.light_size_m = 0.4f;
+	light.penumbra_outer_width_m = 0.4f;
+	light.penumbra_inner_width_m = 0.4f;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		std::vector<QualitySetting> settings;
+		p_info.make()->get_quality_settings(light, settings);
+		std::set<std::string> names;
+		for (const QualitySetting &setting : settings) {
+			CAPTURE(setting.name);
+			CHECK(names.insert(setting.name).second);
+			for (const auto &[name, value] : setting.properties) {
+				const PropertyInfo *property =
+						ShadowRegistry::get_light_properties(p_info.id).find(name);
+				property = property ? property : Light3D::get_property_list().find(name);
+				REQUIRE_MESSAGE(property, name);
+				CHECK(check_property(*property, value) == "");
+			}
+		}
+	});
+}
+
+TEST_CASE("[Techniques] each has a colour of its own") {
+	std::set<std::string> colors;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		CHECK(p_info.color.size() == 7);
+		CHECK(p_info.color.find_first_not_of("0123456789abcdef", 1) == std::string::npos);
+		CHECK(p_info.color[0] == '#');
+		CHECK(colors.insert(p_info.color).second);
 	});
 }

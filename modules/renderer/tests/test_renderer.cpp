@@ -180,3 +180,56 @@ TEST_CASE("[GPU][Renderer] mirrored and single-sided meshes show their lit sides
 	const RenderResult mirrored = fixture.render_mask(scene, "");
 	CHECK(compute_mask_difference(plain, mirrored) < 1e-3);
 }
+
+TEST_CASE("[GPU][Renderer] surfaces lie on the meshes and face the camera") {
+	RenderFixture fixture;
+	SmallScene scene;
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(48, 32);
+	request.mask_light = "Light";
+	request.wants_mask = true;
+	request.technique_override = ShadowRegistry::get_techniques().at(0).id;
+	CHECK(fixture.renderer->render(request).surfaces.empty());
+	request.wants_surfaces = true;
+	const RenderResult result = fixture.renderer->render(request);
+	REQUIRE(result.surfaces.size() == 48 * 32);
+	Bounds bounds;
+	for (const InstanceSnapshot &instance : request.scene->instances) {
+		bounds.add(instance.bounds_world);
+	}
+	size_t count = 0;
+	for (size_t index = 0; index < result.surfaces.size(); ++index) {
+		const SurfacePoint &point = result.surfaces[index];
+		CHECK((point.is_there || result.receiver[index] == 0.0f));
+		if (!point.is_there) {
+			continue;
+		}
+		++count;
+		CHECK(glm::length(point.geometric_normal) == doctest::Approx(1.0));
+		CHECK(glm::dot(point.geometric_normal, point.position) < 0.0f);
+		const glm::dvec3 world = glm::dvec3(point.position) + request.scene->camera.position_world;
+		CHECK(glm::all(glm::greaterThan(world, bounds.minimum - 1e-3)));
+		CHECK(glm::all(glm::lessThan(world, bounds.maximum + 1e-3)));
+	}
+	CHECK(count > 48 * 32 / 8);
+}
+
+TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
+	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
+	if (!reference) {
+		return; // no technique of this build samples
+	}
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.light->properties["light_size"] = 0.5;
+	const auto render = [&](int64_t p_samples) {
+		scene.light->properties[reference->id + "_samples"] = p_samples;
+		return fixture.render_mask(scene, reference->id).standard_error;
+	};
+	const float rough = render(16);
+	const float fine = render(1024);
+	CHECK(fine > 0.0f);
+	CHECK(rough > 4.0f * fine);
+	CHECK(fixture.render_mask(scene, ShadowRegistry::find_default()->id).standard_error == 0.0f);
+}

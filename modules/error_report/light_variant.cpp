@@ -1,0 +1,128 @@
+#include "modules/error_report/light_variant.h"
+
+#include "modules/core/error.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// Of a light that was directional, in S: the study's lights stand about that far away.
+const double DISTANCE_IN_SCENE_SIZES = 1.5;
+const double WIDEST_CONE_RAD = 1.4; // half; beyond, one perspective view has no resolution left
+const double CONE_MARGIN = 1.1;		// the cone's rim would else touch the casters' ball
+
+/// A light's own state, given back when the variant is built.
+class LightKeeper {
+public:
+	explicit LightKeeper(Light3D &r_light) :
+			light(r_light), type(r_light.type), parent_from_node(r_light.parent_from_node),
+			range_m(r_light.range_m), inner_cone_rad(r_light.inner_cone_rad),
+			outer_cone_rad(r_light.outer_cone_rad), properties(r_light.properties) {
+		for (const std::unique_ptr<Node3D> &child : r_light.children) {
+			light_from_children.push_back(child->parent_from_node);
+		}
+	}
+	~LightKeeper() {
+		light.type = type;
+		light.parent_from_node = parent_from_node;
+		light.range_m = range_m;
+		light.inner_cone_rad = inner_cone_rad;
+		light.outer_cone_rad = outer_cone_rad;
+		light.properties = properties;
+		for (size_t index = 0; index < light_from_children.size(); ++index) {
+			light.children[index]->parent_from_node = light_from_children[index];
+		}
+	}
+	LightKeeper(const LightKeeper &) = delete;
+	LightKeeper &operator=(const LightKeeper &) = delete;
+
+private:
+	Light3D &light;
+	LightType type;
+	glm::dmat4 parent_from_node;
+	float range_m;
+	float inner_cone_rad;
+	float outer_cone_rad;
+	PropertyValues properties;
+	std::vector<glm::dmat4> light_from_children;
+};
+
+void change_type(Light3D &r_light, const LightSnapshot &p_before, const SceneSnapshot &p_scene,
+		LightType p_type) {
+	const Bounds bounds = p_scene.compute_caster_bounds();
+	if (bounds.is_empty()) {
+		fail("Light \"", r_light.name, "\": nothing in the scene casts a shadow, so that a light ",
+				"of another type has nothing to look at. Use --light-types own.");
+	}
+	const glm::dvec3 middle = (bounds.minimum + bounds.maximum) * 0.5;
+	glm::dvec3 position = p_before.position_world;
+	if (p_before.type == LightType::DIRECTIONAL) {
+		position = middle -
+				p_before.get_direction_world() * (DISTANCE_IN_SCENE_SIZES * p_scene.scene_size_m);
+	}
+	const glm::dvec3 way = middle - position;
+	const double distance = glm::length(way);
+	const glm::dvec3 direction = distance > 0 ? way / distance : glm::dvec3(0, -1, 0);
+	const glm::dvec3 up = std::abs(direction.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+	const glm::dmat4 world_from_light =
+			glm::inverse(glm::lookAtRH(position, position + direction, up));
+	const glm::dmat4 world_from_parent =
+			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
+	const glm::dmat4 parent_from_light = glm::inverse(world_from_parent) * world_from_light;
+	// A lampshade or a camera that hangs below the light stays where it is.
+	const glm::dmat4 new_from_old = glm::inverse(parent_from_light) * r_light.parent_from_node;
+	for (const std::unique_ptr<Node3D> &child : r_light.children) {
+		child->parent_from_node = new_from_old * child->parent_from_node;
+	}
+	r_light.parent_from_node = parent_from_light;
+	const double share = bounds.get_diagonal() * 0.5 / std::max(distance, 1e-9);
+	const double cone_rad = share < 1 ? std::asin(share) * CONE_MARGIN : WIDEST_CONE_RAD;
+	r_light.type = p_type;
+	r_light.range_m = 0;
+	r_light.inner_cone_rad = 0;
+	r_light.outer_cone_rad = static_cast<float>(std::min(cone_rad, WIDEST_CONE_RAD));
+}
+
+} // namespace
+
+const char *get_light_type_name(LightType p_type) {
+	static const char *const NAMES[] = { "omni", "spot", "directional" };
+	return NAMES[static_cast<int>(p_type)];
+}
+
+const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name) {
+	for (const LightSnapshot &light : p_scene.lights) {
+		if (light.name == p_name) {
+			return light;
+		}
+	}
+	GNOMON_ASSERT(false, "no light ", p_name);
+	return p_scene.lights.front();
+}
+
+std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,
+		Light3D &r_light, const LightVariant &p_variant, const PropertyValues &p_properties) {
+	const LightKeeper keeper(r_light);
+	const auto before = build_snapshot(p_scene, p_camera);
+	if (p_variant.type != r_light.type) {
+		change_type(r_light, get_light(*before, r_light.name), *before, p_variant.type);
+	}
+	if (p_variant.type == LightType::DIRECTIONAL) {
+		const double distance_m = DISTANCE_IN_SCENE_SIZES * before->scene_size_m;
+		r_light.properties["light_angular_distance"] =
+				2.0 * glm::degrees(std::atan(p_variant.size_m / distance_m));
+	} else {
+		r_light.properties["light_size"] = p_variant.size_m;
+	}
+	for (const auto &[name, value] : p_properties) {
+		r_light.properties[name] = value;
+	}
+	return build_snapshot(p_scene, p_camera);
+}
+
+} // namespace gnomon

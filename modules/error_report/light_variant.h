@@ -1,0 +1,31 @@
+#pragma once
+
+#include "modules/core/property.h"
+#include "modules/scene/nodes.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <memory>
+
+namespace gnomon {
+
+/// A light of a scene as another type and with another size.
+struct LightVariant {
+	LightType type = LightType::SPOT;
+	/// R in metres, 0..1e4. A directional light gets the apparent diameter that a disc of this
+	/// radius has from 1.5 S away, as in the study's scenes; at most 1.5 S (90 degrees).
+	double size_m = 0;
+};
+
+/// "spot", "omni", "directional".
+const char *get_light_type_name(LightType p_type);
+
+/// The scene with that one light changed. A light that changes its type stays where it is and looks
+/// at the middle of the casters; one that was directional stands 1.5 S away from it. p_properties
+/// replace those of the light. The scene is as before when the function returns.
+std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,
+		Light3D &r_light, const LightVariant &p_variant, const PropertyValues &p_properties);
+
+/// The light of that name in a snapshot, which must be there.
+const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name);
+
+} // namespace gnomon

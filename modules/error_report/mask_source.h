@@ -1,0 +1,57 @@
+#pragma once
+
+#include "modules/core/property.h"
+#include "modules/error_report/mask_image.h"
+#include "modules/error_report/report.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What a technique is asked: one light's mask as the camera sees it.
+struct MaskQuestion {
+	std::shared_ptr<const SceneSnapshot> scene;
+	std::string light; // name; empty: all lights at once, for their cost only
+	glm::uvec2 size_px = glm::uvec2(0u);
+};
+
+struct TracedTruth {
+	MaskImage mask;
+	std::vector<uint8_t> sees_whole_light; // per pixel, see sees_whole_disc; 0 where no receiver
+	double standard_error = 0;
+	double wall_ms = 0;
+};
+
+struct MeasuredMask {
+	MaskImage mask; // empty where the question is for the cost only
+	MaskTiming time;
+	uint64_t bytes = 0; // of device memory in use
+};
+
+/// A technique that the report can ask for.
+struct TechniqueSource {
+	ReportTechnique info;
+	std::function<std::vector<QualitySetting>(const LightSnapshot &)> get_settings;
+};
+
+/// Whoever can draw: the program with its renderer, a test with numbers. Failures are Errors.
+class MaskSource {
+public:
+	virtual ~MaskSource() = default;
+	virtual ReportMachine get_machine() const = 0;
+	virtual TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
+	virtual MeasuredMask measure(
+			const MaskQuestion &p_question, const std::string &p_technique) = 0;
+};
+
+/// True when no part of the light's disc lies below the surface's own horizon: the population of
+/// the study (TECHNIQUES, section 0). Positions in one space; p_normal is unit.
+bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
+		const glm::vec3 &p_position, const glm::vec3 &p_normal);
+
+} // namespace gnomon

@@ -1,0 +1,158 @@
+/* What all parts of the page share: the data, names, numbers as text, and elements. The first file by name, so
+   that the others find GnomonReport, the only global. */
+(function () {
+	"use strict";
+
+	const report = {};
+	window.GnomonReport = report;
+
+	// d3's filled symbols differ at 9 pixels; shape tells techniques apart where colour cannot.
+	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];
+	const NO_VALUE = "–";
+
+	/* An element; null and undefined attributes and children are left out. Strings become text, never markup. */
+	report.make = function (tag, attributes, ...children) {
+		const element = document.createElement(tag);
+		for (const [name, value] of Object.entries(attributes || {})) {
+			if (value === null || value === undefined || value === false) {
+				continue;
+			}
+			if (name.startsWith("--")) {
+				element.style.setProperty(name, value);
+			} else if (name.startsWith("on")) {
+				element.addEventListener(name.slice(2), value);
+			} else {
+				element.setAttribute(name, value === true ? "" : value);
+			}
+		}
+		return report.add(element, ...children);
+	};
+
+	report.add = function (element, ...children) {
+		element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+		return element;
+	};
+
+	report.load = function () {
+		const data = JSON.parse(document.getElementById("report-data").textContent);
+		if (data.format !== "gnomon_report" || data.version !== 1) {
+			throw new Error(`The data is "${data.format}" version ${data.version}, must be "gnomon_report" version 1.`);
+		}
+		for (const key of ["configurations", "cells", "techniques", "ranking", "best_settings", "scaling", "stability",
+				"machines"]) {
+			data[key] = data[key] || [];
+		}
+		data.images = data.images || {};
+		report.data = data;
+		report.techniques = new Map();
+		// Ids are short enough for a phone, and what the command line takes; the foot has the names.
+		data.techniques.forEach((technique) => addTechnique(technique.id, technique.id, technique.color));
+		// A record of a technique that is no longer registered still has a colour.
+		[...data.cells, ...data.ranking].forEach((item) => addTechnique(item.technique, item.technique, "#888888"));
+		data.configurations.forEach((configuration, index) => {
+			configuration.index = index;
+			configuration.cells = [];
+		});
+		data.cells.forEach((cell, index) => {
+			cell.index = index;
+			data.configurations[cell.configuration].cells.push(cell);
+		});
+		report.baseline = data.techniques.find((technique) => technique.is_baseline);
+		report.matrix = data.configurations.filter((configuration) => configuration.group === "matrix");
+		return data;
+	};
+
+	function addTechnique(id, name, color) {
+		if (!report.techniques.has(id)) {
+			const index = report.techniques.size;
+			report.techniques.set(id, { id, name: name || id, index, color: toTone(color), symbol: SYMBOLS[index % SYMBOLS.length] });
+		}
+	}
+
+	/* Lighter on a dark page, see --tone. */
+	function toTone(color) {
+		return `color-mix(in srgb, ${color} var(--tone), #fff)`;
+	}
+
+	report.isNumber = (value) => typeof value === "number" && Number.isFinite(value);
+
+	/* The two numbers of every plot; undefined where a cell failed, is missing or has no truth. */
+	report.getMae = (cell) => cell.error?.all?.penumbra?.mae;
+	report.getCostMs = (cell) => cell.time?.cost_ms;
+	report.isDrawn = (cell) => report.isNumber(report.getMae(cell)) && report.getCostMs(cell) > 0;
+
+	/* The population of receivers that see the whole light; the same object as `all` where they are the same. */
+	report.getWholeLight = (cell) => (cell.error?.whole_light?.as ? cell.error.all : cell.error?.whole_light);
+
+	report.getTechnique = (id) => report.techniques.get(id) || { id, name: id, color: "#888888", index: -1, symbol: "circle" };
+	report.getSetting = (item) => item.setting || "default";
+	report.getSizeText = (configuration) => configuration.light_type === "directional"
+		? `${report.showPlain(configuration.light_angular_distance_deg)}°`
+		: `${report.showPlain(configuration.light_size_m)} m`;
+	report.getLightText = (configuration) => `${configuration.light}, ${report.getSizeText(configuration)}`;
+
+	function show(format) {
+		return (value) => (report.isNumber(value) ? format(value) : NO_VALUE);
+	}
+
+	report.showError = show((value) => (value > 0 && value < 0.0001 ? "< 0.0001" : value.toFixed(4)));
+	report.showBias = show((value) => (value < 0 ? "−" : "+") + Math.abs(value).toFixed(4));
+	report.showPercent = show((value) => `${(100 * value).toFixed(1)} %`);
+	report.showMs = show((value) => value.toFixed(value < 1 ? 3 : value < 10 ? 2 : value < 100 ? 1 : 0));
+	report.showRatio = show((value) => `${value.toFixed(value < 10 ? 2 : value < 100 ? 1 : 0)}×`);
+	report.showCount = show((value) => value.toLocaleString("en"));
+	report.showMebibytes = show((value) => `${(value / 1048576).toFixed(1)} MiB`);
+	report.showPlain = show((value) => String(Number(value.toPrecision(4))));
+	/* For ticks of a logarithmic axis: no number longer than "0.0005" or "500k". */
+	report.showTick = (value) => (value >= 10000 ? d3.format("~s")(value) : String(Number(value.toPrecision(3))));
+
+	/* The colour and shape of a technique, as its dots have them. */
+	report.makeSwatch = function (technique) {
+		const svg = d3.create("svg").attr("class", "swatch").attr("viewBox", "-8 -8 16 16").attr("aria-hidden", "true");
+		const symbol = d3[`symbol${technique.symbol[0].toUpperCase()}${technique.symbol.slice(1)}`];
+		svg.append("path").attr("d", d3.symbol(symbol, 110)()).attr("fill", technique.color);
+		return svg.node();
+	};
+
+	report.makeName = function (item, className) {
+		const technique = report.getTechnique(item.technique);
+		return report.make("span", { class: className || "name" }, report.makeSwatch(technique), technique.name);
+	};
+
+	report.makeSection = function (id, title, ...children) {
+		const heading = report.make("h2", {}, title);
+		return report.make("section", { id, "aria-label": title }, heading, ...children);
+	};
+
+	/* Two or more buttons of which one is pressed. */
+	report.makeChoice = function (label, options, chosen, onChoose) {
+		const buttons = options.map(([value, text]) => report.make("button", {
+			type: "button", "aria-pressed": String(value === chosen), onclick: () => {
+				buttons.forEach((button, index) => button.setAttribute("aria-pressed", String(options[index][0] === value)));
+				onChoose(value);
+			},
+		}, text));
+		return report.make("div", { class: "choice", role: "group", "aria-label": label }, buttons);
+	};
+
+	/* Calls p_draw when the element comes near the view; at once for printing and tests, see report.js. */
+	const waiting = new Map();
+	const observer = new IntersectionObserver((entries) => {
+		entries.filter((entry) => entry.isIntersecting).forEach((entry) => drawNow(entry.target));
+	}, { rootMargin: "500px" });
+
+	function drawNow(element) {
+		const draw = waiting.get(element);
+		waiting.delete(element);
+		observer.unobserve(element);
+		return draw ? draw() : undefined;
+	}
+
+	report.drawWhenNear = function (element, draw) {
+		waiting.set(element, draw);
+		observer.observe(element);
+	};
+
+	/* A promise that also waits for what is drawn asynchronously (pictures). */
+	report.drawAll = () => Promise.all([...waiting.keys()].map(drawNow));
+})();

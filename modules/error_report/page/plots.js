@@ -1,0 +1,232 @@
+/* Logarithmic plots of points joined by technique: the overview, the configurations and the scaling curves. */
+(function () {
+	"use strict";
+
+	const report = window.GnomonReport;
+	const make = report.make;
+	// Below this an error is the noise of the truth and its 8-bit picture; a logarithmic axis has no place for 0.
+	const LEAST_ERROR_FLOOR = 1e-4;
+	// A narrower axis would show a difference of a few percent as large.
+	const LEAST_SPAN = Math.log(3);
+	const PICK_DISTANCE_PX = 32;
+	const LABELLED_WIDTH_PX = 560;
+	const MARGIN_PX = { left: 48, right: 14, top: 26, bottom: 38 };
+	const LABEL_FONT = "600 12px system-ui, sans-serif";
+	const LABEL_HEIGHT_PX = 15;
+	const tip = document.getElementById("tip");
+	const hidden = new Set();
+	const measuring = make("canvas").getContext("2d");
+
+	/* Where errors of 0 are drawn: at the lower edge, below all others. */
+	report.getErrorFloor = function (errors) {
+		const positive = errors.filter((error) => error >= LEAST_ERROR_FLOOR);
+		const least = positive.length > 0 ? d3.min(positive) : LEAST_ERROR_FLOOR;
+		return positive.length < errors.length ? Math.max(LEAST_ERROR_FLOOR, Number((least / 2).toPrecision(2))) : least;
+	};
+
+	/* p_has_front: with room for its name, which stands below everything. */
+	report.getDomain = function (values, hasFront) {
+		const low = Math.log(d3.min(values));
+		const high = Math.log(d3.max(values));
+		const widening = Math.max(0, LEAST_SPAN - (high - low)) / 2;
+		const padding = 0.07 * Math.max(high - low, LEAST_SPAN);
+		return [Math.exp(low - widening - (hasFront ? 2 : 1) * padding), Math.exp(high + widening + padding)];
+	};
+
+	/* The densest of the usual ticks whose labels do not touch. */
+	function chooseTicks(domain, length_px, spacing_px) {
+		const [low, high] = domain.map(Math.log10);
+		const toPx = (value) => (Math.log10(value) - low) / (high - low) * length_px;
+		const decades = d3.range(Math.floor(low), Math.ceil(high) + 1);
+		const choices = [[1, 1.5, 2, 3, 4, 5, 7], [1, 2, 3, 5], [1, 2, 5], [1, 3], [1]];
+		for (const digits of choices) {
+			// Number() of the text: 3 * 10 ** -3 is not 0.003.
+			const ticks = decades.flatMap((decade) => digits.map((digit) => Number(`${digit}e${decade}`)))
+				.filter((tick) => tick >= domain[0] && tick <= domain[1]);
+			if (d3.pairs(ticks).every(([a, b]) => toPx(b) - toPx(a) >= spacing_px)) {
+				return ticks;
+			}
+		}
+		return decades.filter((decade) => decade % 2 === 0).map((decade) => 10 ** decade);
+	}
+
+	/* The front of p_points: no other point is both further left and lower. */
+	report.computeFront = function (points) {
+		let least = Infinity;
+		return d3.sort(points, (point) => point.x, (point) => point.y).filter((point) => {
+			const isBetter = point.y < least;
+			least = Math.min(least, point.y);
+			return isBetter;
+		});
+	};
+
+	/* Draws into p_host, whose width decides; an earlier plot there gives way. p_plot: { points, front (points),
+	   x_label, y_label, x_domain, y_domain, height_px, labels: "best" | "end", describe(point) -> lines of the tip,
+	   onPick(point), name }. A point: { x, y, technique, is_hollow, item }. Returns { mark(item) }. */
+	report.drawPlot = function (host, plot) {
+		const width_px = Math.max(240, Math.floor(host.clientWidth));
+		const isLabelled = plot.labels && width_px >= LABELLED_WIDTH_PX;
+		const groups = d3.groups(plot.points, (point) => point.technique);
+		const ofTechnique = (id) => report.getTechnique(id);
+		measuring.font = LABEL_FONT;
+		const right_px = isLabelled && plot.labels === "end"
+			? d3.max(groups, ([id]) => measuring.measureText(ofTechnique(id).name).width) + 16 : MARGIN_PX.right;
+		const x_ticks = chooseTicks(plot.x_domain, width_px - MARGIN_PX.left - right_px, 38);
+		const y_ticks = chooseTicks(plot.y_domain, plot.height_px - MARGIN_PX.top - MARGIN_PX.bottom, 22);
+		// The text of a logarithmic axis is given here: d3 would leave out that of some ticks.
+		const axes = [Plot.gridX(x_ticks), Plot.gridY(y_ticks), Plot.axisX(x_ticks, { text: report.showTick, tickSize: 0, label: plot.x_label }),
+			Plot.axisY(y_ticks, { text: report.showTick, tickSize: 0, label: plot.y_label })];
+		const marks = groups.map(([id, points]) => Plot.line(d3.sort(points, (point) => point.x), {
+			x: "x", y: "y", stroke: ofTechnique(id).color, strokeWidth: 1.5, strokeOpacity: 0.65, className: `t${ofTechnique(id).index}`,
+		}));
+		groups.forEach(([id, points]) => marks.push(Plot.dot(points, {
+			x: "x", y: "y", r: 4.6, symbol: ofTechnique(id).symbol, className: `t${ofTechnique(id).index}`,
+			fill: (point) => (point.is_hollow ? "var(--card)" : ofTechnique(id).color),
+			stroke: (point) => (point.is_hollow ? ofTechnique(id).color : "var(--card)"), strokeWidth: 1.2,
+		})));
+		if (plot.front && plot.front.length > 0) {
+			const first = { x: plot.front[0].x, y: plot.y_domain[1] };
+			const last = { x: plot.x_domain[1], y: plot.front.at(-1).y };
+			// Under the end of the front there is never a dot.
+			marks.unshift(Plot.line([first, ...plot.front, last], {
+				x: "x", y: "y", curve: "step-after", stroke: "var(--front)", strokeWidth: 5, strokeOpacity: 0.5, strokeLinejoin: "round",
+			}), Plot.text([last], { x: "x", y: "y", text: ["Pareto front"], textAnchor: "end", dy: 11, fill: "var(--soft)", fontSize: 11 }));
+		}
+		const svg = Plot.plot({
+			className: "plot", width: width_px, height: plot.height_px, ariaLabel: plot.name, marks: [...axes, ...marks],
+			marginLeft: MARGIN_PX.left, marginRight: right_px, marginTop: MARGIN_PX.top, marginBottom: MARGIN_PX.bottom,
+			x: { type: "log", domain: plot.x_domain }, y: { type: "log", domain: plot.y_domain },
+			symbol: { type: "identity" },
+			style: { fontSize: "11px", background: "none", overflow: "visible" },
+		});
+		svg.setAttribute("role", "img");
+		const [x, y] = [svg.scale("x"), svg.scale("y")];
+		const places = plot.points.map((point) => ({ point, x_px: x.apply(point.x), y_px: y.apply(point.y) }));
+		if (isLabelled) {
+			const placed = plot.labels === "end" ? placeAtEnd(groups, places) : placeNearBest(groups, places, width_px, plot.height_px);
+			addLabels(svg, placed);
+		}
+		host.replaceChildren(svg);
+		return { mark: addPointer(svg, places, plot) };
+	};
+
+	function addLabels(svg, labels) {
+		d3.select(svg).append("g").attr("class", "labels").selectAll("text").data(labels).join("text")
+			.attr("class", (label) => `t${label.technique.index}`).attr("x", (label) => label.x_px).attr("y", (label) => label.y_px)
+			.attr("dy", "0.32em").attr("text-anchor", "start").text((label) => label.technique.name);
+	}
+
+	/* Right of the last points, pushed apart where they would overlap. */
+	function placeAtEnd(groups, places) {
+		const labels = groups.map(([id]) => {
+			const last = d3.greatest(places.filter((place) => place.point.technique === id), (place) => place.x_px);
+			return { technique: report.getTechnique(id), x_px: last.x_px + 11, y_px: last.y_px };
+		});
+		labels.sort((a, b) => a.y_px - b.y_px);
+		for (let index = labels.length - 2; index >= 0; index--) {
+			labels[index].y_px = Math.min(labels[index].y_px, labels[index + 1].y_px - LABEL_HEIGHT_PX);
+		}
+		return labels;
+	}
+
+	/* Beside the dot of least error of each technique, on the side with the least in the way. */
+	function placeNearBest(groups, places, width_px, height_px) {
+		const taken = places.map((place) => ({ left: place.x_px - 6, right: place.x_px + 6, top: place.y_px - 6, bottom: place.y_px + 6 }));
+		const getOverlap = (a, b) => Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
+			Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
+		return groups.map(([id]) => {
+			const technique = report.getTechnique(id);
+			const text_px = measuring.measureText(technique.name).width + 4;
+			const own = d3.sort(places.filter((place) => place.point.technique === id), (place) => place.point.y);
+			const candidates = own.flatMap((place, rank) => [[10, 0], [-10 - text_px, 0], [-text_px / 2, -15], [-text_px / 2, 15],
+				[8, -13], [8, 13], [-8 - text_px, -13], [-8 - text_px, 13]].map(([x_px, y_px], side) => {
+				const box = { left: place.x_px + x_px, right: place.x_px + x_px + text_px,
+					top: place.y_px + y_px - LABEL_HEIGHT_PX / 2, bottom: place.y_px + y_px + LABEL_HEIGHT_PX / 2 };
+				const isOutside = box.left < MARGIN_PX.left || box.right > width_px || box.top < MARGIN_PX.top ||
+					box.bottom > height_px - MARGIN_PX.bottom;
+				return { box, cost: d3.sum(taken, (other) => getOverlap(box, other)) + (isOutside ? 1e6 : 0) + side + 3 * rank };
+			}));
+			const { box } = d3.least(candidates, (candidate) => candidate.cost);
+			taken.push(box);
+			return { technique, x_px: box.left, y_px: (box.top + box.bottom) / 2 };
+		});
+	}
+
+	/* The tip and the rings; returns what moves the ring of the chosen item. */
+	function addPointer(svg, places, plot) {
+		const chosen = d3.select(svg).append("circle").attr("class", "chosen").attr("r", 10).attr("visibility", "hidden");
+		const ring = d3.select(svg).append("circle").attr("class", "ring").attr("r", 8).attr("visibility", "hidden");
+		const move = (circle, place) => circle.attr("visibility", place ? "visible" : "hidden")
+			.attr("cx", place ? place.x_px : 0).attr("cy", place ? place.y_px : 0);
+
+		function find(event) {
+			const box = svg.getBoundingClientRect();
+			const scale = svg.viewBox.baseVal.width / box.width;
+			const [x_px, y_px] = [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+			const seen = places.filter((place) => !hidden.has(place.point.technique));
+			const nearest = d3.least(seen, (place) => Math.hypot(place.x_px - x_px, place.y_px - y_px));
+			return nearest && Math.hypot(nearest.x_px - x_px, nearest.y_px - y_px) < PICK_DISTANCE_PX ? nearest : null;
+		}
+
+		function point(event) {
+			const place = find(event);
+			move(ring, place);
+			svg.style.cursor = place && plot.onPick ? "pointer" : "";
+			showTip(place && plot.describe(place.point), place && place.point, event);
+		}
+
+		svg.addEventListener("pointermove", point);
+		svg.addEventListener("pointerdown", point);
+		svg.addEventListener("pointerleave", () => {
+			move(ring, null);
+			showTip(null);
+		});
+		svg.addEventListener("click", (event) => {
+			const place = find(event);
+			if (place && plot.onPick) {
+				plot.onPick(place.point.item);
+			}
+		});
+		return (item) => move(chosen, places.find((place) => place.point.item === item));
+	}
+
+	function showTip(lines, point, event) {
+		tip.hidden = !lines;
+		if (!lines) {
+			return;
+		}
+		const technique = report.getTechnique(point.technique);
+		tip.replaceChildren(make("b", { class: "name" }, report.makeSwatch(technique), technique.name),
+			...lines.map((line) => make("span", {}, line)));
+		const box = tip.getBoundingClientRect();
+		const left_px = Math.min(event.clientX + 14, window.innerWidth - box.width - 8);
+		const isBelow = event.clientY - box.height - 14 < 8;
+		tip.style.left = `${Math.max(8, left_px)}px`;
+		tip.style.top = `${isBelow ? event.clientY + 18 : event.clientY - box.height - 14}px`;
+	}
+	window.addEventListener("scroll", () => showTip(null), { passive: true });
+
+	/* Pressed: shown. Hiding is a rule of style, so that no plot is drawn anew. */
+	report.fillLegend = function (host) {
+		const rules = make("style");
+		document.head.append(rules);
+		const buttons = [...report.techniques.values()].map((technique) => make("button", {
+			type: "button", "aria-pressed": "true", title: "Show or hide in all plots", onclick: () => toggle(technique),
+		}, report.makeSwatch(technique), technique.name));
+		const all = make("button", { type: "button", class: "all", hidden: true, onclick: () => toggle(null) }, "show all");
+		host.append(make("div", {}, buttons, all));
+
+		function toggle(technique) {
+			if (!technique) {
+				hidden.clear();
+			} else if (!hidden.delete(technique.id)) {
+				hidden.add(technique.id);
+			}
+			const techniques = [...report.techniques.values()];
+			techniques.forEach((item, index) => buttons[index].setAttribute("aria-pressed", String(!hidden.has(item.id))));
+			rules.textContent = techniques.filter((item) => hidden.has(item.id))
+				.map((item) => `.plot .t${item.index} { display: none; }`).join("\n");
+			all.hidden = hidden.size === 0;
+		}
+	};
+})();

@@ -1,0 +1,119 @@
+#include "modules/error_report/record_store.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <set>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string format_hash(uint64_t p_hash) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(p_hash));
+	return digits;
+}
+
+std::string compute_text_hash(const std::string &p_text) {
+	return format_hash(
+			compute_hash({ reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size() }));
+}
+
+/// Ends in a dash and the 16 digits of a hash, as the plan names records: nothing else is removed.
+bool is_record_name(const std::string &p_stem) {
+	const size_t dash = p_stem.rfind('-');
+	return dash != std::string::npos && p_stem.size() == dash + 17 &&
+			p_stem.find_first_not_of("0123456789abcdef", dash + 1) == std::string::npos;
+}
+
+} // namespace
+
+RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
+	std::error_code code;
+	fs::create_directories(folder, code);
+	if (code || !fs::is_directory(folder)) {
+		fail("Folder ", folder, " cannot be made: ", code.message(),
+				". Choose another place with --out.");
+	}
+}
+
+void RecordStore::save(
+		const std::string &p_name, const Json &p_content, std::span<const uint8_t> p_image) {
+	// The picture first: a record that is there is complete.
+	if (!p_image.empty()) {
+		save_file_atomically(folder / (p_name + ".png"), p_image);
+	}
+	const Json record = { { "checksum", compute_text_hash(p_content.dump()) },
+		{ "image_checksum", p_image.empty() ? "" : format_hash(compute_hash(p_image)) },
+		{ "content", p_content } };
+	save_file_atomically(folder / (p_name + ".json"), record.dump() + "\n");
+}
+
+std::optional<Json> RecordStore::load(const std::string &p_name) const {
+	const fs::path path = folder / (p_name + ".json");
+	std::error_code code;
+	if (!fs::exists(path, code)) {
+		return std::nullopt;
+	}
+	std::string damage;
+	try {
+		const Json record = Json::parse(load_text_file(path));
+		const std::string image_checksum = record.at("image_checksum").get<std::string>();
+		if (record.at("checksum") != compute_text_hash(record.at("content").dump())) {
+			damage = "its checksum is wrong";
+		} else if (!image_checksum.empty() &&
+				format_hash(compute_hash(load_file(folder / (p_name + ".png")))) !=
+						image_checksum) {
+			damage = "the checksum of its picture is wrong";
+		} else {
+			return record.at("content");
+		}
+	} catch (const Json::exception &error) {
+		damage = error.what();
+	} catch (const Error &error) {
+		damage = error.what();
+	}
+	log_warning("Record ", path, " is damaged (", damage, ") and is measured anew.");
+	return std::nullopt;
+}
+
+std::vector<uint8_t> RecordStore::load_image(const std::string &p_name) const {
+	const fs::path path = folder / (p_name + ".png");
+	std::error_code code;
+	return fs::exists(path, code) ? load_file(path) : std::vector<uint8_t>();
+}
+
+void RecordStore::copy_from(const RecordStore &p_other, const std::string &p_name) {
+	if (const std::optional<Json> content = p_other.load(p_name)) {
+		save(p_name, *content, p_other.load_image(p_name));
+	}
+}
+
+void RecordStore::remove(const std::string &p_name) {
+	std::error_code code;
+	fs::remove(folder / (p_name + ".json"), code);
+	fs::remove(folder / (p_name + ".png"), code);
+}
+
+void RecordStore::remove_others(const std::vector<std::string> &p_names) {
+	const std::set<std::string> kept(p_names.begin(), p_names.end());
+	for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+		const fs::path path = entry.path();
+		const bool is_record = (path.extension() == ".json" || path.extension() == ".png") &&
+				is_record_name(path.stem().string());
+		if (is_record && kept.count(path.stem().string()) == 0) {
+			remove(path.stem().string());
+		}
+	}
+}
+
+} // namespace gnomon

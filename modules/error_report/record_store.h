@@ -1,0 +1,38 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What a report has measured so far, one record a cell, in files that survive a stop. A record is
+/// whole or absent: one that is damaged is reported and counts as absent.
+class RecordStore {
+public:
+	/// Makes the folder. One that cannot be made or written is an Error.
+	explicit RecordStore(std::filesystem::path p_folder);
+
+	/// p_image: bytes of a PNG that belongs to the record; may be empty.
+	void save(const std::string &p_name, const nlohmann::ordered_json &p_content,
+			std::span<const uint8_t> p_image = {});
+	std::optional<nlohmann::ordered_json> load(const std::string &p_name) const;
+	/// The record's PNG; empty where it has none.
+	std::vector<uint8_t> load_image(const std::string &p_name) const;
+	/// Copies a record of another store.
+	void copy_from(const RecordStore &p_other, const std::string &p_name);
+	void remove(const std::string &p_name);
+	/// Removes records whose names are not in the list: leftovers of other plans.
+	void remove_others(const std::vector<std::string> &p_names);
+	const std::filesystem::path &get_folder() const { return folder; }
+
+private:
+	std::filesystem::path folder;
+};
+
+} // namespace gnomon

@@ -1,0 +1,121 @@
+#pragma once
+
+#include "modules/error_report/mask_metrics.h"
+#include "modules/error_report/mask_timing.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What `gnomon report` measures and writes; doc/report_format.md describes it as a file.
+
+struct ReportMachine {
+	std::string device;
+	std::string driver;
+	std::string cpu;
+	uint32_t threads = 0;
+
+	bool operator==(const ReportMachine &) const = default;
+};
+
+struct ReportTechnique {
+	std::string id;
+	std::string name;
+	std::string source;
+	std::string color;		  // "#rrggbb"
+	bool is_baseline = false; // the fallback: what times are ratios to
+};
+
+enum class ReportStatus { OK, FAILED, MISSING };
+/// "ok", "failed", "missing".
+const char *get_status_name(ReportStatus p_status);
+
+/// The exact mask of a configuration, as far as the report keeps it.
+struct ReportTruth {
+	double standard_error = 0;
+	double wall_ms = 0; // to trace it; from the cache, to load it
+	std::string image;	// grey and alpha (0 = no receiver); empty where there is none
+	uint64_t receiver_pixel_count = 0;
+	uint64_t penumbra_pixel_count = 0;
+};
+
+/// Names of the groups of configurations that ReportConfiguration::group tells apart.
+inline constexpr const char *MATRIX_GROUP = "matrix";
+inline constexpr const char *TRIANGLES_GROUP = "triangles";
+inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
+inline constexpr const char *LIGHTS_GROUP = "lights";
+inline constexpr const char *RESOLUTION_GROUP = "resolution";
+
+/// A scene, a light and its size: one question that all techniques answer.
+struct ReportConfiguration {
+	std::string id;		// its own in the report
+	std::string record; // of its truth, see RecordStore; empty without truth
+	std::string group = MATRIX_GROUP;
+	double value = 0; // abscissa in its group: R in metres, triangles, lights, pixels of a side
+	std::string scene;
+	std::string light;
+	std::string light_type;		// "spot", "omni", "directional"
+	double light_size_m = 0;	// R; 0 for directional
+	double light_angle_deg = 0; // apparent diameter; directional
+	uint32_t light_count = 1;
+	double scene_size_m = 0; // S
+	glm::uvec2 size_px = glm::uvec2(0u);
+	uint64_t triangle_count = 0;
+	uint64_t edge_count = 0;
+	ReportStatus status = ReportStatus::MISSING; // of its truth
+	std::string message;						 // why it failed
+	ReportTruth truth;
+
+	bool has_truth() const { return group == MATRIX_GROUP; }
+};
+
+/// Over all receivers, and over those that see the whole disc above their own horizon.
+struct ReportError {
+	MaskMetrics all;
+	MaskMetrics whole_light;
+};
+
+/// One technique with one setting in one configuration.
+struct ReportCell {
+	size_t configuration = 0; // index
+	std::string technique;
+	std::string setting; // its name
+	std::string record;	 // see RecordStore
+	std::map<std::string, std::string> properties;
+	ReportStatus status = ReportStatus::MISSING;
+	std::string message; // why it failed
+	size_t machine = 0;	 // index
+	std::optional<ReportError> error;
+	MaskTiming time;
+	uint64_t bytes = 0;
+	std::string image; // grey
+
+	bool is_ok() const { return status == ReportStatus::OK; }
+};
+
+struct Report {
+	std::string project;
+	std::string program; // version and hash of what measured
+	uint32_t sample_count = 0;
+	std::vector<ReportMachine> machines;
+	std::vector<ReportTechnique> techniques;
+	std::vector<ReportConfiguration> configurations;
+	std::vector<ReportCell> cells;
+
+	/// Indices of the cells of one configuration, in order.
+	std::vector<size_t> find_cells(size_t p_configuration) const;
+	/// The baseline's cell in the configuration of that cell, when it was measured.
+	const ReportCell *find_baseline(const ReportCell &p_cell) const;
+	/// Cost over the baseline's; nothing where one of both is not there.
+	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
+	/// Cells, and configurations' truths, with that status.
+	size_t count(ReportStatus p_status) const;
+};
+
+} // namespace gnomon

@@ -1,0 +1,163 @@
+#include "modules/error_report/report_comparison.h"
+
+#include "modules/core/text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const double ERROR_MARGIN = 0.0005;		// differences of rounding between devices stay below
+const double ERROR_MARGIN_SHARE = 0.01; // of the old error
+const double TIME_MARGIN_SHARE = 0.15;	// repeated runs on one machine stay within, mostly
+
+using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
+
+Key make_key(const Report &p_report, const ReportCell &p_cell) {
+	const ReportConfiguration &at = p_report.configurations[p_cell.configuration];
+	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
+}
+
+/// How far the 90th percentile lies above the median, as a share.
+double compute_spread(const ReportCell &p_cell) {
+	const FrameCost &total = p_cell.time.total;
+	return total.gpu_ms > 0		? total.gpu_ms_p90 / total.gpu_ms - 1.0
+			: total.wall_ms > 0 ? total.wall_ms_p90 / total.wall_ms - 1.0
+								: 0.0;
+}
+
+class Comparer {
+public:
+	Comparer(const Report &p_old, const Report &p_new) : old_report(p_old), new_report(p_new) {}
+
+	ReportComparison run() {
+		std::map<Key, const ReportCell *> old_cells;
+		for (const ReportCell &cell : old_report.cells) {
+			old_cells[make_key(old_report, cell)] = &cell;
+		}
+		for (const ReportCell &cell : new_report.cells) {
+			const auto found = old_cells.find(make_key(new_report, cell));
+			if (found == old_cells.end()) {
+				++comparison.only_new_count;
+				continue;
+			}
+			compare(*found->second, cell);
+			old_cells.erase(found);
+		}
+		comparison.only_old_count = old_cells.size();
+		comparison.has_same_machine = old_report.machines == new_report.machines;
+		std::stable_partition(comparison.differences.begin(), comparison.differences.end(),
+				[](const ReportDifference &p_difference) { return p_difference.is_worse; });
+		return std::move(comparison);
+	}
+
+private:
+	void compare(const ReportCell &p_old, const ReportCell &p_new) {
+		if (!p_old.is_ok() || !p_new.is_ok()) {
+			const bool is_worse = p_old.is_ok() && p_new.status == ReportStatus::FAILED;
+			const bool is_better = p_old.status == ReportStatus::FAILED && p_new.is_ok();
+			if (is_worse || is_better) {
+				add(p_new, "status", p_old.is_ok(), p_new.is_ok(), is_worse, p_new.message);
+			}
+			return;
+		}
+		++comparison.compared_count;
+		if (p_old.error && p_new.error) {
+			compare_errors(p_old, p_new);
+		}
+		const std::optional<double> old_ratio = old_report.compute_time_ratio(p_old);
+		const std::optional<double> new_ratio = new_report.compute_time_ratio(p_new);
+		if (old_ratio && new_ratio) {
+			const double change = *new_ratio / *old_ratio - 1.0;
+			const double margin =
+					std::max(TIME_MARGIN_SHARE, compute_spread(p_old) + compute_spread(p_new));
+			if (std::abs(change) > margin) {
+				add(p_new, "time", *old_ratio, *new_ratio, change > 0);
+			}
+		}
+	}
+
+	void compare_errors(const ReportCell &p_old, const ReportCell &p_new) {
+		const double old_mae = p_old.error->all.penumbra.mae;
+		const double new_mae = p_new.error->all.penumbra.mae;
+		double margin = ERROR_MARGIN + ERROR_MARGIN_SHARE * old_mae;
+		if (old_report.sample_count != new_report.sample_count) {
+			margin += old_report.configurations[p_old.configuration].truth.standard_error +
+					new_report.configurations[p_new.configuration].truth.standard_error;
+		}
+		if (std::abs(new_mae - old_mae) > margin) {
+			add(p_new, "error", old_mae, new_mae, new_mae > old_mae);
+		}
+	}
+
+	void add(const ReportCell &p_cell, const std::string &p_what, double p_old, double p_new,
+			bool p_is_worse, const std::string &p_message = {}) {
+		comparison.differences.push_back({ new_report.configurations[p_cell.configuration].id,
+				p_cell.technique, p_cell.setting, p_what, p_old, p_new, p_message, p_is_worse });
+	}
+
+	const Report &old_report;
+	const Report &new_report;
+	ReportComparison comparison;
+};
+
+} // namespace
+
+bool ReportComparison::has_regression() const {
+	return std::any_of(
+			differences.begin(), differences.end(), [](const ReportDifference &p_difference) {
+				return p_difference.is_worse && p_difference.what != "time";
+			});
+}
+
+ReportComparison compare_reports(const Report &p_old, const Report &p_new) {
+	return Comparer(p_old, p_new).run();
+}
+
+Json to_json(const ReportComparison &p_comparison) {
+	Json rows = Json::array();
+	for (const ReportDifference &difference : p_comparison.differences) {
+		rows.push_back({ { "configuration", difference.configuration },
+				{ "technique", difference.technique }, { "setting", difference.setting },
+				{ "what", difference.what }, { "old", difference.old_value },
+				{ "new", difference.new_value },
+				{ "change", difference.new_value - difference.old_value },
+				{ "verdict", difference.is_worse ? "worse" : "better" },
+				{ "message", difference.message } });
+	}
+	return { { "compared_count", p_comparison.compared_count },
+		{ "only_old_count", p_comparison.only_old_count },
+		{ "only_new_count", p_comparison.only_new_count },
+		{ "has_same_machine", p_comparison.has_same_machine }, { "rows", rows } };
+}
+
+std::string to_text(const ReportComparison &p_comparison) {
+	std::string lines = text("Against the old report: ", p_comparison.compared_count,
+			" cells compared, ", p_comparison.only_old_count, " only in the old, ",
+			p_comparison.only_new_count, " only in the new.\n");
+	for (const ReportDifference &difference : p_comparison.differences) {
+		lines += text(difference.is_worse ? "worse " : "better ", difference.what, ": ",
+				difference.configuration, ", ", difference.technique, ", ", difference.setting,
+				": ");
+		lines += difference.what == "status"
+				? (difference.is_worse ? "fails now: " + difference.message
+									   : std::string("does not fail any more"))
+				: text(difference.old_value, " -> ", difference.new_value,
+						  difference.what == "time" ? " times the baseline" : "");
+		lines += "\n";
+	}
+	if (p_comparison.differences.empty()) {
+		lines += "Nothing differs by more than the noise.\n";
+	}
+	return lines;
+}
+
+} // namespace gnomon

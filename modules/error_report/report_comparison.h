@@ -1,0 +1,47 @@
+#pragma once
+
+#include "modules/error_report/report.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// One thing that differs between two reports by more than their noise.
+struct ReportDifference {
+	std::string configuration;
+	std::string technique;
+	std::string setting;
+	std::string what; // "error": penumbra MAE; "time": cost_ms over the baseline's; "status"
+	double old_value = 0;
+	double new_value = 0;
+	std::string message; // of a status
+	bool is_worse = false;
+};
+
+struct ReportComparison {
+	std::vector<ReportDifference> differences; // worse ones first
+	size_t compared_count = 0;				   // cells that both have
+	size_t only_old_count = 0;				   // cells that this report does not ask for
+	size_t only_new_count = 0;
+	bool has_same_machine = true;
+
+	/// An error that grew, or a cell that was measured and now fails.
+	bool has_regression() const;
+};
+
+/// Cells are the same when configuration, technique and setting have the same names, and the
+/// pictures the same size.
+///
+/// An error differs when it does so by more than 0.0005 + 1 %, and, where the truths have different
+/// numbers of samples, by more than both standard errors too. A time is compared as ratio to the
+/// baseline of its own report, so that a slower machine alone is no difference, and differs by more
+/// than 15 % and by more than both cells' distances from median to 90th percentile.
+ReportComparison compare_reports(const Report &p_old, const Report &p_new);
+
+nlohmann::ordered_json to_json(const ReportComparison &p_comparison);
+std::string to_text(const ReportComparison &p_comparison);
+
+} // namespace gnomon

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "modules/error_report/report.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+namespace gnomon {
+
+// The forms of doc/report_format.md.
+
+/// The whole report with what is computed from its cells: fronts, ratios, ranking, curves.
+nlohmann::ordered_json to_json(const Report &p_report);
+/// Reads report.json or plan.json; what is computed from the cells is not read. A file that is
+/// missing, damaged, or of another format or version is an Error naming it.
+Report load_report(const std::filesystem::path &p_path);
+
+/// What was measured of one cell, for its record.
+nlohmann::ordered_json cell_result_to_json(
+		const ReportCell &p_cell, const ReportMachine &p_machine);
+/// Fills the cell from its record and adds the machine to the report when it is new there. A record
+/// of another form is an Error, and leaves the cell as it is.
+void read_cell_result(const nlohmann::ordered_json &p_json, Report &r_report, ReportCell &r_cell);
+/// Likewise for the truth of a configuration.
+nlohmann::ordered_json truth_result_to_json(const ReportConfiguration &p_configuration);
+void read_truth_result(const nlohmann::ordered_json &p_json, ReportConfiguration &r_configuration);
+
+} // namespace gnomon

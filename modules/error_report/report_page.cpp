@@ -1,0 +1,150 @@
+#include "modules/error_report/report_page.h"
+
+#include "modules/core/error.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/error_report/page_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// Enough that neighbouring colours look the same.
+const uint32_t HEAT_MAP_COLOR_COUNT = 129;
+
+std::string encode_base64(std::span<const uint8_t> p_bytes) {
+	static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+	std::string encoded;
+	encoded.reserve((p_bytes.size() + 2) / 3 * 4);
+	for (size_t first = 0; first < p_bytes.size(); first += 3) {
+		const size_t count = std::min<size_t>(3, p_bytes.size() - first);
+		uint32_t bits = 0;
+		for (size_t index = 0; index < 3; ++index) {
+			bits = bits << 8 | (index < count ? p_bytes[first + index] : 0u);
+		}
+		for (size_t digit = 0; digit < 4; ++digit) {
+			encoded += digit <= count ? DIGITS[bits >> (18 - 6 * digit) & 63] : '=';
+		}
+	}
+	return encoded;
+}
+
+void replace_marker(const std::string &p_marker, std::string_view p_text, std::string &r_page) {
+	size_t place = r_page.find(p_marker);
+	GNOMON_ASSERT(place != std::string::npos, "the page has no ", p_marker);
+	for (; place != std::string::npos; place = r_page.find(p_marker, place + p_text.size())) {
+		r_page.replace(place, p_marker.size(), p_text);
+	}
+}
+
+std::string escape_html(const std::string &p_text) {
+	std::string escaped;
+	for (const char letter : p_text) {
+		switch (letter) {
+			case '&':
+				escaped += "&amp;";
+				break;
+			case '<':
+				escaped += "&lt;";
+				break;
+			case '>':
+				escaped += "&gt;";
+				break;
+			default:
+				escaped += letter;
+		}
+	}
+	return escaped;
+}
+
+/// JSON as it may stand inside a script element.
+std::string escape_script(const std::string &p_json) {
+	std::string escaped;
+	escaped.reserve(p_json.size());
+	for (const char letter : p_json) {
+		if (letter == '<') {
+			escaped += "\\u003c";
+		} else {
+			escaped += letter;
+		}
+	}
+	return escaped;
+}
+
+/// The contents of the embedded files of that folder and ending, in the order of their names.
+std::string join_files(std::string_view p_folder, std::string_view p_ending) {
+	std::string joined;
+	for (const PageFile &file : get_page_files()) {
+		const size_t slash = file.name.rfind('/');
+		const std::string_view folder =
+				slash == std::string_view::npos ? std::string_view() : file.name.substr(0, slash);
+		if (folder == p_folder && file.name.ends_with(p_ending)) {
+			joined += file.text;
+			joined += "\n";
+		}
+	}
+	GNOMON_ASSERT(!joined.empty(), "no page file in ", p_folder, " ends with ", p_ending);
+	return joined;
+}
+
+std::string join_licenses() {
+	std::string joined;
+	for (const PageFile &file : get_page_files()) {
+		if (file.name.find("LICENSE") != std::string_view::npos) {
+			joined += text(file.name, ":\n", file.text, "\n");
+		}
+	}
+	return joined;
+}
+
+void add_image(const Json &p_owner, const RecordStore &p_store, Json &r_images) {
+	const std::string name = p_owner.is_object() ? p_owner.value("image", "") : "";
+	if (name.empty()) {
+		return;
+	}
+	const std::vector<uint8_t> bytes =
+			p_store.load_image(std::filesystem::path(name).stem().string());
+	if (!bytes.empty()) {
+		r_images[name] = "data:image/png;base64," + encode_base64(bytes);
+	}
+}
+
+} // namespace
+
+std::string build_report_page(const Json &p_report, const RecordStore &p_store) {
+	Json data = p_report;
+	Json images = Json::object();
+	for (const Json &configuration : p_report.at("configurations")) {
+		if (configuration.contains("truth")) {
+			add_image(configuration.at("truth"), p_store, images);
+		}
+	}
+	for (const Json &cell : p_report.at("cells")) {
+		add_image(cell, p_store, images);
+	}
+	data["images"] = std::move(images);
+	Json colors = Json::array();
+	for (const glm::u8vec3 &color : compute_heat_map_colors(HEAT_MAP_COLOR_COUNT)) {
+		colors.push_back({ color.x, color.y, color.z });
+	}
+	data["heat_map"] = { { "range", HEAT_MAP_RANGE }, { "colors", std::move(colors) },
+		{ "no_receiver", NO_RECEIVER_GREY } };
+
+	std::string page = join_files("", ".html");
+	// The data last: it may hold anything, markers too.
+	replace_marker("{{TITLE}}",
+			escape_html("Error against run time: " + p_report.value("project", "")), page);
+	replace_marker("{{LICENSES}}", join_licenses(), page);
+	replace_marker("{{STYLE}}", join_files("", ".css"), page);
+	replace_marker("{{LIBRARIES}}", join_files("third_party", ".js"), page);
+	replace_marker("{{SCRIPT}}", join_files("", ".js"), page);
+	replace_marker("{{DATA}}", escape_script(data.dump()), page);
+	return page;
+}
+
+} // namespace gnomon

@@ -1,0 +1,321 @@
+#include "modules/error_report/report_plan.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/error_report/question_hash.h"
+#include "modules/error_report/scaling_scenes.h"
+#include "modules/mesh_tools/topology.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+namespace gnomon {
+
+namespace {
+
+/// R in S where no sizes are asked for: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4
+/// m.
+const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
+const char *const SCALING_SCENE_NAME = "torus_knot, generated";
+
+struct ScalingSeries {
+	const char *group;
+	std::vector<double> values;
+};
+const std::vector<ScalingSeries> QUICK_SERIES = { { TRIANGLES_GROUP, { 2000, 30000, 120000 } },
+	{ LIGHT_SIZE_GROUP, { 0.08, 0.4, 1.2 } }, { LIGHTS_GROUP, { 1, 3, 8 } },
+	{ RESOLUTION_GROUP, { 128, 256, 512 } } };
+const std::vector<ScalingSeries> FULL_SERIES = {
+	{ TRIANGLES_GROUP, { 2000, 8000, 30000, 120000, 500000, 1000000 } },
+	{ LIGHT_SIZE_GROUP, { 0.02, 0.08, 0.4, 1.2, 2.4 } }, { LIGHTS_GROUP, { 1, 4, 16, 64 } },
+	{ RESOLUTION_GROUP, { 128, 256, 512, 1024, 2048 } }
+};
+
+/// The last scene that was made: the techniques of one configuration draw the same meshes, whose
+/// topology is then built once.
+class ScalingSceneCache {
+public:
+	std::shared_ptr<const Scene> get(const ScalingScene &p_description) {
+		if (!scene || description.triangle_count != p_description.triangle_count ||
+				description.light_count != p_description.light_count ||
+				description.light_size_m != p_description.light_size_m) {
+			scene.reset(); // before the next one takes memory
+			scene = make_scaling_scene(p_description);
+			description = p_description;
+		}
+		return scene;
+	}
+
+private:
+	ScalingScene description;
+	std::shared_ptr<const Scene> scene;
+};
+
+/// Letters, digits and underscores, for file names.
+std::string make_slug(const std::string &p_text) {
+	std::string slug;
+	for (const char letter : p_text) {
+		slug += std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
+	}
+	return slug.substr(0, 40);
+}
+
+uint64_t hash_text(const std::string &p_text, uint64_t p_seed) {
+	return compute_hash(
+			{ reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size() }, p_seed);
+}
+
+std::string make_record_name(
+		const std::string &p_scene, const std::string &p_what, uint64_t p_hash) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(p_hash));
+	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + digits;
+}
+
+std::string format_number(double p_value) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
+	return digits;
+}
+
+PropertyValues derive_widths() {
+	return { { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } };
+}
+
+bool casts_shadow(const Light3D &p_light) {
+	return get_bool(Light3D::get_property_list(), p_light.properties, "shadow_enabled");
+}
+
+class Planner {
+public:
+	Planner(const ReportOptions &p_options, const std::vector<TechniqueSource> &p_techniques) :
+			options(p_options), techniques(p_techniques) {
+		plan.report.project = options.project;
+		plan.report.program = options.program;
+		plan.report.sample_count = options.sample_count;
+		for (const TechniqueSource &technique : techniques) {
+			plan.report.techniques.push_back(technique.info);
+		}
+	}
+
+	void add_scene(const ReportScene &p_scene) {
+		if (!p_scene.scene) {
+			add_failure(p_scene.name, p_scene.failure);
+			return;
+		}
+		try {
+			add_lights(p_scene.name, p_scene.scene);
+		} catch (const Error &error) {
+			add_failure(p_scene.name, error.what());
+		}
+	}
+
+	void add_scaling() {
+		if (options.scaling == ScalingExtent::NONE) {
+			return;
+		}
+		const auto cache = std::make_shared<ScalingSceneCache>();
+		for (const ScalingSeries &series :
+				options.scaling == ScalingExtent::FULL ? FULL_SERIES : QUICK_SERIES) {
+			for (const double value : series.values) {
+				add_scaling_configuration(series.group, value, cache);
+			}
+		}
+	}
+
+	ReportPlan finish() { return std::move(plan); }
+
+private:
+	void add_failure(const std::string &p_scene, const std::string &p_message) {
+		ReportConfiguration configuration;
+		configuration.id = p_scene;
+		configuration.scene = p_scene;
+		configuration.status = ReportStatus::FAILED;
+		configuration.message = p_message;
+		plan.report.configurations.push_back(configuration);
+		plan.questions.push_back(
+				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
+	}
+
+	void add_lights(const std::string &p_name, const std::shared_ptr<const Scene> &p_scene) {
+		const std::vector<Camera3D *> cameras = p_scene->find_nodes<Camera3D>();
+		if (cameras.empty()) {
+			fail("Scene \"", p_name, "\" has no perspective camera. Add one, and export it too.");
+		}
+		std::vector<Light3D *> lights = p_scene->find_nodes<Light3D>();
+		std::erase_if(lights, [](const Light3D *p_light) { return !casts_shadow(*p_light); });
+		if (lights.empty()) {
+			fail("Scene \"", p_name, "\" has no light that casts shadows. Add one ",
+					"(KHR_lights_punctual) with extras.shadow_enabled true.");
+		}
+		const double scene_size_m = build_snapshot(*p_scene, *cameras[0])->scene_size_m;
+		std::vector<double> sizes_m = options.sizes_m;
+		if (sizes_m.empty()) {
+			for (const double size : DEFAULT_SIZES) {
+				sizes_m.push_back(size * scene_size_m);
+			}
+		}
+		if (options.light_types.empty()) {
+			for (Light3D *light : lights) {
+				add_sizes(p_name, p_scene, *cameras[0], *light, light->type, sizes_m);
+			}
+		}
+		for (const LightType type : options.light_types) {
+			add_sizes(p_name, p_scene, *cameras[0], *lights[0], type, sizes_m);
+		}
+	}
+
+	void add_sizes(const std::string &p_name, const std::shared_ptr<const Scene> &p_scene,
+			const Camera3D &p_camera, Light3D &r_light, LightType p_type,
+			const std::vector<double> &p_sizes_m) {
+		for (size_t index = 0; index < p_sizes_m.size(); ++index) {
+			const LightVariant variant = { p_type, p_sizes_m[index] };
+			const glm::uvec2 size_px = options.size_px;
+			ReportConfiguration configuration;
+			configuration.scene = p_name;
+			configuration.light = r_light.name;
+			configuration.value = variant.size_m;
+			configuration.size_px = size_px;
+			configuration.id = p_name + "/" + r_light.name +
+					(p_type == r_light.type ? "" : text(" as ", get_light_type_name(p_type))) +
+					"/" + format_number(variant.size_m);
+			add_configuration(
+					configuration,
+					[=, &p_camera, &r_light](const PropertyValues &p_properties) {
+						return MaskQuestion{ build_variant(*p_scene, p_camera, r_light, variant,
+													 p_properties),
+							r_light.name, size_px };
+					},
+					index == p_sizes_m.size() / 2);
+		}
+	}
+
+	void add_scaling_configuration(const std::string &p_group, double p_value,
+			const std::shared_ptr<ScalingSceneCache> &p_cache) {
+		ScalingScene description;
+		glm::uvec2 size_px = options.size_px;
+		if (p_group == TRIANGLES_GROUP) {
+			description.triangle_count = static_cast<uint32_t>(p_value);
+		} else if (p_group == LIGHT_SIZE_GROUP) {
+			description.light_size_m = p_value;
+		} else if (p_group == LIGHTS_GROUP) {
+			description.light_count = static_cast<uint32_t>(p_value);
+		} else {
+			size_px = glm::uvec2(static_cast<uint32_t>(p_value));
+		}
+		ReportConfiguration configuration;
+		configuration.group = p_group;
+		configuration.value = p_value;
+		configuration.id = text(p_group, "/", format_number(p_value));
+		configuration.scene = SCALING_SCENE_NAME;
+		configuration.light_count = description.light_count;
+		configuration.size_px = size_px;
+		const bool has_many = description.light_count > 1;
+		configuration.light = has_many ? "" : "Light 1";
+		add_configuration(
+				configuration,
+				[=](const PropertyValues &) {
+					const auto scene = p_cache->get(description);
+					return MaskQuestion{ build_snapshot(
+												 *scene, *scene->find_nodes<Camera3D>().front()),
+						has_many ? "" : "Light 1", size_px };
+				},
+				false);
+	}
+
+	/// Fills in what the scene says, and plans the cells.
+	void add_configuration(
+			ReportConfiguration p_configuration, ReportPlan::Ask p_ask, bool p_has_expensive) {
+		const MaskQuestion question = p_ask(derive_widths());
+		const LightSnapshot &light = p_configuration.light.empty()
+				? question.scene->lights.front()
+				: get_light(*question.scene, p_configuration.light);
+		p_configuration.light_type = get_light_type_name(light.type);
+		if (light.type == LightType::DIRECTIONAL) {
+			p_configuration.light_angle_deg = light.light_angular_distance_deg;
+		} else {
+			p_configuration.light_size_m = p_configuration.group == LIGHT_SIZE_GROUP ||
+							p_configuration.group == MATRIX_GROUP
+					? p_configuration.value
+					: light.light_size_m;
+		}
+		p_configuration.scene_size_m = question.scene->scene_size_m;
+		for (const InstanceSnapshot &instance : question.scene->instances) {
+			if (instance.casts_shadow) {
+				p_configuration.triangle_count += instance.mesh->get_triangle_count();
+				p_configuration.edge_count += get_topology(instance.mesh)->edges.size();
+			}
+		}
+		if (p_configuration.has_truth()) {
+			const uint64_t hash =
+					hash_text(text(options.sample_count), compute_question_hash(question));
+			p_configuration.record = make_record_name(
+					p_configuration.scene, "truth", hash_text(options.program, hash));
+		}
+		const size_t index = plan.report.configurations.size();
+		plan.report.configurations.push_back(p_configuration);
+		plan.questions.push_back(p_ask);
+		for (const TechniqueSource &technique : techniques) {
+			std::vector<QualitySetting> settings = technique.get_settings(light);
+			if (!p_configuration.has_truth()) {
+				// A technique of expensive settings is brute force: many times the cost of another.
+				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
+						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
+				if (is_expensive && options.scaling == ScalingExtent::QUICK) {
+					continue;
+				}
+				settings.clear();
+			}
+			if (settings.empty()) {
+				settings.push_back({ "default", {} });
+			}
+			for (const QualitySetting &setting : settings) {
+				if (!setting.is_expensive || p_has_expensive || settings.size() == 1) {
+					add_cell(index, technique.info.id, setting);
+				}
+			}
+		}
+	}
+
+	void add_cell(size_t p_configuration, const std::string &p_technique,
+			const QualitySetting &p_setting) {
+		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
+		PropertyValues properties = derive_widths();
+		ReportCell cell;
+		cell.configuration = p_configuration;
+		cell.technique = p_technique;
+		cell.setting = p_setting.name;
+		for (const auto &[name, value] : p_setting.properties) {
+			properties[name] = value;
+			cell.properties[name] = format_property(value);
+		}
+		uint64_t hash = compute_question_hash(plan.questions[p_configuration](properties));
+		for (const std::string &part : { p_technique, p_setting.name, options.program,
+					 configuration.has_truth() ? text(options.sample_count) : std::string() }) {
+			hash = hash_text(part, hash);
+		}
+		cell.record = make_record_name(configuration.scene, p_technique, hash);
+		plan.report.cells.push_back(std::move(cell));
+		plan.settings.push_back(std::move(properties));
+	}
+
+	const ReportOptions &options;
+	const std::vector<TechniqueSource> &techniques;
+	ReportPlan plan;
+};
+
+} // namespace
+
+ReportPlan make_report_plan(const ReportOptions &p_options,
+		const std::vector<ReportScene> &p_scenes,
+		const std::vector<TechniqueSource> &p_techniques) {
+	Planner planner(p_options, p_techniques);
+	for (const ReportScene &scene : p_scenes) {
+		planner.add_scene(scene);
+	}
+	planner.add_scaling();
+	return planner.finish();
+}
+
+} // namespace gnomon

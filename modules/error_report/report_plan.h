@@ -1,0 +1,56 @@
+#pragma once
+
+#include "modules/error_report/light_variant.h"
+#include "modules/error_report/mask_source.h"
+#include "modules/error_report/report.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+enum class ScalingExtent {
+	NONE,
+	QUICK, // three points a curve that a software device draws in seconds, no expensive technique
+	FULL,  // 2k to 1M triangles, 1 to 64 lights, 128 to 2048 pixels
+};
+
+struct ReportOptions {
+	std::string project;
+	std::string program;		 // version and hash of this program: others measure anew
+	std::vector<double> sizes_m; // R; empty: 0.02, 0.1 and 0.3 S of each scene
+	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
+	/// that cast shadows, as they are.
+	std::vector<LightType> light_types;
+	glm::uvec2 size_px = glm::uvec2(256u);
+	uint32_t sample_count = 1024; // of the truth
+	ScalingExtent scaling = ScalingExtent::QUICK;
+};
+
+/// A scene of the matrix, or why it could not be loaded.
+struct ReportScene {
+	std::string name;
+	std::shared_ptr<const Scene> scene;
+	std::string failure;
+};
+
+/// What is to be measured: a report whose truths and cells are still missing, and how to ask for
+/// each. Questions are built when they are asked, since a scene may hold a million triangles.
+struct ReportPlan {
+	Report report;
+	/// One per configuration; throws an Error where the scene cannot be shown. The properties
+	/// replace those of the light.
+	using Ask = std::function<MaskQuestion(const PropertyValues &)>;
+	std::vector<Ask> questions;
+	std::vector<PropertyValues> settings; // one per cell
+};
+
+/// Plans the whole matrix in a fixed order: scenes, lights, sizes, techniques, settings. Names each
+/// record after what it depends on, so that a later run finds it again.
+ReportPlan make_report_plan(const ReportOptions &p_options,
+		const std::vector<ReportScene> &p_scenes, const std::vector<TechniqueSource> &p_techniques);
+
+} // namespace gnomon

@@ -1,0 +1,203 @@
+#include "modules/error_report/report_ranking.h"
+
+#include "modules/error_report/mask_timing.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const char *const BEST_IN_EACH = "best in each";
+
+bool is_comparable(const ReportCell &p_cell) {
+	return p_cell.is_ok() && p_cell.error && p_cell.error->all.penumbra.pixel_count > 0;
+}
+
+double get_mae(const ReportCell &p_cell) {
+	return p_cell.error->all.penumbra.mae;
+}
+
+RankingRow summarize(const Report &p_report, const std::string &p_technique,
+		const std::string &p_setting, const std::vector<size_t> &p_cells) {
+	RankingRow row;
+	row.technique = p_technique;
+	row.setting = p_setting;
+	row.configuration_count = p_cells.size();
+	std::vector<double> costs_ms;
+	std::vector<double> ratios;
+	size_t whole_light_count = 0;
+	for (const size_t index : p_cells) {
+		const ReportCell &cell = p_report.cells[index];
+		const MaskMetrics &all = cell.error->all;
+		const double share = 1.0 / double(p_cells.size());
+		row.penumbra_mae += all.penumbra.mae * share;
+		row.penumbra_rmse += all.penumbra.rmse * share;
+		row.penumbra_p99 += all.penumbra.p99 * share;
+		row.penumbra_bias += all.penumbra.bias * share;
+		row.umbra_over += all.umbra_over * share;
+		if (cell.error->whole_light.penumbra.pixel_count > 0) {
+			row.whole_light_penumbra_mae += cell.error->whole_light.penumbra.mae;
+			++whole_light_count;
+		}
+		costs_ms.push_back(cell.time.cost_ms);
+		if (const std::optional<double> ratio = p_report.compute_time_ratio(cell)) {
+			ratios.push_back(*ratio);
+		}
+	}
+	row.whole_light_penumbra_mae /= double(std::max<size_t>(1, whole_light_count));
+	row.cost_ms = compute_percentile(costs_ms, 0.5);
+	if (!ratios.empty()) {
+		row.time_ratio = compute_percentile(ratios, 0.5);
+	}
+	return row;
+}
+
+/// Rows by rising error from lists of cells, whose key is technique and setting.
+std::vector<RankingRow> summarize_all(const Report &p_report,
+		const std::map<std::pair<std::string, std::string>, std::vector<size_t>> &p_lists) {
+	std::vector<RankingRow> rows;
+	for (const auto &[key, cells] : p_lists) {
+		rows.push_back(summarize(p_report, key.first, key.second, cells));
+	}
+	std::stable_sort(
+			rows.begin(), rows.end(), [](const RankingRow &p_first, const RankingRow &p_second) {
+				return p_first.penumbra_mae < p_second.penumbra_mae;
+			});
+	return rows;
+}
+
+} // namespace
+
+std::vector<RankingRow> rank_settings(const Report &p_report) {
+	std::map<std::pair<std::string, std::string>, std::vector<size_t>> lists;
+	for (size_t index = 0; index < p_report.cells.size(); ++index) {
+		const ReportCell &cell = p_report.cells[index];
+		if (is_comparable(cell)) {
+			lists[{ cell.technique, cell.setting }].push_back(index);
+		}
+	}
+	return summarize_all(p_report, lists);
+}
+
+std::vector<RankingRow> rank_best_settings(const Report &p_report) {
+	std::map<std::pair<std::string, size_t>, size_t> best; // by technique and configuration
+	for (size_t index = 0; index < p_report.cells.size(); ++index) {
+		const ReportCell &cell = p_report.cells[index];
+		if (!is_comparable(cell)) {
+			continue;
+		}
+		const auto [place, is_new] = best.insert({ { cell.technique, cell.configuration }, index });
+		if (!is_new && get_mae(cell) < get_mae(p_report.cells[place->second])) {
+			place->second = index;
+		}
+	}
+	std::map<std::pair<std::string, std::string>, std::vector<size_t>> lists;
+	for (const auto &[key, index] : best) {
+		lists[{ key.first, BEST_IN_EACH }].push_back(index);
+	}
+	return summarize_all(p_report, lists);
+}
+
+std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration) {
+	std::vector<size_t> cells = p_report.find_cells(p_configuration);
+	std::erase_if(cells, [&](size_t p_index) { return !is_comparable(p_report.cells[p_index]); });
+	std::sort(cells.begin(), cells.end(), [&](size_t p_first, size_t p_second) {
+		const ReportCell &first = p_report.cells[p_first];
+		const ReportCell &second = p_report.cells[p_second];
+		return std::tuple(first.time.cost_ms, get_mae(first), p_first) <
+				std::tuple(second.time.cost_ms, get_mae(second), p_second);
+	});
+	std::vector<size_t> front;
+	for (const size_t index : cells) {
+		if (front.empty() ||
+				get_mae(p_report.cells[index]) < get_mae(p_report.cells[front.back()])) {
+			front.push_back(index);
+		}
+	}
+	return front;
+}
+
+std::optional<size_t> find_within_budget(
+		const Report &p_report, size_t p_configuration, double p_budget_ms) {
+	std::optional<size_t> best;
+	for (const size_t index : find_pareto_front(p_report, p_configuration)) {
+		if (p_report.cells[index].time.cost_ms <= p_budget_ms) {
+			best = index; // the front's error falls as its cost rises
+		}
+	}
+	return best;
+}
+
+std::vector<ScalingPlot> find_scaling_curves(const Report &p_report) {
+	std::vector<ScalingPlot> plots;
+	const std::pair<const char *, const char *> groups[] = { { TRIANGLES_GROUP, "triangles" },
+		{ LIGHT_SIZE_GROUP, "m" }, { LIGHTS_GROUP, "lights" }, { RESOLUTION_GROUP, "px" } };
+	for (const auto &[name, unit] : groups) {
+		ScalingPlot plot = { name, unit, {} };
+		for (const ReportTechnique &technique : p_report.techniques) {
+			ScalingCurve curve = { technique.id, {} };
+			for (size_t index = 0; index < p_report.cells.size(); ++index) {
+				const ReportCell &cell = p_report.cells[index];
+				const ReportConfiguration &at = p_report.configurations[cell.configuration];
+				if (at.group == name && cell.technique == technique.id && cell.is_ok()) {
+					curve.points.push_back({ at.value, index });
+				}
+			}
+			std::stable_sort(curve.points.begin(), curve.points.end(),
+					[](const ScalingPoint &p_first, const ScalingPoint &p_second) {
+						return p_first.value < p_second.value;
+					});
+			if (!curve.points.empty()) {
+				plot.curves.push_back(std::move(curve));
+			}
+		}
+		if (!plot.curves.empty()) {
+			plots.push_back(std::move(plot));
+		}
+	}
+	return plots;
+}
+
+Json to_json(const std::vector<RankingRow> &p_rows) {
+	Json json = Json::array();
+	for (const RankingRow &row : p_rows) {
+		json.push_back({ { "technique", row.technique }, { "setting", row.setting },
+				{ "configuration_count", row.configuration_count },
+				{ "penumbra_mae", row.penumbra_mae }, { "penumbra_rmse", row.penumbra_rmse },
+				{ "penumbra_p99", row.penumbra_p99 }, { "penumbra_bias", row.penumbra_bias },
+				{ "umbra_over", row.umbra_over },
+				{ "whole_light_penumbra_mae", row.whole_light_penumbra_mae },
+				{ "cost_ms", row.cost_ms } });
+		if (row.time_ratio) {
+			json.back()["time_ratio"] = *row.time_ratio;
+		}
+	}
+	return json;
+}
+
+Json to_json(const Report &p_report, const std::vector<ScalingPlot> &p_plots) {
+	Json json = Json::array();
+	for (const ScalingPlot &plot : p_plots) {
+		Json series = Json::array();
+		for (const ScalingCurve &curve : plot.curves) {
+			Json points = Json::array();
+			for (const ScalingPoint &point : curve.points) {
+				points.push_back({ { "value", point.value },
+						{ "cost_ms", p_report.cells[point.cell].time.cost_ms },
+						{ "cell", point.cell } });
+			}
+			series.push_back({ { "technique", curve.technique }, { "points", points } });
+		}
+		json.push_back({ { "name", plot.name }, { "unit", plot.unit }, { "series", series } });
+	}
+	return json;
+}
+
+} // namespace gnomon

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "modules/error_report/report.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// One technique with one setting over all the configurations in which it was measured. Errors are
+/// means, times medians.
+struct RankingRow {
+	std::string technique;
+	std::string setting; // "best in each" where it is chosen anew in each configuration
+	size_t configuration_count = 0;
+	double penumbra_mae = 0;
+	double penumbra_rmse = 0;
+	double penumbra_p99 = 0;
+	double penumbra_bias = 0;
+	double umbra_over = 0;
+	double whole_light_penumbra_mae = 0;
+	double cost_ms = 0;
+	std::optional<double> time_ratio;
+};
+
+/// Settings by rising mean error over the configurations of the matrix.
+std::vector<RankingRow> rank_settings(const Report &p_report);
+/// Techniques likewise, each with its setting of least error chosen anew in each configuration.
+std::vector<RankingRow> rank_best_settings(const Report &p_report);
+
+/// Cells of a configuration by rising cost, of which no other cell is both cheaper and closer to
+/// the truth. Cells without error or time are not on it.
+std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration);
+/// The cell of least error whose cost is within the budget; nothing where none is.
+std::optional<size_t> find_within_budget(
+		const Report &p_report, size_t p_configuration, double p_budget_ms);
+
+struct ScalingPoint {
+	double value = 0;
+	size_t cell = 0; // index
+};
+struct ScalingCurve {
+	std::string technique;
+	std::vector<ScalingPoint> points; // by rising value
+};
+struct ScalingPlot {
+	std::string name; // a group of configurations
+	std::string unit;
+	std::vector<ScalingCurve> curves;
+};
+/// One plot for each group that was measured.
+std::vector<ScalingPlot> find_scaling_curves(const Report &p_report);
+
+nlohmann::ordered_json to_json(const std::vector<RankingRow> &p_rows);
+nlohmann::ordered_json to_json(const Report &p_report, const std::vector<ScalingPlot> &p_plots);
+
+} // namespace gnomon

@@ -1,0 +1,308 @@
+#include "modules/error_report/run_report.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/core/progress.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/error_report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <new>
+#include <optional>
+#include <set>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// The mask with the receivers that the list leaves out taken away.
+MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_kept) {
+	MaskImage restricted = p_mask;
+	for (size_t index = 0; index < restricted.receiver.size(); ++index) {
+		if (!p_is_kept[index]) {
+			restricted.receiver[index] = 0.0f;
+			restricted.visibility[index] = 0.0f;
+		}
+	}
+	return restricted;
+}
+
+/// Grey and alpha: what is no receiver is transparent.
+std::vector<uint8_t> encode_truth_png(const MaskImage &p_mask) {
+	const std::vector<uint8_t> grey = compute_mask_pixels(p_mask);
+	std::vector<uint8_t> pixels;
+	for (size_t index = 0; index < grey.size(); ++index) {
+		pixels.push_back(grey[index]);
+		pixels.push_back(p_mask.is_receiver(index) ? 255 : 0);
+	}
+	return encode_png(p_mask.size_px, 2, pixels);
+}
+
+/// Runs a piece of work that may fail; its message, or nothing when it went well.
+template <typename Work> std::optional<std::string> find_failure(Work p_work) {
+	try {
+		p_work();
+		return std::nullopt;
+	} catch (const std::bad_alloc &) {
+		return "Out of memory. Close other programs, or use a smaller --size.";
+	} catch (const std::exception &error) {
+		return error.what();
+	}
+}
+
+class Runner {
+public:
+	Runner(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
+			const RunOptions &p_options) :
+			plan(p_plan),
+			source(r_source), store(r_store), options(p_options), report(p_plan.report),
+			machine(r_source.get_machine()) {}
+
+	Report run() {
+		load_earlier();
+		for (size_t index = 0; index < report.configurations.size(); ++index) {
+			if (is_mine(index)) {
+				run_configuration(index);
+			}
+		}
+		return std::move(report);
+	}
+
+private:
+	bool is_mine(size_t p_configuration) const {
+		return p_configuration % options.shard_count == options.shard_index;
+	}
+
+	/// Takes over what is there or takes it away, and counts what is left to do.
+	void load_earlier() {
+		if (options.resumes) {
+			report = collect_report(plan.report, store);
+			retry_failures();
+		}
+		size_t kept_count = 0;
+		for (const ReportCell &cell : report.cells) {
+			if (is_mine(cell.configuration)) {
+				(cell.status == ReportStatus::MISSING ? left_count : kept_count) += 1;
+			}
+		}
+		if (options.resumes) {
+			log_info("Resuming: ", kept_count, " cells are there, ", left_count, " are left.");
+			return;
+		}
+		for (const ReportConfiguration &configuration : report.configurations) {
+			if (is_mine(size_t(&configuration - report.configurations.data()))) {
+				store.remove(configuration.record);
+			}
+		}
+		for (const ReportCell &cell : report.cells) {
+			if (is_mine(cell.configuration)) {
+				store.remove(cell.record);
+			}
+		}
+	}
+
+	/// What made it fail may have gone away.
+	void retry_failures() {
+		for (size_t index = 0; index < report.configurations.size(); ++index) {
+			if (report.configurations[index].status == ReportStatus::FAILED) {
+				report.configurations[index] = plan.report.configurations[index];
+			}
+		}
+		for (size_t index = 0; index < report.cells.size(); ++index) {
+			if (report.cells[index].status == ReportStatus::FAILED) {
+				report.cells[index] = plan.report.cells[index];
+			}
+		}
+	}
+
+	void run_configuration(size_t p_index) {
+		ReportConfiguration &configuration = report.configurations[p_index];
+		std::vector<size_t> missing = report.find_cells(p_index);
+		std::erase_if(missing, [&](size_t p_cell) {
+			return report.cells[p_cell].status != ReportStatus::MISSING;
+		});
+		const bool needs_truth = configuration.has_truth() && !configuration.record.empty() &&
+				(!missing.empty() || configuration.status == ReportStatus::MISSING);
+		truth = {};
+		if (needs_truth) {
+			run_truth(p_index);
+		}
+		for (const size_t cell : missing) {
+			run_cell(cell);
+			++done_count;
+			progress.update(double(done_count) / double(left_count));
+		}
+	}
+
+	void run_truth(size_t p_index) {
+		ReportConfiguration &configuration = report.configurations[p_index];
+		std::vector<uint8_t> image;
+		const std::optional<std::string> failure = find_failure([&] {
+			truth = source.trace_truth(plan.questions[p_index]({}), report.sample_count);
+			image = encode_truth_png(truth.mask);
+		});
+		if (failure) {
+			configuration.status = ReportStatus::FAILED;
+			configuration.message = *failure;
+			log_error("Truth of ", configuration.id, ": ", *failure);
+		} else if (configuration.status == ReportStatus::MISSING) {
+			const MaskMetrics metrics = compute_mask_metrics(truth.mask, truth.mask);
+			configuration.status = ReportStatus::OK;
+			configuration.message.clear();
+			configuration.truth = { truth.standard_error, truth.wall_ms,
+				configuration.record + ".png", metrics.receiver.pixel_count,
+				metrics.penumbra.pixel_count };
+		} else {
+			return; // measured by the run that was stopped
+		}
+		store.save(configuration.record, truth_result_to_json(configuration), image);
+	}
+
+	void run_cell(size_t p_index) {
+		ReportCell &cell = report.cells[p_index];
+		const ReportConfiguration &configuration = report.configurations[cell.configuration];
+		// One question may stand on several curves; it is asked once.
+		if (measured.count(cell.record) != 0) {
+			if (const std::optional<Json> content = store.load(cell.record)) {
+				read_cell_result(*content, report, cell);
+				return;
+			}
+		}
+		std::vector<uint8_t> image;
+		const std::optional<std::string> failure = find_failure([&] {
+			if (configuration.has_truth() && configuration.status != ReportStatus::OK) {
+				fail("Its truth failed: ", configuration.message);
+			}
+			measure(cell, image);
+		});
+		cell.status = failure ? ReportStatus::FAILED : ReportStatus::OK;
+		if (failure) {
+			cell.message = *failure;
+			cell.error.reset();
+			cell.image.clear();
+			log_error(configuration.id, ", ", cell.technique, ", ", cell.setting, ": ", *failure);
+		}
+		const Json content = cell_result_to_json(cell, machine);
+		store.save(cell.record, content, image);
+		read_cell_result(content, report, cell);
+		measured.insert(cell.record);
+	}
+
+	void measure(ReportCell &r_cell, std::vector<uint8_t> &r_image) {
+		const size_t index = size_t(&r_cell - report.cells.data());
+		const MaskQuestion question = plan.questions[r_cell.configuration](plan.settings[index]);
+		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
+		if (report.configurations[r_cell.configuration].has_truth()) {
+			r_cell.error = ReportError{
+				compute_mask_metrics(truth.mask, measured_mask.mask),
+				compute_mask_metrics(restrict_mask(truth.mask, truth.sees_whole_light),
+						restrict_mask(measured_mask.mask, truth.sees_whole_light)),
+			};
+			r_image = encode_png(question.size_px, 1, compute_mask_pixels(measured_mask.mask));
+			r_cell.image = r_cell.record + ".png";
+		}
+		r_cell.time = measured_mask.time;
+		r_cell.bytes = measured_mask.bytes;
+	}
+
+	const ReportPlan &plan;
+	MaskSource &source;
+	RecordStore &store;
+	const RunOptions &options;
+	Report report;
+	const ReportMachine machine;
+	TracedTruth truth;				// of the configuration that is running
+	std::set<std::string> measured; // records of this run
+	size_t left_count = 0;
+	size_t done_count = 0;
+	Progress progress{ "Report" };
+};
+
+/// A record that cannot be read counts as absent; r_target is then as before.
+template <typename Read>
+void read_record(const RecordStore &p_store, const std::string &p_name, Read p_read) {
+	if (p_name.empty()) {
+		return;
+	}
+	if (const std::optional<Json> content = p_store.load(p_name)) {
+		if (const std::optional<std::string> failure = find_failure([&] { p_read(*content); })) {
+			log_warning(*failure);
+		}
+	}
+}
+
+std::vector<std::string> list_records(const Report &p_report) {
+	std::vector<std::string> names;
+	for (const ReportConfiguration &configuration : p_report.configurations) {
+		names.push_back(configuration.record);
+	}
+	for (const ReportCell &cell : p_report.cells) {
+		names.push_back(cell.record);
+	}
+	return names;
+}
+
+} // namespace
+
+fs::path get_plan_path(const fs::path &p_folder) {
+	return p_folder / "plan.json";
+}
+
+fs::path get_record_folder(const fs::path &p_folder) {
+	return p_folder / "cells";
+}
+
+void save_plan(const fs::path &p_folder, const Report &p_report) {
+	save_file_atomically(get_plan_path(p_folder), to_json(p_report).dump(1) + "\n");
+}
+
+Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
+		const RunOptions &p_options) {
+	r_store.remove_others(list_records(p_plan.report));
+	return Runner(p_plan, r_source, r_store, p_options).run();
+}
+
+Report collect_report(const Report &p_plan, const RecordStore &p_store) {
+	Report report = p_plan;
+	for (ReportConfiguration &configuration : report.configurations) {
+		read_record(p_store, configuration.record,
+				[&](const Json &p_content) { read_truth_result(p_content, configuration); });
+	}
+	for (ReportCell &cell : report.cells) {
+		read_record(p_store, cell.record,
+				[&](const Json &p_content) { read_cell_result(p_content, report, cell); });
+	}
+	return report;
+}
+
+Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_out) {
+	GNOMON_ASSERT(!p_folders.empty(), "nothing to merge");
+	const Report plan = load_report(get_plan_path(p_folders.front()));
+	RecordStore merged(get_record_folder(p_out));
+	for (const fs::path &folder : p_folders) {
+		if (to_json(load_report(get_plan_path(folder))) != to_json(plan)) {
+			fail("Reports ", p_folders.front(), " and ", folder,
+					" were not planned alike. Run all shards with the same program, project and ",
+					"options.");
+		}
+		std::error_code code;
+		if (fs::equivalent(folder, p_out, code)) {
+			continue; // its records are in place
+		}
+		const RecordStore part(get_record_folder(folder));
+		for (const std::string &name : list_records(plan)) {
+			if (!name.empty() && !fs::exists(merged.get_folder() / (name + ".json"), code)) {
+				merged.copy_from(part, name);
+			}
+		}
+	}
+	save_plan(p_out, plan);
+	return collect_report(plan, merged);
+}
+
+} // namespace gnomon

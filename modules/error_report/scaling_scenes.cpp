@@ -1,0 +1,133 @@
+#include "modules/error_report/scaling_scenes.h"
+
+#include "modules/core/text.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace gnomon {
+
+namespace {
+
+// Numbers of the study's torus_knot (DESIGN, section 7), in metres.
+const double KNOT_SCALE_M = 0.36;
+const glm::dvec3 KNOT_MIDDLE(0.0, 1.4, 0.0);
+const double TUBE_RADIUS_M = 0.16;
+const double ALONG_PER_AROUND = 500.0 / 30.0;
+const uint32_t GROUND_TRIANGLE_COUNT = 12;
+const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
+const glm::dvec3 LIGHT_TARGET(0.0, 0.4, 0.0);
+const double LIGHT_CONE_TANGENT = 0.95;
+const glm::dvec3 CAMERA_POSITION(-3.2, 4.6, 4.6);
+const glm::dvec3 CAMERA_TARGET(-0.3, 0.45, -0.2);
+const double CAMERA_FOV_RAD = 0.64350110879; // 36.87 degrees
+
+glm::dvec3 compute_knot_point(double p_turn) {
+	const double t = p_turn * 2.0 * std::numbers::pi;
+	const double ring = 2.0 + std::cos(3.0 * t);
+	return KNOT_MIDDLE +
+			KNOT_SCALE_M *
+			glm::dvec3(ring * std::cos(2.0 * t), -std::sin(3.0 * t), ring * std::sin(2.0 * t));
+}
+
+std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
+	const double around = std::sqrt(p_triangle_count * 0.5 / ALONG_PER_AROUND);
+	const uint32_t around_count = std::max(3u, static_cast<uint32_t>(std::lround(around)));
+	const uint32_t along_count =
+			std::max(3u, static_cast<uint32_t>(std::lround(p_triangle_count * 0.5 / around_count)));
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (uint32_t along = 0; along < along_count; ++along) {
+		const double turn = double(along) / along_count;
+		const glm::dvec3 middle = compute_knot_point(turn);
+		const glm::dvec3 forward =
+				glm::normalize(compute_knot_point(turn + 1e-4) - compute_knot_point(turn - 1e-4));
+		const glm::dvec3 side = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+		const glm::dvec3 up = glm::cross(side, forward);
+		for (uint32_t step = 0; step < around_count; ++step) {
+			const double angle = 2.0 * std::numbers::pi * step / around_count;
+			positions.push_back(glm::vec3(
+					middle + TUBE_RADIUS_M * (std::cos(angle) * side + std::sin(angle) * up)));
+			const uint32_t next_along = (along + 1) % along_count;
+			const uint32_t next_step = (step + 1) % around_count;
+			const uint32_t a = along * around_count + step;
+			const uint32_t b = next_along * around_count + step;
+			const uint32_t c = next_along * around_count + next_step;
+			const uint32_t d = along * around_count + next_step;
+			indices.insert(indices.end(), { a, b, c, a, c, d });
+		}
+	}
+	return make_mesh("knot", std::move(positions), {}, std::move(indices));
+}
+
+std::shared_ptr<const Mesh> make_ground() {
+	const glm::vec3 half(4.2f, 0.2f, 4.2f);
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (int axis = 0; axis < 3; ++axis) {
+		for (int sign = -1; sign <= 1; sign += 2) {
+			// The next two axes, swapped on the far side so that all faces wind outwards.
+			const int u = (axis + (sign > 0 ? 1 : 2)) % 3;
+			const int v = (axis + (sign > 0 ? 2 : 1)) % 3;
+			const uint32_t first = static_cast<uint32_t>(positions.size());
+			for (int corner = 0; corner < 4; ++corner) {
+				glm::vec3 position(0.0f);
+				position[axis] = float(sign);
+				position[u] = corner == 1 || corner == 2 ? 1.0f : -1.0f;
+				position[v] = corner >= 2 ? 1.0f : -1.0f;
+				positions.push_back(position * half - glm::vec3(0.0f, half.y, 0.0f));
+			}
+			for (const uint32_t corner : { 0u, 1u, 2u, 0u, 2u, 3u }) {
+				indices.push_back(first + corner);
+			}
+		}
+	}
+	return make_mesh("ground", std::move(positions), {}, std::move(indices));
+}
+
+glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
+	return glm::inverse(glm::lookAtRH(p_position, p_target, glm::dvec3(0, 1, 0)));
+}
+
+void add_lights(Node3D &r_root, const ScalingScene &p_description) {
+	const double radius_m = std::hypot(LIGHT_POSITION.x, LIGHT_POSITION.z);
+	const double first_rad = std::atan2(LIGHT_POSITION.z, LIGHT_POSITION.x);
+	for (uint32_t index = 0; index < p_description.light_count; ++index) {
+		const double angle = first_rad + 2.0 * std::numbers::pi * index / p_description.light_count;
+		const glm::dvec3 position(
+				radius_m * std::cos(angle), LIGHT_POSITION.y, radius_m * std::sin(angle));
+		auto light = std::make_unique<Light3D>();
+		light->name = text("Light ", index + 1);
+		light->type = LightType::SPOT;
+		light->intensity = 500.0f / float(p_description.light_count);
+		light->outer_cone_rad = static_cast<float>(std::atan(LIGHT_CONE_TANGENT));
+		light->properties["light_size"] = p_description.light_size_m;
+		light->parent_from_node = look_at(position, LIGHT_TARGET);
+		r_root.add_child(std::move(light));
+	}
+}
+
+} // namespace
+
+std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description) {
+	auto scene = std::make_unique<Scene>();
+	scene->scene_size_m = 4.0;
+	const uint32_t knot_count = p_description.triangle_count - GROUND_TRIANGLE_COUNT;
+	for (const std::shared_ptr<const Mesh> &mesh : { make_knot(knot_count), make_ground() }) {
+		auto instance = std::make_unique<MeshInstance3D>();
+		instance->name = mesh->name;
+		instance->surfaces.push_back({ mesh, nullptr });
+		scene->root->add_child(std::move(instance));
+	}
+	add_lights(*scene->root, p_description);
+	auto camera = std::make_unique<Camera3D>();
+	camera->name = "Camera";
+	camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);
+	camera->parent_from_node = look_at(CAMERA_POSITION, CAMERA_TARGET);
+	scene->root->add_child(std::move(camera));
+	return scene;
+}
+
+} // namespace gnomon

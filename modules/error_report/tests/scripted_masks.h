@@ -1,0 +1,113 @@
+#pragma once
+
+#include "modules/core/error.h"
+#include "modules/error_report/report_plan.h"
+#include "modules/error_report/scaling_scenes.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// Thrown where the process would be killed; no part of the report may catch it.
+struct Killed {};
+
+/// Answers without a GPU: the truth is a ramp, a technique's error its own constant.
+class ScriptedMasks : public MaskSource {
+public:
+	std::map<std::string, float> errors = { { "hard", 0.25f }, { "soft", 0.125f } };
+	std::string failing_technique;
+	bool fails_truth = false;
+	size_t kill_after_count = SIZE_MAX; // calls of measure
+	std::string device = "scripted";
+	size_t truth_count = 0;
+	size_t measure_count = 0;
+	std::vector<PropertyValues> asked; // properties of the light, as measure got them
+
+	ReportMachine get_machine() const override { return { device, "driver", "cpu", 2 }; }
+
+	TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) override {
+		++truth_count;
+		if (fails_truth) {
+			fail("no rays today");
+		}
+		TracedTruth truth;
+		truth.mask = make_mask(p_question, 0.0f);
+		truth.sees_whole_light.assign(truth.mask.get_pixel_count(), 1);
+		truth.sees_whole_light[0] = 0;
+		truth.standard_error = 1.0 / p_sample_count;
+		truth.wall_ms = 12;
+		return truth;
+	}
+
+	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override {
+		if (measure_count == kill_after_count) {
+			throw Killed();
+		}
+		++measure_count;
+		asked.push_back(p_question.scene->lights.front().properties);
+		if (p_technique == failing_technique) {
+			fail("the device is sad");
+		}
+		MeasuredMask measured;
+		if (!p_question.light.empty()) {
+			measured.mask = make_mask(p_question, errors.at(p_technique));
+		}
+		TimingSamples samples;
+		samples.add_frame({ { "depth view 0", 1.0 / 3.0, 0.5 }, { "resolve", 2.0 / 3.0, 1.0 } });
+		measured.time = samples.compute();
+		measured.bytes = 1000;
+		return measured;
+	}
+
+private:
+	static MaskImage make_mask(const MaskQuestion &p_question, float p_error) {
+		MaskImage mask;
+		mask.size_px = p_question.size_px;
+		mask.receiver.assign(mask.get_pixel_count(), 1.0f);
+		for (size_t index = 0; index < mask.get_pixel_count(); ++index) {
+			const float truth = float(index % 8) / 8.0f;
+			mask.visibility.push_back(truth == 0.0f ? 0.0f : truth - p_error * truth);
+		}
+		return mask;
+	}
+};
+
+/// "hard", the baseline, with one setting; "soft" with two, the second of them expensive.
+inline std::vector<TechniqueSource> make_scripted_techniques() {
+	const auto no_settings = [](const LightSnapshot &) { return std::vector<QualitySetting>(); };
+	const auto two_settings = [](const LightSnapshot &) {
+		return std::vector<QualitySetting>{ { "few", { { "soft_taps", int64_t(4) } } },
+			{ "many", { { "soft_taps", int64_t(64) } }, true } };
+	};
+	return { { { "hard", "Hard", "Test", "#000000", true }, no_settings },
+		{ { "soft", "Soft", "Test", "#ff0000", false }, two_settings } };
+}
+
+inline ReportOptions make_scripted_options() {
+	ReportOptions options;
+	options.project = "scripted";
+	options.program = "test 1";
+	options.size_px = glm::uvec2(16u);
+	options.sample_count = 64;
+	options.scaling = ScalingExtent::NONE;
+	return options;
+}
+
+/// Small scenes with one light each.
+inline std::vector<ReportScene> make_scripted_scenes(size_t p_count = 2) {
+	std::vector<ReportScene> scenes;
+	for (size_t index = 0; index < p_count; ++index) {
+		scenes.push_back({ text("scene_", index),
+				make_scaling_scene({ 1000 + 100 * uint32_t(index), 1, 0.4 }), {} });
+	}
+	return scenes;
+}
+
+inline ReportPlan make_scripted_plan(size_t p_scene_count = 2) {
+	return make_report_plan(make_scripted_options(), make_scripted_scenes(p_scene_count),
+			make_scripted_techniques());
+}
+
+} // namespace gnomon

@@ -1,0 +1,93 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/record_store.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const std::string NAME = "scene-technique-0123456789abcdef";
+const Json CONTENT = { { "status", "ok" }, { "value", 0.1 }, { "list", { 1, 2.5, "x" } } };
+const std::vector<uint8_t> IMAGE = { 1, 2, 3, 4, 5 };
+
+/// Writes other bytes over a file from p_place on.
+void damage_file(const fs::path &p_path, size_t p_place) {
+	std::vector<uint8_t> bytes = load_file(p_path);
+	REQUIRE(p_place < bytes.size());
+	bytes[p_place] ^= 1;
+	save_file_atomically(p_path, bytes);
+}
+
+} // namespace
+
+TEST_CASE("[ErrorReport] a record is read back as it was saved") {
+	TemporaryFolder folder;
+	RecordStore store(folder.path / "new" / "cells");
+	CHECK(!store.load(NAME));
+	store.save(NAME, CONTENT, IMAGE);
+	CHECK(store.load(NAME) == CONTENT);
+	CHECK(store.load_image(NAME) == IMAGE);
+	store.save(NAME, { { "other", true } });
+	CHECK(store.load(NAME) == Json{ { "other", true } });
+}
+
+TEST_CASE("[ErrorReport] a damaged record is noticed and counts as absent") {
+	TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const LogSink before = set_log_sink([](LogLevel, const std::string &) {});
+	const fs::path json = folder.path / (NAME + ".json");
+	const fs::path png = folder.path / (NAME + ".png");
+	store.save(NAME, CONTENT, IMAGE);
+	const std::string whole = load_text_file(json);
+	const unsigned warning_count = get_log_count(LogLevel::WARNING);
+	for (size_t place = 0; place + 1 < whole.size(); ++place) { // the last is the line's end
+		damage_file(json, place);
+		CAPTURE(place);
+		CHECK(!store.load(NAME));
+		save_file_atomically(json, whole);
+	}
+	CHECK(get_log_count(LogLevel::WARNING) == warning_count + whole.size() - 1);
+	save_file_atomically(json, whole.substr(0, whole.size() / 2));
+	CHECK(!store.load(NAME));
+	save_file_atomically(json, "");
+	CHECK(!store.load(NAME));
+	save_file_atomically(json, whole);
+	CHECK(store.load(NAME));
+	damage_file(png, 2);
+	CHECK(!store.load(NAME));
+	fs::remove(png);
+	CHECK(!store.load(NAME));
+	set_log_sink(before);
+}
+
+TEST_CASE("[ErrorReport] leftovers of other plans go, files of others stay") {
+	TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const std::string other = "scene-technique-fedcba9876543210";
+	store.save(NAME, CONTENT, IMAGE);
+	store.save(other, CONTENT, IMAGE);
+	for (const char *name : { "notes.json", "holiday-2026.png", "x-0123456789abcdeg.json" }) {
+		save_file_atomically(folder.path / name, "mine");
+	}
+	store.remove_others({ NAME });
+	CHECK(store.load(NAME) == CONTENT);
+	CHECK(!fs::exists(folder.path / (other + ".json")));
+	CHECK(!fs::exists(folder.path / (other + ".png")));
+	for (const char *name : { "notes.json", "holiday-2026.png", "x-0123456789abcdeg.json" }) {
+		CHECK(fs::exists(folder.path / name));
+	}
+}
+
+TEST_CASE("[ErrorReport] a folder that cannot be made is refused with its name") {
+	TemporaryFolder folder;
+	save_file_atomically(folder.path / "file", "x");
+	CHECK_THROWS_WITH_AS(RecordStore(folder.path / "file" / "cells"),
+			doctest::Contains("cannot be made"), Error);
+}

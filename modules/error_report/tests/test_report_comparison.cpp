@@ -1,0 +1,200 @@
+#include "modules/error_report/report_comparison.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <vector>
+
+using namespace gnomon;
+
+namespace {
+
+/// One configuration with "hard", the baseline of 2 ms, and "soft", cell 1, of 6 ms and a penumbra
+/// MAE of 0.1.
+Report make_report() {
+	Report report;
+	report.sample_count = 1024;
+	report.machines = { { "a", "", "", 2 } };
+	report.techniques = { { "hard", "", "", "", true }, { "soft", "", "", "" } };
+	report.configurations.resize(1);
+	report.configurations[0].id = "sphere/Spot/0.4";
+	report.configurations[0].size_px = { 64, 64 };
+	report.configurations[0].truth.standard_error = 0.002;
+	ReportCell cell;
+	cell.technique = "hard";
+	cell.setting = "default";
+	cell.status = ReportStatus::OK;
+	cell.time.cost_ms = 2;
+	cell.time.total = { 2, 2, 3, 3 };
+	cell.error = ReportError();
+	cell.error->all.penumbra = { 100, 0.4, 0, 0, 0 };
+	report.cells.push_back(cell);
+	cell.technique = "soft";
+	cell.setting = "32 taps";
+	cell.time.cost_ms = 6;
+	cell.time.total = { 6, 6, 7, 7 };
+	cell.error->all.penumbra.mae = 0.1;
+	report.cells.push_back(cell);
+	return report;
+}
+
+Report make_report(double p_mae, double p_cost_ms = 6) {
+	Report report = make_report();
+	report.cells[1].error->all.penumbra.mae = p_mae;
+	report.cells[1].time.cost_ms = p_cost_ms;
+	return report;
+}
+
+size_t count_differences(const Report &p_old, const Report &p_new) {
+	return compare_reports(p_old, p_new).differences.size();
+}
+
+/// The one difference there must be.
+ReportDifference find_difference(const Report &p_old, const Report &p_new) {
+	const ReportComparison comparison = compare_reports(p_old, p_new);
+	REQUIRE(comparison.differences.size() == 1);
+	CHECK(comparison.has_regression() ==
+			(comparison.differences[0].is_worse && comparison.differences[0].what != "time"));
+	return comparison.differences[0];
+}
+
+} // namespace
+
+TEST_CASE("[ErrorReport] equal reports do not differ") {
+	const ReportComparison comparison = compare_reports(make_report(), make_report());
+	CHECK(comparison.differences.empty());
+	CHECK(comparison.compared_count == 2);
+	CHECK(comparison.only_old_count + comparison.only_new_count == 0);
+	CHECK(comparison.has_same_machine);
+	CHECK(to_text(comparison).find("Nothing differs") != std::string::npos);
+}
+
+TEST_CASE("[ErrorReport] an error differs by more than 0.0005 and 1 %, in both directions") {
+	const Report old_report = make_report(); // 0.1: a margin of 0.0015
+	CHECK(count_differences(old_report, make_report(0.10149)) == 0);
+	CHECK(count_differences(old_report, make_report(0.09851)) == 0);
+	const ReportDifference worse = find_difference(old_report, make_report(0.10151));
+	CHECK(worse.is_worse);
+	CHECK(worse.what == "error");
+	CHECK(worse.configuration == "sphere/Spot/0.4");
+	CHECK(worse.old_value == 0.1);
+	CHECK(worse.new_value == 0.10151);
+	CHECK_FALSE(find_difference(old_report, make_report(0.09849)).is_worse);
+	// Where there was no error, the fixed part is all of it.
+	CHECK(count_differences(make_report(0), make_report(0.00049)) == 0);
+	CHECK(find_difference(make_report(0), make_report(0.00051)).is_worse);
+}
+
+TEST_CASE("[ErrorReport] truths of other numbers of samples widen the margin by their noise") {
+	Report new_report = make_report(0.1054); // the margin is now 0.0015 + 0.002 + 0.002
+	CHECK(find_difference(make_report(), new_report).is_worse);
+	new_report.sample_count = 256;
+	CHECK(count_differences(make_report(), new_report) == 0);
+	new_report.configurations[0].truth.standard_error = 0.0018;
+	CHECK(find_difference(make_report(), new_report).is_worse);
+	new_report.cells[1].error->all.penumbra.mae = 0.0946;
+	CHECK_FALSE(find_difference(make_report(), new_report).is_worse);
+}
+
+TEST_CASE("[ErrorReport] a time differs by more than 15 % and is never a regression") {
+	const Report old_report = make_report(); // three times the baseline
+	CHECK(count_differences(old_report, make_report(0.1, 6.89)) == 0);
+	CHECK(count_differences(old_report, make_report(0.1, 5.11)) == 0);
+	const ReportDifference worse = find_difference(old_report, make_report(0.1, 6.92));
+	CHECK(worse.what == "time");
+	CHECK(worse.is_worse);
+	CHECK(worse.old_value == 3);
+	CHECK(worse.new_value == 3.46);
+	CHECK_FALSE(find_difference(old_report, make_report(0.1, 5.08)).is_worse);
+}
+
+TEST_CASE("[ErrorReport] unsteady times differ by more than both their spreads") {
+	Report old_report = make_report();
+	old_report.cells[1].time.total = { 6, 6 * 1.2, 7, 70 }; // the GPU's spread counts
+	Report new_report = make_report(0.1, 6 * 1.29);
+	CHECK(find_difference(old_report, new_report).is_worse);
+	new_report.cells[1].time.total = { 0, 0, 7, 7 * 1.1 }; // without it that of the wall
+	CHECK(count_differences(old_report, new_report) == 0);
+	new_report.cells[1].time.cost_ms = 6 * 1.31;
+	CHECK(find_difference(old_report, new_report).is_worse);
+}
+
+TEST_CASE("[ErrorReport] a slower machine alone is no difference") {
+	Report slow = make_report();
+	slow.machines[0].device = "b";
+	for (ReportCell &cell : slow.cells) {
+		cell.time.cost_ms *= 5;
+	}
+	const ReportComparison comparison = compare_reports(make_report(), slow);
+	CHECK(comparison.differences.empty());
+	CHECK_FALSE(comparison.has_same_machine);
+	slow.cells[0].time.cost_ms = 2; // the baseline as fast as ever: the other did change
+	CHECK(find_difference(make_report(), slow).what == "time");
+}
+
+TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed before is better") {
+	Report failed = make_report();
+	failed.cells[1].status = ReportStatus::FAILED;
+	failed.cells[1].message = "no memory";
+	const ReportDifference worse = find_difference(make_report(), failed);
+	CHECK(worse.what == "status");
+	CHECK(worse.is_worse);
+	CHECK(to_text(compare_reports(make_report(), failed)) ==
+			"Against the old report: 1 cells compared, 0 only in the old, 0 only in the new.\n"
+			"worse status: sphere/Spot/0.4, soft, 32 taps: fails now: no memory\n");
+	CHECK_FALSE(find_difference(failed, make_report()).is_worse);
+	CHECK(count_differences(failed, failed) == 0);
+	// What was not run says nothing.
+	Report missing = make_report();
+	missing.cells[1].status = ReportStatus::MISSING;
+	CHECK(count_differences(make_report(), missing) == 0);
+	CHECK(count_differences(missing, failed) == 0);
+	CHECK(count_differences(failed, missing) == 0);
+}
+
+TEST_CASE("[ErrorReport] cells are the same by names and size of the picture") {
+	Report other = make_report(0.9);
+	const auto check_apart = [&] {
+		const ReportComparison comparison = compare_reports(make_report(), other);
+		CHECK(comparison.differences.empty());
+		CHECK(comparison.compared_count == 1); // the baseline
+		CHECK(comparison.only_old_count == 1);
+		CHECK(comparison.only_new_count == 1);
+		other = make_report(0.9);
+	};
+	other.cells[1].setting = "64 taps";
+	check_apart();
+	other.cells[1].technique = "softer";
+	check_apart();
+	other.configurations.push_back(other.configurations[0]);
+	other.configurations[1].id = "sphere/Spot/1.2";
+	other.cells[1].configuration = 1;
+	check_apart();
+	other.configurations.push_back(other.configurations[0]);
+	other.configurations[1].size_px = { 64, 32 };
+	other.cells[1].configuration = 1;
+	check_apart();
+	// Other indices change nothing.
+	std::swap(other.cells[0], other.cells[1]);
+	CHECK(find_difference(make_report(), other).new_value == 0.9);
+	other.cells.clear();
+	CHECK(compare_reports(make_report(), other).only_old_count == 2);
+	CHECK(compare_reports(other, make_report()).only_new_count == 2);
+}
+
+TEST_CASE("[ErrorReport] worse ones come first, in text and JSON") {
+	Report new_report = make_report(0.5);
+	new_report.cells[0].error->all.penumbra.mae = 0.25; // better, and measured first
+	new_report.cells[1].time.cost_ms = 4;				// better too
+	const ReportComparison comparison = compare_reports(make_report(), new_report);
+	REQUIRE(comparison.differences.size() == 3);
+	CHECK(to_text(comparison) ==
+			"Against the old report: 2 cells compared, 0 only in the old, 0 only in the new.\n"
+			"worse error: sphere/Spot/0.4, soft, 32 taps: 0.1 -> 0.5\n"
+			"better error: sphere/Spot/0.4, hard, default: 0.4 -> 0.25\n"
+			"better time: sphere/Spot/0.4, soft, 32 taps: 3 -> 2 times the baseline\n");
+	CHECK(to_json(comparison)["rows"][1].dump() ==
+			R"({"configuration":"sphere/Spot/0.4","technique":"hard","setting":"default",)"
+			R"("what":"error","old":0.4,"new":0.25,"change":-0.15000000000000002,)"
+			R"("verdict":"better","message":""})");
+}

@@ -1,0 +1,88 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_json.h"
+#include "modules/error_report/report_page.h"
+#include "modules/error_report/run_report.h"
+#include "modules/error_report/tests/scripted_masks.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace gnomon;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Report make_report(const std::filesystem::path &p_folder) {
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	RecordStore store(get_record_folder(p_folder));
+	return run_report(plan, masks, store, {});
+}
+
+} // namespace
+
+TEST_CASE("[ErrorReport] report.json is read back whole") {
+	TemporaryFolder folder;
+	const Report report = make_report(folder.path);
+	const Json json = to_json(report);
+	save_file_atomically(folder.path / "report.json", json.dump());
+	CHECK(to_json(load_report(folder.path / "report.json")) == json);
+	CHECK(json.at("failed_count") == 0);
+	CHECK(json.at("cells").size() == 7);
+	CHECK(json.at("ranking").size() == 3);
+	CHECK(json.at("ranking")[0].at("technique") == "soft");
+	CHECK(json.at("configurations")[0].at("pareto").size() == 1);
+}
+
+TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
+	TemporaryFolder folder;
+	const std::filesystem::path path = folder.path / "report.json";
+	const Json whole = to_json(make_report(folder.path));
+	const auto check_refused = [&](const std::string &p_text) {
+		save_file_atomically(path, p_text);
+		CHECK_THROWS_WITH_AS(load_report(path), doctest::Contains("report.json"), Error);
+	};
+	check_refused("");
+	check_refused("{}");
+	check_refused("[1]");
+	check_refused(whole.dump().substr(0, 1000));
+	for (const char *key : { "format", "version", "machines", "configurations", "cells" }) {
+		Json part = whole;
+		part.erase(key);
+		check_refused(part.dump());
+	}
+	Json wrong = whole;
+	wrong["cells"][0]["configuration"] = 99;
+	check_refused(wrong.dump());
+	wrong = whole;
+	wrong["cells"][0]["time"]["cost_ms"] = "fast";
+	check_refused(wrong.dump());
+	CHECK_THROWS_AS(load_report(folder.path / "absent.json"), Error);
+}
+
+TEST_CASE("[ErrorReport] the page holds library, data and pictures, and names cannot break out") {
+	TemporaryFolder folder;
+	Report report = make_report(folder.path);
+	report.project = "<b>&</script><script>alert(1)</script>";
+	report.cells[0].setting = "</script>";
+	const RecordStore store(get_record_folder(folder.path));
+	const std::string page = build_report_page(to_json(report), store);
+	for (const char *marker : { "{{TITLE}}", "{{STYLE}}", "{{LIBRARIES}}", "{{SCRIPT}}", "{{DATA}}",
+				 "{{LICENSES}}" }) {
+		CHECK(page.find(marker) == std::string::npos);
+	}
+	CHECK(page.find("<script>alert") == std::string::npos);
+	CHECK(page.find("&lt;b&gt;&amp;&lt;/script&gt;") != std::string::npos);
+	CHECK(page.find("Permission to use, copy, modify") != std::string::npos);
+	const size_t begin = page.find('{', page.find("id=\"report-data\""));
+	const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+	CHECK(data.at("project") == report.project);
+	CHECK(data.at("cells")[0].at("setting") == "</script>");
+	CHECK(data.at("images").size() == 3 + 7);
+	const std::string image = data.at("images").at(report.cells[0].image);
+	CHECK(image.rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);
+	CHECK(image.size() % 4 == 22 % 4); // whole groups of base64 after the prefix
+	CHECK(data.at("heat_map").at("colors").size() % 2 == 1);
+}

@@ -1,0 +1,200 @@
+#include "modules/error_report/report_ranking.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <vector>
+
+using namespace gnomon;
+using Indices = std::vector<size_t>;
+
+namespace {
+
+/// "hard", the baseline, "soft" and "best", on one of two machines; no cells yet.
+Report make_report(size_t p_configuration_count = 1) {
+	Report report;
+	report.machines = { { "a", "", "", 2 }, { "b", "", "", 8 } };
+	report.techniques = { { "hard", "", "", "", true }, { "soft", "", "", "" },
+		{ "best", "", "", "" } };
+	report.configurations.resize(p_configuration_count);
+	return report;
+}
+
+ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string &p_technique,
+		double p_cost_ms, double p_mae, const std::string &p_setting = "default") {
+	ReportCell cell;
+	cell.configuration = p_configuration;
+	cell.technique = p_technique;
+	cell.setting = p_setting;
+	cell.status = ReportStatus::OK;
+	cell.time.cost_ms = p_cost_ms;
+	cell.error = ReportError();
+	cell.error->all.penumbra = { 100, p_mae, p_mae * 2, p_mae * 4, -p_mae };
+	cell.error->all.umbra_over = p_mae / 2;
+	cell.error->whole_light.penumbra = { 50, p_mae * 3, 0, 0, 0 };
+	r_report.cells.push_back(cell);
+	return r_report.cells.back();
+}
+
+} // namespace
+
+TEST_CASE("[ErrorReport] the front has the cells of which none is both cheaper and closer") {
+	Report report = make_report(2);
+	add_cell(report, 0, "hard", 8, 0.1); // behind the cell of 4 ms
+	add_cell(report, 0, "hard", 1, 0.4);
+	add_cell(report, 1, "hard", 0.5, 0.001); // of another configuration
+	add_cell(report, 0, "soft", 4, 0.1);
+	add_cell(report, 0, "best", 16, 0.05);
+	CHECK(find_pareto_front(report, 0) == Indices{ 1, 3, 4 });
+}
+
+TEST_CASE("[ErrorReport] of cells of one cost the front has the closest, of equal ones the first") {
+	Report report = make_report();
+	add_cell(report, 0, "hard", 2, 0.3);
+	add_cell(report, 0, "soft", 2, 0.2);
+	add_cell(report, 0, "best", 2, 0.2);
+	add_cell(report, 0, "best", 3, 0.2); // as close, and dearer
+	CHECK(find_pareto_front(report, 0) == Indices{ 1 });
+}
+
+TEST_CASE("[ErrorReport] cells that failed or have no error in a penumbra are in no choice") {
+	Report report = make_report();
+	add_cell(report, 0, "hard", 1, 0.01).status = ReportStatus::FAILED;
+	add_cell(report, 0, "hard", 1, 0.01, "later").status = ReportStatus::MISSING;
+	add_cell(report, 0, "soft", 1, 0).error.reset();
+	add_cell(report, 0, "soft", 1, 0, "no penumbra").error->all.penumbra.pixel_count = 0;
+	CHECK(find_pareto_front(report, 0).empty());
+	CHECK_FALSE(find_within_budget(report, 0, 100));
+	CHECK(rank_settings(report).empty());
+	CHECK(rank_best_settings(report).empty());
+}
+
+TEST_CASE("[ErrorReport] a budget buys the closest cell that costs no more") {
+	Report report = make_report();
+	add_cell(report, 0, "hard", 1, 0.4);
+	add_cell(report, 0, "soft", 4, 0.1);
+	add_cell(report, 0, "soft", 5, 0.3); // within a budget of 5, and not the closest
+	add_cell(report, 0, "best", 16, 0.05);
+	CHECK_FALSE(find_within_budget(report, 0, 0.999));
+	CHECK(find_within_budget(report, 0, 1) == 0);
+	CHECK(find_within_budget(report, 0, 5) == 1);
+	CHECK(find_within_budget(report, 0, 1000) == 3);
+}
+
+TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians of the times") {
+	Report report = make_report(3);
+	const double costs_ms[] = { 1, 2, 10 };
+	for (size_t at = 0; at < 3; ++at) {
+		add_cell(report, at, "hard", costs_ms[at], 0.5);
+		add_cell(report, at, "soft", costs_ms[at] * (at + 2.0), 0.1 * double(at + 1));
+	}
+	add_cell(report, 1, "soft", 100, 0.05, "expensive").error->whole_light.penumbra.pixel_count = 0;
+	report.cells[1].error->whole_light.penumbra.pixel_count = 0; // left out of that mean alone
+	const std::vector<RankingRow> rows = rank_settings(report);
+	REQUIRE(rows.size() == 3);
+	CHECK(rows[0].setting == "expensive");
+	CHECK(rows[0].time_ratio == 50);
+	CHECK(rows[1].configuration_count == 3);
+	CHECK(rows[1].penumbra_mae == doctest::Approx(0.2));
+	CHECK(rows[1].penumbra_rmse == doctest::Approx(0.4));
+	CHECK(rows[1].penumbra_p99 == doctest::Approx(0.8));
+	CHECK(rows[1].penumbra_bias == doctest::Approx(-0.2));
+	CHECK(rows[1].umbra_over == doctest::Approx(0.1));
+	CHECK(rows[1].whole_light_penumbra_mae == doctest::Approx(0.75)); // of 0.6 and 0.9
+	CHECK(rows[1].cost_ms == 6);									  // of 2, 6, 40
+	CHECK(rows[1].time_ratio == 3);									  // of 2, 3, 4
+	CHECK(rows[2].technique == "hard");
+}
+
+TEST_CASE("[ErrorReport] the best setting is chosen anew in each configuration") {
+	Report report = make_report(2);
+	add_cell(report, 0, "soft", 1, 0.3, "few");
+	add_cell(report, 0, "soft", 9, 0.1, "many");
+	add_cell(report, 1, "soft", 3, 0.2, "few");
+	add_cell(report, 1, "soft", 7, 0.4, "many");
+	add_cell(report, 1, "best", 7, 0.1);
+	const std::vector<RankingRow> rows = rank_best_settings(report);
+	REQUIRE(rows.size() == 2);
+	CHECK(rows[1].technique == "soft");
+	CHECK(rows[1].setting == "best in each");
+	CHECK(rows[1].configuration_count == 2);
+	CHECK(rows[1].penumbra_mae == doctest::Approx(0.15)); // of 0.1 and 0.2
+	CHECK(rows[1].cost_ms == 6);						  // of 9 and 3
+	CHECK_FALSE(rows[1].time_ratio);					  // there is no baseline
+}
+
+TEST_CASE("[ErrorReport] a cell's time is a ratio to the baseline of its own configuration") {
+	Report report = make_report(2);
+	add_cell(report, 0, "soft", 6, 0.1);
+	add_cell(report, 0, "hard", 4, 0.4);
+	add_cell(report, 1, "hard", 2, 0.4);
+	add_cell(report, 1, "soft", 1, 0.4);
+	CHECK(report.compute_time_ratio(report.cells[0]) == 1.5);
+	CHECK(report.compute_time_ratio(report.cells[1]) == 1);
+	CHECK(report.compute_time_ratio(report.cells[3]) == 0.5);
+}
+
+TEST_CASE("[ErrorReport] without a baseline of the same machine there is no time ratio") {
+	Report report = make_report();
+	add_cell(report, 0, "hard", 4, 0.4);
+	add_cell(report, 0, "soft", 6, 0.1);
+	ReportCell &hard = report.cells[0];
+	ReportCell &soft = report.cells[1];
+	soft.machine = 1;
+	CHECK_FALSE(report.compute_time_ratio(soft));
+	hard.machine = 1;
+	CHECK(report.compute_time_ratio(soft) == 1.5);
+	hard.status = ReportStatus::FAILED;
+	CHECK_FALSE(report.compute_time_ratio(soft));
+	hard.status = ReportStatus::OK;
+	hard.time.cost_ms = 0;
+	CHECK_FALSE(report.compute_time_ratio(soft));
+	hard.time.cost_ms = 4;
+	report.techniques[0].is_baseline = false;
+	CHECK_FALSE(report.compute_time_ratio(soft));
+}
+
+TEST_CASE("[ErrorReport] what failed or is missing is counted, truths only where there is one") {
+	Report report = make_report(4);
+	report.configurations[0].status = ReportStatus::OK;
+	report.configurations[1].status = ReportStatus::FAILED;
+	report.configurations[3].group = LIGHTS_GROUP; // missing for ever
+	add_cell(report, 0, "hard", 1, 0.1);
+	add_cell(report, 0, "soft", 1, 0.1).status = ReportStatus::FAILED;
+	add_cell(report, 0, "best", 1, 0.1).status = ReportStatus::MISSING;
+	CHECK(report.count(ReportStatus::OK) == 2);
+	CHECK(report.count(ReportStatus::FAILED) == 2);
+	CHECK(report.count(ReportStatus::MISSING) == 2);
+}
+
+TEST_CASE("[ErrorReport] scaling curves rise in their group's value and lack what failed") {
+	Report report = make_report(5);
+	const std::pair<const char *, double> groups[] = { { LIGHTS_GROUP, 16 }, { LIGHTS_GROUP, 1 },
+		{ LIGHTS_GROUP, 4 }, { TRIANGLES_GROUP, 2000 }, { MATRIX_GROUP, 0.4 } };
+	for (size_t at = 0; at < 5; ++at) {
+		report.configurations[at].group = groups[at].first;
+		report.configurations[at].value = groups[at].second;
+		add_cell(report, at, "soft", 1.0 + double(at), 0).error.reset();
+	}
+	add_cell(report, 2, "hard", 9, 0).error.reset();
+	add_cell(report, 3, "hard", 9, 0).status = ReportStatus::FAILED;
+	CHECK(to_json(report, find_scaling_curves(report)).dump() ==
+			R"([{"name":"triangles","unit":"triangles","series":[{"technique":"soft",)"
+			R"("points":[{"value":2000.0,"cost_ms":4.0,"cell":3}]}]},)"
+			R"({"name":"lights","unit":"lights","series":[{"technique":"hard",)"
+			R"("points":[{"value":4.0,"cost_ms":9.0,"cell":5}]},{"technique":"soft",)"
+			R"("points":[{"value":1.0,"cost_ms":2.0,"cell":1},)"
+			R"({"value":4.0,"cost_ms":3.0,"cell":2},{"value":16.0,"cost_ms":1.0,"cell":0}]}]}])");
+	CHECK(find_scaling_curves(make_report()).empty());
+}
+
+TEST_CASE("[ErrorReport] rows of the ranking have the documented keys, a ratio only where it is") {
+	RankingRow row = { "soft", "32 taps", 33, 0.5, 0.25, 1, -0.5, 0.125, 0.75, 12, 2.5 };
+	const std::string expected =
+			R"([{"technique":"soft","setting":"32 taps","configuration_count":33,)"
+			R"("penumbra_mae":0.5,"penumbra_rmse":0.25,"penumbra_p99":1.0,"penumbra_bias":-0.5,)"
+			R"("umbra_over":0.125,"whole_light_penumbra_mae":0.75,"cost_ms":12.0)";
+	CHECK(to_json(std::vector<RankingRow>{ row }).dump() == expected + R"(,"time_ratio":2.5}])");
+	row.time_ratio.reset();
+	CHECK(to_json(std::vector<RankingRow>{ row }).dump() == expected + "}]");
+}

@@ -1,0 +1,204 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_json.h"
+#include "modules/error_report/run_report.h"
+#include "modules/error_report/tests/scripted_masks.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Keeps messages of expected failures off the test's output.
+struct QuietLog {
+	LogSink before = set_log_sink([](LogLevel, const std::string &) {});
+	~QuietLog() { set_log_sink(before); }
+};
+
+Report run(const ReportPlan &p_plan, MaskSource &r_source, const fs::path &p_folder,
+		const RunOptions &p_options = {}) {
+	RecordStore store(get_record_folder(p_folder));
+	save_plan(p_folder, p_plan.report);
+	return run_report(p_plan, r_source, store, p_options);
+}
+
+std::string to_text(const Report &p_report) {
+	return to_json(p_report).dump(1);
+}
+
+} // namespace
+
+TEST_CASE("[ErrorReport] a run measures every cell against its truth") {
+	TemporaryFolder folder;
+	const ReportPlan plan = make_scripted_plan(2);
+	ScriptedMasks masks;
+	const Report report = run(plan, masks, folder.path);
+	CHECK(masks.truth_count == 6);
+	CHECK(masks.measure_count == plan.report.cells.size());
+	CHECK(report.count(ReportStatus::OK) == 6 + 14);
+	REQUIRE(report.machines.size() == 1);
+	CHECK(report.machines[0].device == "scripted");
+	for (const ReportCell &cell : report.cells) {
+		REQUIRE(cell.error);
+		// The script's truth is a ramp of eighths, its error a share of it; black pixels count not.
+		const double share = cell.technique == "hard" ? 0.25 : 0.125;
+		CHECK(cell.error->all.penumbra.mae == doctest::Approx(0.5 * share));
+		CHECK(cell.error->all.penumbra.pixel_count == 16 * 14);
+		CHECK(cell.error->whole_light.receiver.pixel_count == 16 * 16 - 1);
+		CHECK(cell.time.cost_ms == doctest::Approx(1.0));
+		CHECK(report.compute_time_ratio(cell) == doctest::Approx(1.0));
+		CHECK(fs::exists(get_record_folder(folder.path) / cell.image));
+	}
+	CHECK(report.configurations[0].truth.standard_error == doctest::Approx(1.0 / 64));
+	CHECK(report.configurations[0].truth.penumbra_pixel_count == 16 * 14);
+}
+
+TEST_CASE("[ErrorReport] a run that is killed at any place and resumed gives the same report") {
+	const ReportPlan plan = make_scripted_plan(2);
+	const size_t cell_count = plan.report.cells.size();
+	TemporaryFolder whole_folder;
+	ScriptedMasks whole_masks;
+	const std::string whole = to_text(run(plan, whole_masks, whole_folder.path));
+	QuietLog quiet;
+	for (size_t kill_after_count = 0; kill_after_count < cell_count; ++kill_after_count) {
+		CAPTURE(kill_after_count);
+		TemporaryFolder folder;
+		ScriptedMasks masks;
+		masks.kill_after_count = kill_after_count;
+		CHECK_THROWS_AS(run(plan, masks, folder.path), Killed);
+		ScriptedMasks rest;
+		RunOptions options;
+		options.resumes = true;
+		CHECK(to_text(run(plan, rest, folder.path, options)) == whole);
+		CHECK(rest.measure_count == cell_count - kill_after_count);
+	}
+}
+
+TEST_CASE("[ErrorReport] a finished run that is resumed asks for nothing") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	const std::string whole = to_text(run(plan, masks, folder.path));
+	ScriptedMasks none;
+	CHECK(to_text(run(plan, none, folder.path, { true, 0, 1 })) == whole);
+	CHECK(none.truth_count == 0);
+	CHECK(none.measure_count == 0);
+}
+
+TEST_CASE("[ErrorReport] without resume everything is measured anew") {
+	TemporaryFolder folder;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	run(plan, masks, folder.path);
+	ScriptedMasks again;
+	run(plan, again, folder.path);
+	CHECK(again.measure_count == plan.report.cells.size());
+}
+
+TEST_CASE("[ErrorReport] a damaged record is measured anew, and only that one") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(2);
+	ScriptedMasks masks;
+	const std::string whole = to_text(run(plan, masks, folder.path));
+	const fs::path cells = get_record_folder(folder.path);
+	const fs::path json = cells / (plan.report.cells[3].record + ".json");
+	std::string record = load_text_file(json);
+	const size_t place = record.find("\"mae\":");
+	REQUIRE(place != std::string::npos);
+	record[place + 8] = record[place + 8] == '5' ? '6' : '5';
+	save_file_atomically(json, record);
+	const fs::path png = cells / (plan.report.cells[9].record + ".png");
+	save_file_atomically(png, load_text_file(png).substr(0, 20));
+	ScriptedMasks rest;
+	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(rest.measure_count == 2);
+}
+
+TEST_CASE("[ErrorReport] a damaged record of a truth is traced anew") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	const std::string whole = to_text(run(plan, masks, folder.path));
+	const std::string &name = plan.report.configurations[1].record;
+	save_file_atomically(get_record_folder(folder.path) / (name + ".json"), "{}");
+	ScriptedMasks rest;
+	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(rest.truth_count == 1);
+	CHECK(rest.measure_count == 0);
+}
+
+TEST_CASE("[ErrorReport] a cell that fails is marked, the rest goes on, a resume tries it again") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	masks.failing_technique = "soft";
+	const Report report = run(plan, masks, folder.path);
+	CHECK(report.count(ReportStatus::FAILED) == 4);
+	CHECK(report.count(ReportStatus::OK) == 3 + 3);
+	for (const ReportCell &cell : report.cells) {
+		CHECK((cell.message == "the device is sad") == (cell.technique == "soft"));
+	}
+	ScriptedMasks mended;
+	const Report second = run(plan, mended, folder.path, { true, 0, 1 });
+	CHECK(mended.measure_count == 4);
+	CHECK(second.count(ReportStatus::OK) == 3 + 7);
+	CHECK(std::all_of(second.cells.begin(), second.cells.end(),
+			[](const ReportCell &p_cell) { return p_cell.message.empty(); }));
+}
+
+TEST_CASE("[ErrorReport] cells of a truth that failed say so") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	masks.fails_truth = true;
+	const Report report = run(plan, masks, folder.path);
+	CHECK(report.count(ReportStatus::FAILED) == 3 + 7);
+	CHECK(report.configurations[0].message == "no rays today");
+	CHECK(report.cells[0].message == "Its truth failed: no rays today");
+	CHECK(masks.measure_count == 0);
+}
+
+TEST_CASE("[ErrorReport] shards that are merged give the report of one run") {
+	const ReportPlan plan = make_scripted_plan(2);
+	TemporaryFolder whole_folder;
+	ScriptedMasks whole_masks;
+	const std::string whole = to_text(run(plan, whole_masks, whole_folder.path));
+	TemporaryFolder folder;
+	std::vector<fs::path> parts;
+	size_t measure_count = 0;
+	for (uint32_t index = 0; index < 4; ++index) {
+		parts.push_back(folder.path / std::to_string(index));
+		ScriptedMasks masks;
+		const Report part = run(plan, masks, parts.back(), { false, index, 4 });
+		CHECK(part.count(ReportStatus::MISSING) > 0);
+		measure_count += masks.measure_count;
+	}
+	CHECK(measure_count == plan.report.cells.size());
+	CHECK(to_text(merge_reports(parts, folder.path / "all")) == whole);
+	CHECK(to_text(merge_reports({ folder.path / "all" }, folder.path / "all")) == whole);
+	parts.pop_back();
+	CHECK(merge_reports(parts, folder.path / "three").count(ReportStatus::MISSING) > 0);
+}
+
+TEST_CASE("[ErrorReport] shards of different plans are not merged") {
+	TemporaryFolder folder;
+	ScriptedMasks masks;
+	run(make_scripted_plan(1), masks, folder.path / "a");
+	run(make_scripted_plan(2), masks, folder.path / "b");
+	CHECK_THROWS_WITH_AS(merge_reports({ folder.path / "a", folder.path / "b" }, folder.path / "c"),
+			doctest::Contains("not planned alike"), Error);
+	CHECK_THROWS_WITH_AS(merge_reports({ folder.path / "none" }, folder.path / "c"),
+			doctest::Contains("plan.json"), Error);
+}

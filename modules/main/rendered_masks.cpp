@@ -1,0 +1,140 @@
+#include "modules/main/rendered_masks.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/error_report/light_variant.h"
+#include "modules/main/commands.h"
+#include "modules/main/measure.h"
+#include "modules/renderer/renderer.h"
+#include "modules/renderer/shadow_registry.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace gnomon {
+
+namespace {
+
+// Of a cell: 20 frames or 3 s, at least 5. The mask itself has made the pipelines and warmed up.
+const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
+const char *const SAMPLES_ENDING = "_samples"; // <id>_samples: the reference's rays per pixel
+
+const ShadowTechniqueInfo &get_reference() {
+	if (const ShadowTechniqueInfo *info = ShadowRegistry::find_reference()) {
+		return *info;
+	}
+	fail("No technique of this build is a reference, so that there is no truth to compare with. ",
+			"Enable the module of one; `gnomon modules` lists them.");
+}
+
+RenderRequest make_request(const MaskQuestion &p_question, const std::string &p_technique) {
+	RenderRequest request;
+	request.scene = p_question.scene;
+	request.size_px = p_question.size_px;
+	request.technique_override = p_technique;
+	request.mask_light = p_question.light;
+	request.wants_mask = !p_question.light.empty();
+	return request;
+}
+
+std::vector<uint8_t> find_whole_light(
+		const MaskQuestion &p_question, const RenderResult &p_result) {
+	const LightSnapshot &light = get_light(*p_question.scene, p_question.light);
+	const glm::vec3 position = p_question.scene->to_camera_relative(light.position_world);
+	std::vector<uint8_t> sees(p_result.surfaces.size());
+	for (size_t index = 0; index < sees.size(); ++index) {
+		const SurfacePoint &point = p_result.surfaces[index];
+		sees[index] = point.is_there && p_result.receiver[index] >= 0.5f &&
+				sees_whole_disc(light, position, point.position, point.geometric_normal);
+	}
+	return sees;
+}
+
+} // namespace
+
+ReportMachine RenderedMasks::get_machine() const {
+	const DeviceInfo &info = device.get_info();
+	return { info.name, info.driver, find_cpu_name(), std::thread::hardware_concurrency() };
+}
+
+TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) {
+	const ShadowTechniqueInfo &reference = get_reference();
+	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
+	for (LightSnapshot &light : scene->lights) {
+		light.properties[reference.id + SAMPLES_ENDING] = int64_t(p_sample_count);
+	}
+	RenderRequest request = make_request(p_question, reference.id);
+	request.scene = scene;
+	request.wants_surfaces = true;
+	Renderer renderer(device);
+	// The reference says two lines for each truth; the report keeps what they say.
+	set_log_level(LogLevel::WARNING);
+	RenderResult result;
+	try {
+		result = renderer.render(request);
+	} catch (...) {
+		set_log_level(LogLevel::INFO);
+		throw;
+	}
+	set_log_level(LogLevel::INFO);
+	TracedTruth truth;
+	truth.sees_whole_light = find_whole_light(p_question, result);
+	truth.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
+	truth.standard_error = result.standard_error;
+	for (const PassTiming &timing : result.timings) {
+		truth.wall_ms += timing.is_on_host ? timing.wall_ms : 0;
+	}
+	return truth;
+}
+
+MeasuredMask RenderedMasks::measure(
+		const MaskQuestion &p_question, const std::string &p_technique) {
+	const RenderRequest request = make_request(p_question, p_technique);
+	Renderer renderer(device);
+	MeasuredMask measured;
+	if (request.wants_mask) {
+		RenderResult result = renderer.render(request);
+		measured.mask = { p_question.size_px, std::move(result.visibility),
+			std::move(result.receiver) };
+	}
+	MeasureLimits limits = CELL_LIMITS;
+	limits.warm_up_count = request.wants_mask ? 0 : 1;
+	limits.median_error = median_error;
+	measured.time = measure_mask_timing(renderer, request, limits, {});
+	measured.bytes = device.get_memory_use().used_bytes;
+	return measured;
+}
+
+std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<std::string> &p_ids) {
+	for (const std::string &id : p_ids) {
+		if (!ShadowRegistry::find(id)) {
+			std::string ids;
+			for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+				ids += (ids.empty() ? "" : ", ") + info.id;
+			}
+			throw UsageError(text("--techniques: there is no \"", id, "\", must be of ", ids, "."));
+		}
+	}
+	std::vector<TechniqueSource> sources;
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		const bool is_asked = p_ids.empty()
+				? !info.is_reference && !info.is_example
+				: std::find(p_ids.begin(), p_ids.end(), info.id) != p_ids.end();
+		if (!is_asked) {
+			continue;
+		}
+		TechniqueSource source;
+		source.info = { info.id, info.name, info.source, info.color, info.is_fallback };
+		const std::shared_ptr<const ShadowTechnique> technique = info.make();
+		source.get_settings = [technique](const LightSnapshot &p_light) {
+			std::vector<QualitySetting> settings;
+			technique->get_quality_settings(p_light, settings);
+			return settings;
+		};
+		sources.push_back(std::move(source));
+	}
+	return sources;
+}
+
+} // namespace gnomon

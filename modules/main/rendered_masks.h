@@ -1,0 +1,33 @@
+#pragma once
+
+#include "modules/error_report/mask_source.h"
+#include "modules/rendering_device/rendering_device.h"
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// Answers the error report's questions with the renderer. Each answer has a renderer of its own,
+/// so that none inherits what another one kept.
+class RenderedMasks : public MaskSource {
+public:
+	/// p_median_error: a measurement may end before its 20 frames or 3 s once the standard error of
+	/// its median is that share of it; 0 = never.
+	RenderedMasks(RenderingDevice &p_device, double p_median_error) :
+			device(p_device), median_error(p_median_error) {}
+
+	ReportMachine get_machine() const override;
+	TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) override;
+	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override;
+
+	/// The techniques of those ids; empty: all but the reference and examples. An unknown id is a
+	/// UsageError.
+	static std::vector<TechniqueSource> find_techniques(const std::vector<std::string> &p_ids);
+
+private:
+	RenderingDevice &device;
+	const double median_error;
+};
+
+} // namespace gnomon

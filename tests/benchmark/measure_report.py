@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""Runs the whole `gnomon report` and writes its ranking, reading figures and plots into doc/benchmarks.md.
+
+    measure_report.py [--out DIR] [--resume] [--no-run]
+
+--no-run takes the report that is in DIR. Every cell draws 20 frames or 3 s and the scaling curves are full: about
+20 minutes on two cores. The plots are taken from the page by headless chromium.
+"""
+
+import argparse
+import base64
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "command_line"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import check_report_page  # noqa: E402
+from run_benchmarks import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
+
+IMAGES = os.path.join(ROOT, "doc", "images")
+# DESIGN, section 7: the study's scenes; TECHNIQUES, section 0: the population of its figures.
+STUDY_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
+SHOWN_SCENE = "torus_knot"
+SCENE = "[...document.querySelectorAll('section.scene')].find((item) => item.querySelector('h2').textContent == '%s')" % SHOWN_SCENE
+# Name of the picture, and the element of the page that it shows.
+PICTURES = {
+    "report_ranking.png": "document.querySelector('#ranking .plot-host')",
+    "report_scene.png": SCENE + ".querySelector('.grid')",
+    "report_pictures.png": SCENE + ".querySelector('.viewer')",
+    "report_scaling.png": "document.querySelector('#scaling .grid')",
+}
+PICTURE_WIDTH_PX = 1100
+
+
+def run_report(options):
+    arguments = ["--scaling", "full", "--precision", "0", "--out", options.out]
+    if options.resume:
+        arguments.append("--resume")
+    result = subprocess.run([PROGRAM, "report", os.path.join(ROOT, "demo_project"), *arguments], check=False)
+    if result.returncode != 0:
+        raise SystemExit("ERROR: gnomon report ended with %d" % result.returncode)
+
+
+def format_ratio(row):
+    return "%.1f" % row["time_ratio"] if "time_ratio" in row else ""
+
+
+def build_ranking(report):
+    header = ("technique", "setting", "penumbra MAE", "bias", "p99", "umbra over", "median ms", "times shadow map", "cells")
+    rows = [
+        (
+            "`%s`" % row["technique"],
+            row["setting"],
+            "%.4f" % row["penumbra_mae"],
+            "%+.3f" % row["penumbra_bias"],
+            "%.2f" % row["penumbra_p99"],
+            "%.3f" % row["umbra_over"],
+            "%.1f" % row["cost_ms"],
+            format_ratio(row),
+            row["configuration_count"],
+        )
+        for row in report["ranking"]
+    ]
+    return format_table(header, rows)
+
+
+def build_study(report):
+    """Mean errors over the study's scenes, the population of its figures beside the full one."""
+    errors = {}
+    best = {}
+    for cell in report["cells"]:
+        at = report["configurations"][cell["configuration"]]
+        if at["group"] != "matrix" or at["scene"] not in STUDY_SCENES or cell["status"] != "ok":
+            continue
+        pair = tuple(cell["error"][population]["penumbra"]["mae"] for population in ("all", "whole_light"))
+        errors.setdefault((cell["technique"], cell["setting"]), []).append(pair)
+        key = (cell["technique"], cell["configuration"])
+        best[key] = min(best.get(key, pair), pair)
+    for technique in dict.fromkeys(technique for technique, _ in errors):
+        if sum(name == technique for name, _ in errors) > 1:
+            errors[(technique, "best in each")] = [pair for (name, _), pair in best.items() if name == technique]
+    rows = [
+        ("`%s`" % technique, setting, *("%.3f" % statistics.mean(pair[index] for pair in pairs) for index in (0, 1)), len(pairs))
+        for (technique, setting), pairs in sorted(errors.items())
+    ]
+    return format_table(("technique", "setting", "MAE, all receivers", "MAE, whole light seen", "cells"), rows)
+
+
+def build_scaling(report):
+    """The least and the greatest point of each curve, and how the cost grew between them."""
+    rows = []
+    for curve in report["scaling"]:
+        for series in curve["series"]:
+            first, last = series["points"][0], series["points"][-1]
+            rows.append(
+                (
+                    curve["name"],
+                    "`%s`" % series["technique"],
+                    "%g: %.1f ms" % (first["value"], first["cost_ms"]),
+                    "%g: %.1f ms" % (last["value"], last["cost_ms"]),
+                    "%.1f" % (last["cost_ms"] / first["cost_ms"]),
+                    "%.0f" % (last["value"] / first["value"]),
+                )
+            )
+    return format_table(("curve", "technique", "first point", "last point", "cost grew times", "for times"), rows)
+
+
+def save_pictures(page):
+    """Cuts the plots out of the page, as seen on a desktop in light colours."""
+    url = pathlib.Path(page).resolve().as_uri() + "#all"
+    with check_report_page.Browser() as browser:
+        browser.open(url, PICTURE_WIDTH_PX, 900)
+        for name, element in PICTURES.items():
+            box = browser.evaluate(
+                "(() => { const box = %s.getBoundingClientRect();"
+                "return { x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height, scale: 1 }; })()" % element
+            )
+            result = browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=box)
+            path = os.path.join(IMAGES, name)
+            # 64 colours are enough for plots, and keep the repository small.
+            command = ["convert", "png:-", "-colors", "64", "-strip", "PNG8:" + path]
+            subprocess.run(command, input=base64.b64decode(result["data"]), check=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures the whole report for doc/benchmarks.md.")
+    parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "full_report"), help="the report's folder")
+    parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
+    parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
+    options = parser.parse_args()
+    load = os.getloadavg()[0]
+    if not options.no_run:
+        run_report(options)
+    with open(os.path.join(options.out, "report.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    where = describe_machine(load)
+    for part, lines in (
+        ("report_ranking", build_ranking(report)),
+        ("report_study", build_study(report)),
+        ("report_scaling", build_scaling(report)),
+    ):
+        write_table(part, [*lines, "", where])
+    save_pictures(os.path.join(options.out, "index.html"))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
