@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -128,6 +129,17 @@ fs::path get_cache_folder() {
 
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed) {
 	return XXH3_64bits_withSeed(p_bytes.data(), p_bytes.size(), p_seed);
+}
+
+uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed) {
+	return compute_hash(
+			{ reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size() }, p_seed);
+}
+
+std::string format_hash(uint64_t p_hash) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(p_hash));
+	return digits;
 }
 
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes) {

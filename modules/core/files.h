@@ -31,6 +31,9 @@ std::filesystem::path get_cache_folder();
 
 /// 64 bits of xxHash3. Not for secrets; names cache entries and finds damaged ones.
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
+uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed = 0);
+/// 16 hexadecimal digits.
+std::string format_hash(uint64_t p_hash);
 /// The bytes of a value or an array of values without padding.
 template <typename T> std::span<const uint8_t> bytes_of(std::span<const T> p_values) {
 	return { reinterpret_cast<const uint8_t *>(p_values.data()), p_values.size_bytes() };

@@ -45,8 +45,9 @@ MaskTiming TimingSamples::compute() const {
 	timing.frame_count = get_frame_count();
 	for (const std::string &name : names) {
 		const Values &values = passes.at(name);
-		timing.passes.push_back({ name, compute_percentile(values.gpu_ms, 0.5),
-				compute_percentile(values.wall_ms, 0.5), values.is_on_host });
+		const FrameCost cost = compute_frame_cost(values.gpu_ms, values.wall_ms);
+		timing.passes.push_back({ name, cost.gpu_ms, cost.wall_ms, values.is_on_host,
+				cost.gpu_ms_p90, cost.wall_ms_p90 });
 	}
 	timing.total = compute_frame_cost(totals.gpu_ms, totals.wall_ms);
 	timing.cost_ms = compute_percentile(costs_ms, 0.5);
@@ -64,8 +65,12 @@ double TimingSamples::compute_median_error() const {
 	}
 	// 1.4826 makes a normal distribution's deviation of it, 1.2533 is how much wider its median
 	// varies than its mean.
-	const double deviation_ms = 1.4826 * compute_percentile(distances_ms, 0.5);
-	return 1.2533 * deviation_ms / std::sqrt(double(costs_ms.size())) / median_ms;
+	const double count = double(costs_ms.size());
+	// The last factor: of few values the median distance comes out too small (Croux, Rousseeuw
+	// 1992).
+	const double deviation_ms =
+			1.4826 * compute_percentile(distances_ms, 0.5) * count / (count - 0.8);
+	return 1.2533 * deviation_ms / std::sqrt(count) / median_ms;
 }
 
 FrameCost compute_frame_cost(
@@ -79,11 +84,12 @@ Json to_json(const FrameCost &p_cost) {
 		{ "wall_ms", p_cost.wall_ms }, { "wall_ms_p90", p_cost.wall_ms_p90 } };
 }
 
-Json to_json(const std::vector<PassCost> &p_passes) {
+Json to_json(const std::vector<PassMedians> &p_passes) {
 	Json json = Json::array();
-	for (const PassCost &pass : p_passes) {
-		json.push_back(
-				{ { "name", pass.name }, { "gpu_ms", pass.gpu_ms }, { "wall_ms", pass.wall_ms } });
+	for (const PassMedians &pass : p_passes) {
+		json.push_back({ { "name", pass.name }, { "gpu_ms", pass.gpu_ms },
+				{ "gpu_ms_p90", pass.gpu_ms_p90 }, { "wall_ms", pass.wall_ms },
+				{ "wall_ms_p90", pass.wall_ms_p90 }, { "is_on_host", pass.is_on_host } });
 	}
 	return json;
 }

@@ -17,7 +17,17 @@ struct PassCost {
 	bool is_on_host = false; // it runs on the CPU: gpu_ms is 0
 };
 
-/// Medians and 90th percentiles over the frames of a measurement, in milliseconds.
+/// A pass over the frames of a measurement: medians and 90th percentiles, in milliseconds.
+struct PassMedians {
+	std::string name;
+	double gpu_ms = 0;
+	double wall_ms = 0;
+	bool is_on_host = false;
+	double gpu_ms_p90 = 0;
+	double wall_ms_p90 = 0;
+};
+
+/// Likewise for the sum of a frame's passes.
 struct FrameCost {
 	double gpu_ms = 0;
 	double gpu_ms_p90 = 0;
@@ -28,8 +38,8 @@ struct FrameCost {
 /// What one light's mask costs.
 struct MaskTiming {
 	uint32_t frame_count = 0;
-	std::vector<PassCost> passes; // medians, in the order in which they run
-	FrameCost total;			  // sums over the passes of a frame
+	std::vector<PassMedians> passes; // in the order in which they run
+	FrameCost total;				 // sums over the passes of a frame
 	/// The time to compare techniques by: sums of each pass's GPU time, or wall time on the CPU.
 	double cost_ms = 0;
 };
@@ -65,6 +75,6 @@ FrameCost compute_frame_cost(
 
 // As doc/command_line.md and doc/report_format.md describe them.
 nlohmann::ordered_json to_json(const FrameCost &p_cost);
-nlohmann::ordered_json to_json(const std::vector<PassCost> &p_passes);
+nlohmann::ordered_json to_json(const std::vector<PassMedians> &p_passes);
 
 } // namespace gnomon

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <set>
 
 namespace gnomon {
@@ -17,15 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string format_hash(uint64_t p_hash) {
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(p_hash));
-	return digits;
-}
-
-std::string compute_text_hash(const std::string &p_text) {
-	return format_hash(
-			compute_hash({ reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size() }));
+/// Messages may hold file names, whose bytes may be no UTF-8.
+std::string dump_content(const Json &p_json) {
+	return p_json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Ends in a dash and the 16 digits of a hash, as the plan names records: nothing else is removed.
@@ -52,10 +45,10 @@ void RecordStore::save(
 	if (!p_image.empty()) {
 		save_file_atomically(folder / (p_name + ".png"), p_image);
 	}
-	const Json record = { { "checksum", compute_text_hash(p_content.dump()) },
+	const Json record = { { "checksum", format_hash(compute_text_hash(dump_content(p_content))) },
 		{ "image_checksum", p_image.empty() ? "" : format_hash(compute_hash(p_image)) },
 		{ "content", p_content } };
-	save_file_atomically(folder / (p_name + ".json"), record.dump() + "\n");
+	save_file_atomically(folder / (p_name + ".json"), dump_content(record) + "\n");
 }
 
 std::optional<Json> RecordStore::load(const std::string &p_name) const {
@@ -68,7 +61,8 @@ std::optional<Json> RecordStore::load(const std::string &p_name) const {
 	try {
 		const Json record = Json::parse(load_text_file(path));
 		const std::string image_checksum = record.at("image_checksum").get<std::string>();
-		if (record.at("checksum") != compute_text_hash(record.at("content").dump())) {
+		if (record.at("checksum") !=
+				format_hash(compute_text_hash(dump_content(record.at("content"))))) {
 			damage = "its checksum is wrong";
 		} else if (!image_checksum.empty() &&
 				format_hash(compute_hash(load_file(folder / (p_name + ".png")))) !=

@@ -10,7 +10,7 @@ const char *get_status_name(ReportStatus p_status) {
 std::vector<size_t> Report::find_cells(size_t p_configuration) const {
 	std::vector<size_t> found;
 	for (size_t index = 0; index < cells.size(); ++index) {
-		if (cells[index].configuration == p_configuration) {
+		if (cells[index].configuration_index == p_configuration) {
 			found.push_back(index);
 		}
 	}
@@ -23,7 +23,8 @@ const ReportCell *Report::find_baseline(const ReportCell &p_cell) const {
 			continue;
 		}
 		for (const ReportCell &cell : cells) {
-			if (cell.configuration == p_cell.configuration && cell.technique == technique.id) {
+			if (cell.configuration_index == p_cell.configuration_index &&
+					cell.technique == technique.id) {
 				return cell.is_ok() ? &cell : nullptr;
 			}
 		}
@@ -34,7 +35,7 @@ const ReportCell *Report::find_baseline(const ReportCell &p_cell) const {
 std::optional<double> Report::compute_time_ratio(const ReportCell &p_cell) const {
 	const ReportCell *baseline = find_baseline(p_cell);
 	// Two machines' times have no ratio.
-	if (!baseline || !p_cell.is_ok() || baseline->machine != p_cell.machine ||
+	if (!baseline || !p_cell.is_ok() || baseline->machine_index != p_cell.machine_index ||
 			baseline->time.cost_ms <= 0) {
 		return std::nullopt;
 	}

@@ -60,9 +60,9 @@ struct ReportConfiguration {
 	double value = 0; // abscissa in its group: R in metres, triangles, lights, pixels of a side
 	std::string scene;
 	std::string light;
-	std::string light_type;		// "spot", "omni", "directional"
-	double light_size_m = 0;	// R; 0 for directional
-	double light_angle_deg = 0; // apparent diameter; directional
+	std::string light_type;				   // "spot", "omni", "directional"
+	double light_size_m = 0;			   // R; 0 for directional
+	double light_angular_distance_deg = 0; // apparent diameter; directional
 	uint32_t light_count = 1;
 	double scene_size_m = 0; // S
 	glm::uvec2 size_px = glm::uvec2(0u);
@@ -83,14 +83,14 @@ struct ReportError {
 
 /// One technique with one setting in one configuration.
 struct ReportCell {
-	size_t configuration = 0; // index
+	size_t configuration_index = 0;
 	std::string technique;
 	std::string setting; // its name
 	std::string record;	 // see RecordStore
 	std::map<std::string, std::string> properties;
 	ReportStatus status = ReportStatus::MISSING;
 	std::string message; // why it failed
-	size_t machine = 0;	 // index
+	size_t machine_index = 0;
 	std::optional<ReportError> error;
 	MaskTiming time;
 	uint64_t bytes = 0;
@@ -101,8 +101,10 @@ struct ReportCell {
 
 struct Report {
 	std::string project;
-	std::string program; // version and hash of what measured
-	uint32_t sample_count = 0;
+	std::string program;	   // version and hash of what measured
+	uint32_t sample_count = 0; // of the truths
+	double precision_percent =
+			0; // to which medians of time were to be known; 0: as well as 20 frames do
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;
 	std::vector<ReportConfiguration> configurations;

@@ -17,21 +17,22 @@ namespace {
 
 const double ERROR_MARGIN = 0.0005;		// differences of rounding between devices stay below
 const double ERROR_MARGIN_SHARE = 0.01; // of the old error
-const double TIME_MARGIN_SHARE = 0.15;	// repeated runs on one machine stay within, mostly
+const double RATIO_MARGIN_SHARE = 0.15; // repeated runs on one machine stay within, mostly
+const double TIME_MARGIN_SHARE = 0.3;	// likewise for times, which other work on it changes
 
 using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
 
 Key make_key(const Report &p_report, const ReportCell &p_cell) {
-	const ReportConfiguration &at = p_report.configurations[p_cell.configuration];
+	const ReportConfiguration &at = p_report.configurations[p_cell.configuration_index];
 	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
 }
 
-/// How far the 90th percentile lies above the median, as a share.
+/// How far the 90th percentile of what most of the cost is lies above the median, as a share.
 double compute_spread(const ReportCell &p_cell) {
 	const FrameCost &total = p_cell.time.total;
-	return total.gpu_ms > 0		? total.gpu_ms_p90 / total.gpu_ms - 1.0
-			: total.wall_ms > 0 ? total.wall_ms_p90 / total.wall_ms - 1.0
-								: 0.0;
+	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;
+	const double median_ms = is_on_gpu ? total.gpu_ms : total.wall_ms;
+	return median_ms > 0 ? (is_on_gpu ? total.gpu_ms_p90 : total.wall_ms_p90) / median_ms - 1.0 : 0;
 }
 
 class Comparer {
@@ -71,36 +72,53 @@ private:
 		}
 		++comparison.compared_count;
 		if (p_old.error && p_new.error) {
-			compare_errors(p_old, p_new);
+			const MaskMetrics &before = p_old.error->all;
+			const MaskMetrics &after = p_new.error->all;
+			compare_errors(p_old, p_new, "penumbra error", before.penumbra, after.penumbra);
+			compare_errors(p_old, p_new, "receiver error", before.receiver, after.receiver);
 		}
-		const std::optional<double> old_ratio = old_report.compute_time_ratio(p_old);
-		const std::optional<double> new_ratio = new_report.compute_time_ratio(p_new);
-		if (old_ratio && new_ratio) {
-			const double change = *new_ratio / *old_ratio - 1.0;
-			const double margin =
-					std::max(TIME_MARGIN_SHARE, compute_spread(p_old) + compute_spread(p_new));
-			if (std::abs(change) > margin) {
-				add(p_new, "time", *old_ratio, *new_ratio, change > 0);
-			}
+		compare_times(p_old, p_new);
+	}
+
+	void compare_errors(const ReportCell &p_old, const ReportCell &p_new, const char *p_what,
+			const ErrorMetrics &p_before, const ErrorMetrics &p_after) {
+		double margin = ERROR_MARGIN + ERROR_MARGIN_SHARE * p_before.mae;
+		if (old_report.sample_count != new_report.sample_count) {
+			margin += old_report.configurations[p_old.configuration_index].truth.standard_error +
+					new_report.configurations[p_new.configuration_index].truth.standard_error;
+		}
+		if (std::abs(p_after.mae - p_before.mae) > margin) {
+			add(p_new, p_what, p_before.mae, p_after.mae, p_after.mae > p_before.mae);
 		}
 	}
 
-	void compare_errors(const ReportCell &p_old, const ReportCell &p_new) {
-		const double old_mae = p_old.error->all.penumbra.mae;
-		const double new_mae = p_new.error->all.penumbra.mae;
-		double margin = ERROR_MARGIN + ERROR_MARGIN_SHARE * old_mae;
-		if (old_report.sample_count != new_report.sample_count) {
-			margin += old_report.configurations[p_old.configuration].truth.standard_error +
-					new_report.configurations[p_new.configuration].truth.standard_error;
+	void compare_times(const ReportCell &p_old, const ReportCell &p_new) {
+		const ReportCell *old_baseline = old_report.find_baseline(p_old);
+		const ReportCell *new_baseline = new_report.find_baseline(p_new);
+		const std::optional<double> old_ratio = old_report.compute_time_ratio(p_old);
+		const std::optional<double> new_ratio = new_report.compute_time_ratio(p_new);
+		double spread = compute_spread(p_old) + compute_spread(p_new);
+		if (old_ratio && new_ratio && new_baseline != &p_new) {
+			spread += compute_spread(*old_baseline) + compute_spread(*new_baseline);
+			compare_times(p_new, "time ratio", *old_ratio, *new_ratio,
+					std::max(RATIO_MARGIN_SHARE, spread));
+		} else if (old_report.machines[p_old.machine_index] ==
+				new_report.machines[p_new.machine_index]) {
+			compare_times(p_new, "time", p_old.time.cost_ms, p_new.time.cost_ms,
+					std::max(TIME_MARGIN_SHARE, spread));
 		}
-		if (std::abs(new_mae - old_mae) > margin) {
-			add(p_new, "error", old_mae, new_mae, new_mae > old_mae);
+	}
+
+	void compare_times(const ReportCell &p_new, const char *p_what, double p_before, double p_after,
+			double p_margin_share) {
+		if (p_before > 0 && std::abs(p_after / p_before - 1.0) > p_margin_share) {
+			add(p_new, p_what, p_before, p_after, p_after > p_before);
 		}
 	}
 
 	void add(const ReportCell &p_cell, const std::string &p_what, double p_old, double p_new,
 			bool p_is_worse, const std::string &p_message = {}) {
-		comparison.differences.push_back({ new_report.configurations[p_cell.configuration].id,
+		comparison.differences.push_back({ new_report.configurations[p_cell.configuration_index].id,
 				p_cell.technique, p_cell.setting, p_what, p_old, p_new, p_message, p_is_worse });
 	}
 
@@ -114,7 +132,7 @@ private:
 bool ReportComparison::has_regression() const {
 	return std::any_of(
 			differences.begin(), differences.end(), [](const ReportDifference &p_difference) {
-				return p_difference.is_worse && p_difference.what != "time";
+				return p_difference.is_worse && !p_difference.is_of_time();
 			});
 }
 
@@ -141,7 +159,7 @@ Json to_json(const ReportComparison &p_comparison) {
 
 std::string to_text(const ReportComparison &p_comparison) {
 	std::string lines = text("Against the old report: ", p_comparison.compared_count,
-			" cells compared, ", p_comparison.only_old_count, " only in the old, ",
+			" cells that both measured, ", p_comparison.only_old_count, " only in the old, ",
 			p_comparison.only_new_count, " only in the new.\n");
 	for (const ReportDifference &difference : p_comparison.differences) {
 		lines += text(difference.is_worse ? "worse " : "better ", difference.what, ": ",
@@ -151,7 +169,9 @@ std::string to_text(const ReportComparison &p_comparison) {
 				? (difference.is_worse ? "fails now: " + difference.message
 									   : std::string("does not fail any more"))
 				: text(difference.old_value, " -> ", difference.new_value,
-						  difference.what == "time" ? " times the baseline" : "");
+						  difference.what == "time ratio"	  ? " times the baseline"
+								  : difference.what == "time" ? " ms"
+															  : "");
 		lines += "\n";
 	}
 	if (p_comparison.differences.empty()) {

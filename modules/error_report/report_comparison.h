@@ -14,16 +14,20 @@ struct ReportDifference {
 	std::string configuration;
 	std::string technique;
 	std::string setting;
-	std::string what; // "error": penumbra MAE; "time": cost_ms over the baseline's; "status"
+	/// "penumbra error", "receiver error": MAE. "time ratio": cost_ms over the baseline's. "time":
+	/// cost_ms. "status": 1 measured, 0 failed.
+	std::string what;
 	double old_value = 0;
 	double new_value = 0;
 	std::string message; // of a status
 	bool is_worse = false;
+
+	bool is_of_time() const { return what == "time" || what == "time ratio"; }
 };
 
 struct ReportComparison {
 	std::vector<ReportDifference> differences; // worse ones first
-	size_t compared_count = 0;				   // cells that both have
+	size_t compared_count = 0;				   // cells that both have measured
 	size_t only_old_count = 0;				   // cells that this report does not ask for
 	size_t only_new_count = 0;
 	bool has_same_machine = true;
@@ -36,9 +40,12 @@ struct ReportComparison {
 /// pictures the same size.
 ///
 /// An error differs when it does so by more than 0.0005 + 1 %, and, where the truths have different
-/// numbers of samples, by more than both standard errors too. A time is compared as ratio to the
-/// baseline of its own report, so that a slower machine alone is no difference, and differs by more
-/// than 15 % and by more than both cells' distances from median to 90th percentile.
+/// numbers of samples, by more than both standard errors too. Compared are penumbra pixels, and all
+/// receivers, where a leak shows that lies in the lit. A time is compared as ratio to the baseline
+/// of its own report, so that a slower machine alone is no difference, and differs by more than
+/// 15 % and by more than the distances from median to 90th percentile of all that it was made of.
+/// The baseline, and cells without one, are compared in milliseconds, on the same machine only and
+/// beyond 30 %.
 ReportComparison compare_reports(const Report &p_old, const Report &p_new);
 
 nlohmann::ordered_json to_json(const ReportComparison &p_comparison);

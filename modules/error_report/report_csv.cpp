@@ -81,16 +81,16 @@ std::string to_csv(const Report &p_report) {
 					"bytes", "time_ratio" });
 	std::string csv = join(names);
 	for (const ReportCell &cell : p_report.cells) {
-		const ReportConfiguration &at = p_report.configurations[cell.configuration];
-		const bool has_machine =
-				cell.status != ReportStatus::MISSING && cell.machine < p_report.machines.size();
+		const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
+		const bool has_machine = cell.status != ReportStatus::MISSING &&
+				cell.machine_index < p_report.machines.size();
 		const ReportMachine machine =
-				has_machine ? p_report.machines[cell.machine] : ReportMachine();
+				has_machine ? p_report.machines[cell.machine_index] : ReportMachine();
 		const bool has_truth = at.has_truth() && at.status == ReportStatus::OK;
 		const ReportError *error = cell.is_ok() && cell.error ? &*cell.error : nullptr;
 		std::vector<std::string> fields = { p_report.program, machine.device, machine.driver,
 			machine.cpu, has_machine ? text(machine.threads) : "", at.id, at.group, at.scene,
-			at.light, at.light_type, text(at.light_size_m), text(at.light_angle_deg),
+			at.light, at.light_type, text(at.light_size_m), text(at.light_angular_distance_deg),
 			text(at.light_count), text(at.size_px.x), text(at.size_px.y), text(at.triangle_count),
 			text(at.edge_count), cell.technique, cell.setting, join(cell.properties),
 			get_status_name(cell.status), cell.message,

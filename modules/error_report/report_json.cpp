@@ -27,8 +27,16 @@ ReportStatus parse_status(const std::string &p_name) {
 	fail("status is \"", p_name, "\", must be ok, failed or missing");
 }
 
+/// As `gnomon compare` prints it, but without the numbers of an empty set.
 Json error_to_json(const MaskMetrics &p_metrics) {
-	return Json::parse(to_json(p_metrics));
+	Json json = Json::parse(to_json(p_metrics));
+	if (p_metrics.receiver.pixel_count == 0) {
+		json.erase("receiver");
+	}
+	if (p_metrics.penumbra.pixel_count == 0) {
+		json.erase("penumbra");
+	}
+	return json;
 }
 
 ErrorMetrics read_metrics(const Json &p_json, uint64_t p_pixel_count) {
@@ -38,10 +46,14 @@ ErrorMetrics read_metrics(const Json &p_json, uint64_t p_pixel_count) {
 
 MaskMetrics read_error(const Json &p_json) {
 	MaskMetrics metrics;
-	metrics.receiver = read_metrics(p_json.at("receiver"), p_json.at("pixels"));
-	const Json &penumbra = p_json.at("penumbra");
-	metrics.penumbra = read_metrics(penumbra, penumbra.at("pixels"));
-	metrics.umbra_over = penumbra.at("umbra_over");
+	if (p_json.contains("receiver")) {
+		metrics.receiver = read_metrics(p_json.at("receiver"), p_json.at("pixels"));
+	}
+	if (p_json.contains("penumbra")) {
+		const Json &penumbra = p_json.at("penumbra");
+		metrics.penumbra = read_metrics(penumbra, penumbra.at("pixels"));
+		metrics.umbra_over = penumbra.at("umbra_over");
+	}
 	return metrics;
 }
 
@@ -59,7 +71,8 @@ MaskTiming read_time(const Json &p_json) {
 	time.total = { p_json.at("gpu_ms"), p_json.at("gpu_ms_p90"), p_json.at("wall_ms"),
 		p_json.at("wall_ms_p90") };
 	for (const Json &pass : p_json.at("passes")) {
-		time.passes.push_back({ pass.at("name"), pass.at("gpu_ms"), pass.at("wall_ms"), false });
+		time.passes.push_back({ pass.at("name"), pass.at("gpu_ms"), pass.at("wall_ms"),
+				pass.at("is_on_host"), pass.at("gpu_ms_p90"), pass.at("wall_ms_p90") });
 	}
 	return time;
 }
@@ -116,9 +129,10 @@ void read_result(const Json &p_json, ReportCell &r_cell) {
 }
 
 Json cell_to_json(const Report &p_report, const ReportCell &p_cell) {
-	Json json = { { "configuration", p_cell.configuration }, { "technique", p_cell.technique },
-		{ "setting", p_cell.setting }, { "properties", p_cell.properties },
-		{ "record", p_cell.record }, { "machine", p_cell.machine } };
+	Json json = { { "configuration", p_cell.configuration_index },
+		{ "technique", p_cell.technique }, { "setting", p_cell.setting },
+		{ "properties", p_cell.properties }, { "record", p_cell.record },
+		{ "machine", p_cell.machine_index } };
 	add_result(p_cell, json);
 	if (const std::optional<double> ratio = p_report.compute_time_ratio(p_cell)) {
 		json["time_ratio"] = *ratio;
@@ -128,12 +142,12 @@ Json cell_to_json(const Report &p_report, const ReportCell &p_cell) {
 
 ReportCell read_cell(const Json &p_json) {
 	ReportCell cell;
-	cell.configuration = p_json.at("configuration");
+	cell.configuration_index = p_json.at("configuration");
 	cell.technique = p_json.at("technique");
 	cell.setting = p_json.at("setting");
 	cell.properties = p_json.at("properties").get<std::map<std::string, std::string>>();
 	cell.record = p_json.at("record");
-	cell.machine = p_json.at("machine");
+	cell.machine_index = p_json.at("machine");
 	read_result(p_json, cell);
 	return cell;
 }
@@ -143,7 +157,7 @@ Json configuration_to_json(const ReportConfiguration &p_configuration) {
 		{ "value", p_configuration.value }, { "scene", p_configuration.scene },
 		{ "light", p_configuration.light }, { "light_type", p_configuration.light_type },
 		{ "light_size_m", p_configuration.light_size_m },
-		{ "light_angular_distance_deg", p_configuration.light_angle_deg },
+		{ "light_angular_distance_deg", p_configuration.light_angular_distance_deg },
 		{ "light_count", p_configuration.light_count },
 		{ "scene_size_m", p_configuration.scene_size_m },
 		{ "size_px", { p_configuration.size_px.x, p_configuration.size_px.y } },
@@ -162,7 +176,7 @@ ReportConfiguration read_configuration(const Json &p_json) {
 	configuration.light = p_json.at("light");
 	configuration.light_type = p_json.at("light_type");
 	configuration.light_size_m = p_json.at("light_size_m");
-	configuration.light_angle_deg = p_json.at("light_angular_distance_deg");
+	configuration.light_angular_distance_deg = p_json.at("light_angular_distance_deg");
 	configuration.light_count = p_json.at("light_count");
 	configuration.scene_size_m = p_json.at("scene_size_m");
 	configuration.size_px = { p_json.at("size_px").at(0), p_json.at("size_px").at(1) };
@@ -187,6 +201,7 @@ Report read_report(const Json &p_json) {
 	report.project = p_json.at("project");
 	report.program = p_json.at("program");
 	report.sample_count = p_json.at("samples");
+	report.precision_percent = p_json.at("precision_percent");
 	for (const Json &machine : p_json.at("machines")) {
 		report.machines.push_back(read_machine(machine));
 	}
@@ -199,9 +214,9 @@ Report read_report(const Json &p_json) {
 	}
 	for (const Json &cell : p_json.at("cells")) {
 		report.cells.push_back(read_cell(cell));
-		if (report.cells.back().configuration >= report.configurations.size()) {
+		if (report.cells.back().configuration_index >= report.configurations.size()) {
 			fail("cell ", report.cells.size() - 1, " names configuration ",
-					report.cells.back().configuration, " of ", report.configurations.size());
+					report.cells.back().configuration_index, " of ", report.configurations.size());
 		}
 	}
 	return report;
@@ -216,11 +231,23 @@ Json cell_result_to_json(const ReportCell &p_cell, const ReportMachine &p_machin
 	return json;
 }
 
+std::string dump_json(const Json &p_json) {
+	return p_json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+ReportMachine read_cell_machine(const Json &p_json) {
+	try {
+		return read_machine(p_json.at("machine"));
+	} catch (const Json::exception &error) {
+		fail("A record has another form: ", error.what());
+	}
+}
+
 void read_cell_result(const Json &p_json, Report &r_report, ReportCell &r_cell) {
 	try {
 		const ReportMachine machine = read_machine(p_json.at("machine"));
 		read_result(p_json, r_cell);
-		r_cell.machine = find_or_add_machine(r_report, machine);
+		r_cell.machine_index = find_or_add_machine(r_report, machine);
 	} catch (const Json::exception &error) {
 		fail("Record \"", r_cell.record, "\" has another form: ", error.what());
 	}
@@ -257,8 +284,8 @@ void read_truth_result(const Json &p_json, ReportConfiguration &r_configuration)
 
 Json to_json(const Report &p_report) {
 	Json json = { { "format", FORMAT }, { "version", VERSION }, { "project", p_report.project },
-		{ "samples", p_report.sample_count }, { "program", p_report.program },
-		{ "failed_count", p_report.count(ReportStatus::FAILED) },
+		{ "samples", p_report.sample_count }, { "precision_percent", p_report.precision_percent },
+		{ "program", p_report.program }, { "failed_count", p_report.count(ReportStatus::FAILED) },
 		{ "missing_count", p_report.count(ReportStatus::MISSING) } };
 	for (const char *list : { "machines", "techniques", "configurations", "cells" }) {
 		json[list] = Json::array();

@@ -16,11 +16,15 @@ nlohmann::ordered_json to_json(const Report &p_report);
 /// missing, damaged, or of another format or version is an Error naming it.
 Report load_report(const std::filesystem::path &p_path);
 
+/// As text for a file. Bytes that are no UTF-8, which file names may hold, are replaced.
+std::string dump_json(const nlohmann::ordered_json &p_json);
+
 /// What was measured of one cell, for its record.
 nlohmann::ordered_json cell_result_to_json(
 		const ReportCell &p_cell, const ReportMachine &p_machine);
 /// Fills the cell from its record and adds the machine to the report when it is new there. A record
 /// of another form is an Error, and leaves the cell as it is.
+ReportMachine read_cell_machine(const nlohmann::ordered_json &p_json);
 void read_cell_result(const nlohmann::ordered_json &p_json, Report &r_report, ReportCell &r_cell);
 /// Likewise for the truth of a configuration.
 nlohmann::ordered_json truth_result_to_json(const ReportConfiguration &p_configuration);

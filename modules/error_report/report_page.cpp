@@ -143,7 +143,8 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	replace_marker("{{STYLE}}", join_files("", ".css"), page);
 	replace_marker("{{LIBRARIES}}", join_files("third_party", ".js"), page);
 	replace_marker("{{SCRIPT}}", join_files("", ".js"), page);
-	replace_marker("{{DATA}}", escape_script(data.dump()), page);
+	replace_marker("{{DATA}}",
+			escape_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)), page);
 	return page;
 }
 

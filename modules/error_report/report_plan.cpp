@@ -19,38 +19,7 @@ namespace {
 const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
 const char *const SCALING_SCENE_NAME = "torus_knot, generated";
 
-struct ScalingSeries {
-	const char *group;
-	std::vector<double> values;
-};
-const std::vector<ScalingSeries> QUICK_SERIES = { { TRIANGLES_GROUP, { 2000, 30000, 120000 } },
-	{ LIGHT_SIZE_GROUP, { 0.08, 0.4, 1.2 } }, { LIGHTS_GROUP, { 1, 3, 8 } },
-	{ RESOLUTION_GROUP, { 128, 256, 512 } } };
-const std::vector<ScalingSeries> FULL_SERIES = {
-	{ TRIANGLES_GROUP, { 2000, 8000, 30000, 120000, 500000, 1000000 } },
-	{ LIGHT_SIZE_GROUP, { 0.02, 0.08, 0.4, 1.2, 2.4 } }, { LIGHTS_GROUP, { 1, 4, 16, 64 } },
-	{ RESOLUTION_GROUP, { 128, 256, 512, 1024, 2048 } }
-};
-
-/// The last scene that was made: the techniques of one configuration draw the same meshes, whose
-/// topology is then built once.
-class ScalingSceneCache {
-public:
-	std::shared_ptr<const Scene> get(const ScalingScene &p_description) {
-		if (!scene || description.triangle_count != p_description.triangle_count ||
-				description.light_count != p_description.light_count ||
-				description.light_size_m != p_description.light_size_m) {
-			scene.reset(); // before the next one takes memory
-			scene = make_scaling_scene(p_description);
-			description = p_description;
-		}
-		return scene;
-	}
-
-private:
-	ScalingScene description;
-	std::shared_ptr<const Scene> scene;
-};
+enum class ExpensiveSettings { MEASURED, LEFT_OUT };
 
 /// Letters, digits and underscores, for file names.
 std::string make_slug(const std::string &p_text) {
@@ -61,16 +30,9 @@ std::string make_slug(const std::string &p_text) {
 	return slug.substr(0, 40);
 }
 
-uint64_t hash_text(const std::string &p_text, uint64_t p_seed) {
-	return compute_hash(
-			{ reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size() }, p_seed);
-}
-
 std::string make_record_name(
 		const std::string &p_scene, const std::string &p_what, uint64_t p_hash) {
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%016llx", static_cast<unsigned long long>(p_hash));
-	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + digits;
+	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + format_hash(p_hash);
 }
 
 std::string format_number(double p_value) {
@@ -94,6 +56,7 @@ public:
 		plan.report.project = options.project;
 		plan.report.program = options.program;
 		plan.report.sample_count = options.sample_count;
+		plan.report.precision_percent = options.precision_percent;
 		for (const TechniqueSource &technique : techniques) {
 			plan.report.techniques.push_back(technique.info);
 		}
@@ -112,12 +75,8 @@ public:
 	}
 
 	void add_scaling() {
-		if (options.scaling == ScalingExtent::NONE) {
-			return;
-		}
 		const auto cache = std::make_shared<ScalingSceneCache>();
-		for (const ScalingSeries &series :
-				options.scaling == ScalingExtent::FULL ? FULL_SERIES : QUICK_SERIES) {
+		for (const ScalingSeries &series : get_scaling_series(options.scaling)) {
 			for (const double value : series.values) {
 				add_scaling_configuration(series.group, value, cache);
 			}
@@ -127,15 +86,20 @@ public:
 	ReportPlan finish() { return std::move(plan); }
 
 private:
+	void add_failure(ReportConfiguration p_configuration, const std::string &p_message) {
+		p_configuration.status = ReportStatus::FAILED;
+		p_configuration.message = p_message;
+		plan.report.configurations.push_back(std::move(p_configuration));
+		plan.questions.push_back(
+				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
+	}
+
+	/// Of a scene as a whole.
 	void add_failure(const std::string &p_scene, const std::string &p_message) {
 		ReportConfiguration configuration;
 		configuration.id = p_scene;
 		configuration.scene = p_scene;
-		configuration.status = ReportStatus::FAILED;
-		configuration.message = p_message;
-		plan.report.configurations.push_back(configuration);
-		plan.questions.push_back(
-				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
+		add_failure(std::move(configuration), p_message);
 	}
 
 	void add_lights(const std::string &p_name, const std::shared_ptr<const Scene> &p_scene) {
@@ -187,7 +151,8 @@ private:
 													 p_properties),
 							r_light.name, size_px };
 					},
-					index == p_sizes_m.size() / 2);
+					index == p_sizes_m.size() / 2 ? ExpensiveSettings::MEASURED
+												  : ExpensiveSettings::LEFT_OUT);
 		}
 	}
 
@@ -221,19 +186,25 @@ private:
 												 *scene, *scene->find_nodes<Camera3D>().front()),
 						has_many ? "" : "Light 1", size_px };
 				},
-				false);
+				ExpensiveSettings::LEFT_OUT);
 	}
 
 	/// Fills in what the scene says, and plans the cells.
-	void add_configuration(
-			ReportConfiguration p_configuration, ReportPlan::Ask p_ask, bool p_has_expensive) {
-		const MaskQuestion question = p_ask(derive_widths());
+	void add_configuration(ReportConfiguration p_configuration, ReportPlan::Ask p_ask,
+			ExpensiveSettings p_expensive) {
+		MaskQuestion question;
+		try {
+			question = p_ask(derive_widths());
+		} catch (const Error &error) {
+			add_failure(std::move(p_configuration), error.what());
+			return;
+		}
 		const LightSnapshot &light = p_configuration.light.empty()
 				? question.scene->lights.front()
 				: get_light(*question.scene, p_configuration.light);
 		p_configuration.light_type = get_light_type_name(light.type);
 		if (light.type == LightType::DIRECTIONAL) {
-			p_configuration.light_angle_deg = light.light_angular_distance_deg;
+			p_configuration.light_angular_distance_deg = light.light_angular_distance_deg;
 		} else {
 			p_configuration.light_size_m = p_configuration.group == LIGHT_SIZE_GROUP ||
 							p_configuration.group == MATRIX_GROUP
@@ -247,11 +218,14 @@ private:
 				p_configuration.edge_count += get_topology(instance.mesh)->edges.size();
 			}
 		}
+		// What has no truth lacks none.
+		p_configuration.status =
+				p_configuration.has_truth() ? ReportStatus::MISSING : ReportStatus::OK;
 		if (p_configuration.has_truth()) {
 			const uint64_t hash =
-					hash_text(text(options.sample_count), compute_question_hash(question));
-			p_configuration.record = make_record_name(
-					p_configuration.scene, "truth", hash_text(options.program, hash));
+					compute_text_hash(text(options.sample_count), compute_question_hash(question));
+			p_configuration.record = make_record_name(p_configuration.scene, "truth",
+					compute_text_hash(options.program, hash));
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);
@@ -271,7 +245,7 @@ private:
 				settings.push_back({ "default", {} });
 			}
 			for (const QualitySetting &setting : settings) {
-				if (!setting.is_expensive || p_has_expensive || settings.size() == 1) {
+				if (!setting.is_expensive || p_expensive == ExpensiveSettings::MEASURED) {
 					add_cell(index, technique.info.id, setting);
 				}
 			}
@@ -283,7 +257,7 @@ private:
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
 		PropertyValues properties = derive_widths();
 		ReportCell cell;
-		cell.configuration = p_configuration;
+		cell.configuration_index = p_configuration;
 		cell.technique = p_technique;
 		cell.setting = p_setting.name;
 		for (const auto &[name, value] : p_setting.properties) {
@@ -291,9 +265,10 @@ private:
 			cell.properties[name] = format_property(value);
 		}
 		uint64_t hash = compute_question_hash(plan.questions[p_configuration](properties));
-		for (const std::string &part : { p_technique, p_setting.name, options.program,
-					 configuration.has_truth() ? text(options.sample_count) : std::string() }) {
-			hash = hash_text(part, hash);
+		for (const std::string &part :
+				{ p_technique, p_setting.name, options.program, text(options.precision_percent),
+						configuration.has_truth() ? text(options.sample_count) : std::string() }) {
+			hash = compute_text_hash(part, hash);
 		}
 		cell.record = make_record_name(configuration.scene, p_technique, hash);
 		plan.report.cells.push_back(std::move(cell));

@@ -3,6 +3,7 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/error_report/mask_source.h"
 #include "modules/error_report/report.h"
+#include "modules/error_report/scaling_scenes.h"
 
 #include <cstdint>
 #include <functional>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace gnomon {
-
-enum class ScalingExtent {
-	NONE,
-	QUICK, // three points a curve that a software device draws in seconds, no expensive technique
-	FULL,  // 2k to 1M triangles, 1 to 64 lights, 128 to 2048 pixels
-};
 
 struct ReportOptions {
 	std::string project;
@@ -27,6 +22,7 @@ struct ReportOptions {
 	std::vector<LightType> light_types;
 	glm::uvec2 size_px = glm::uvec2(256u);
 	uint32_t sample_count = 1024; // of the truth
+	double precision_percent = 5; // see Report
 	ScalingExtent scaling = ScalingExtent::QUICK;
 };
 

@@ -32,6 +32,7 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 	row.configuration_count = p_cells.size();
 	std::vector<double> costs_ms;
 	std::vector<double> ratios;
+	double whole_light_sum = 0;
 	size_t whole_light_count = 0;
 	for (const size_t index : p_cells) {
 		const ReportCell &cell = p_report.cells[index];
@@ -43,7 +44,7 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 		row.penumbra_bias += all.penumbra.bias * share;
 		row.umbra_over += all.umbra_over * share;
 		if (cell.error->whole_light.penumbra.pixel_count > 0) {
-			row.whole_light_penumbra_mae += cell.error->whole_light.penumbra.mae;
+			whole_light_sum += cell.error->whole_light.penumbra.mae;
 			++whole_light_count;
 		}
 		costs_ms.push_back(cell.time.cost_ms);
@@ -51,7 +52,9 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 			ratios.push_back(*ratio);
 		}
 	}
-	row.whole_light_penumbra_mae /= double(std::max<size_t>(1, whole_light_count));
+	if (whole_light_count > 0) {
+		row.whole_light_penumbra_mae = whole_light_sum / double(whole_light_count);
+	}
 	row.cost_ms = compute_percentile(costs_ms, 0.5);
 	if (!ratios.empty()) {
 		row.time_ratio = compute_percentile(ratios, 0.5);
@@ -93,7 +96,8 @@ std::vector<RankingRow> rank_best_settings(const Report &p_report) {
 		if (!is_comparable(cell)) {
 			continue;
 		}
-		const auto [place, is_new] = best.insert({ { cell.technique, cell.configuration }, index });
+		const auto [place, is_new] =
+				best.insert({ { cell.technique, cell.configuration_index }, index });
 		if (!is_new && get_mae(cell) < get_mae(p_report.cells[place->second])) {
 			place->second = index;
 		}
@@ -145,7 +149,7 @@ std::vector<ScalingPlot> find_scaling_curves(const Report &p_report) {
 			ScalingCurve curve = { technique.id, {} };
 			for (size_t index = 0; index < p_report.cells.size(); ++index) {
 				const ReportCell &cell = p_report.cells[index];
-				const ReportConfiguration &at = p_report.configurations[cell.configuration];
+				const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
 				if (at.group == name && cell.technique == technique.id && cell.is_ok()) {
 					curve.points.push_back({ at.value, index });
 				}
@@ -172,9 +176,10 @@ Json to_json(const std::vector<RankingRow> &p_rows) {
 				{ "configuration_count", row.configuration_count },
 				{ "penumbra_mae", row.penumbra_mae }, { "penumbra_rmse", row.penumbra_rmse },
 				{ "penumbra_p99", row.penumbra_p99 }, { "penumbra_bias", row.penumbra_bias },
-				{ "umbra_over", row.umbra_over },
-				{ "whole_light_penumbra_mae", row.whole_light_penumbra_mae },
-				{ "cost_ms", row.cost_ms } });
+				{ "umbra_over", row.umbra_over }, { "cost_ms", row.cost_ms } });
+		if (row.whole_light_penumbra_mae) {
+			json.back()["whole_light_penumbra_mae"] = *row.whole_light_penumbra_mae;
+		}
 		if (row.time_ratio) {
 			json.back()["time_ratio"] = *row.time_ratio;
 		}

@@ -21,7 +21,7 @@ struct RankingRow {
 	double penumbra_p99 = 0;
 	double penumbra_bias = 0;
 	double umbra_over = 0;
-	double whole_light_penumbra_mae = 0;
+	std::optional<double> whole_light_penumbra_mae; // where such pixels are
 	double cost_ms = 0;
 	std::optional<double> time_ratio;
 };

@@ -5,6 +5,7 @@
 #include "modules/core/log.h"
 #include "modules/core/progress.h"
 #include "modules/error_report/mask_picture.h"
+#include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,6 @@
 
 namespace gnomon {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -75,35 +75,52 @@ public:
 
 private:
 	bool is_mine(size_t p_configuration) const {
-		return p_configuration % options.shard_count == options.shard_index;
+		// Along diagonals: sizes follow one another, and the middle ones have the expensive
+		// settings.
+		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
+				options.shard_index;
 	}
 
 	/// Takes over what is there or takes it away, and counts what is left to do.
 	void load_earlier() {
 		if (options.resumes) {
-			report = collect_report(plan.report, store);
+			report = collect_report(plan.report, store, &machine);
 			retry_failures();
+		} else {
+			remove_own_records();
 		}
 		size_t kept_count = 0;
 		for (const ReportCell &cell : report.cells) {
-			if (is_mine(cell.configuration)) {
+			if (is_mine(cell.configuration_index)) {
 				(cell.status == ReportStatus::MISSING ? left_count : kept_count) += 1;
 			}
 		}
 		if (options.resumes) {
 			log_info("Resuming: ", kept_count, " cells are there, ", left_count, " are left.");
-			return;
 		}
-		for (const ReportConfiguration &configuration : report.configurations) {
-			if (is_mine(size_t(&configuration - report.configurations.data()))) {
-				store.remove(configuration.record);
+	}
+
+	/// Those of other shards stay, also where one question belongs to both.
+	void remove_own_records() {
+		std::set<std::string> kept;
+		const auto visit = [&](auto p_function) {
+			for (size_t index = 0; index < report.configurations.size(); ++index) {
+				p_function(is_mine(index), report.configurations[index].record);
 			}
-		}
-		for (const ReportCell &cell : report.cells) {
-			if (is_mine(cell.configuration)) {
-				store.remove(cell.record);
+			for (const ReportCell &cell : report.cells) {
+				p_function(is_mine(cell.configuration_index), cell.record);
 			}
-		}
+		};
+		visit([&](bool p_is_mine, const std::string &p_record) {
+			if (!p_is_mine) {
+				kept.insert(p_record);
+			}
+		});
+		visit([&](bool p_is_mine, const std::string &p_record) {
+			if (p_is_mine && kept.count(p_record) == 0) {
+				store.remove(p_record);
+			}
+		});
 	}
 
 	/// What made it fail may have gone away.
@@ -165,7 +182,7 @@ private:
 
 	void run_cell(size_t p_index) {
 		ReportCell &cell = report.cells[p_index];
-		const ReportConfiguration &configuration = report.configurations[cell.configuration];
+		const ReportConfiguration &configuration = report.configurations[cell.configuration_index];
 		// One question may stand on several curves; it is asked once.
 		if (measured.count(cell.record) != 0) {
 			if (const std::optional<Json> content = store.load(cell.record)) {
@@ -195,9 +212,10 @@ private:
 
 	void measure(ReportCell &r_cell, std::vector<uint8_t> &r_image) {
 		const size_t index = size_t(&r_cell - report.cells.data());
-		const MaskQuestion question = plan.questions[r_cell.configuration](plan.settings[index]);
+		const MaskQuestion question =
+				plan.questions[r_cell.configuration_index](plan.settings[index]);
 		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
-		if (report.configurations[r_cell.configuration].has_truth()) {
+		if (report.configurations[r_cell.configuration_index].has_truth()) {
 			r_cell.error = ReportError{
 				compute_mask_metrics(truth.mask, measured_mask.mask),
 				compute_mask_metrics(restrict_mask(truth.mask, truth.sees_whole_light),
@@ -223,86 +241,14 @@ private:
 	Progress progress{ "Report" };
 };
 
-/// A record that cannot be read counts as absent; r_target is then as before.
-template <typename Read>
-void read_record(const RecordStore &p_store, const std::string &p_name, Read p_read) {
-	if (p_name.empty()) {
-		return;
-	}
-	if (const std::optional<Json> content = p_store.load(p_name)) {
-		if (const std::optional<std::string> failure = find_failure([&] { p_read(*content); })) {
-			log_warning(*failure);
-		}
-	}
-}
-
-std::vector<std::string> list_records(const Report &p_report) {
-	std::vector<std::string> names;
-	for (const ReportConfiguration &configuration : p_report.configurations) {
-		names.push_back(configuration.record);
-	}
-	for (const ReportCell &cell : p_report.cells) {
-		names.push_back(cell.record);
-	}
-	return names;
-}
-
 } // namespace
-
-fs::path get_plan_path(const fs::path &p_folder) {
-	return p_folder / "plan.json";
-}
-
-fs::path get_record_folder(const fs::path &p_folder) {
-	return p_folder / "cells";
-}
-
-void save_plan(const fs::path &p_folder, const Report &p_report) {
-	save_file_atomically(get_plan_path(p_folder), to_json(p_report).dump(1) + "\n");
-}
 
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
 		const RunOptions &p_options) {
-	r_store.remove_others(list_records(p_plan.report));
+	if (!p_options.resumes) {
+		r_store.remove_others(list_records(p_plan.report));
+	}
 	return Runner(p_plan, r_source, r_store, p_options).run();
-}
-
-Report collect_report(const Report &p_plan, const RecordStore &p_store) {
-	Report report = p_plan;
-	for (ReportConfiguration &configuration : report.configurations) {
-		read_record(p_store, configuration.record,
-				[&](const Json &p_content) { read_truth_result(p_content, configuration); });
-	}
-	for (ReportCell &cell : report.cells) {
-		read_record(p_store, cell.record,
-				[&](const Json &p_content) { read_cell_result(p_content, report, cell); });
-	}
-	return report;
-}
-
-Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_out) {
-	GNOMON_ASSERT(!p_folders.empty(), "nothing to merge");
-	const Report plan = load_report(get_plan_path(p_folders.front()));
-	RecordStore merged(get_record_folder(p_out));
-	for (const fs::path &folder : p_folders) {
-		if (to_json(load_report(get_plan_path(folder))) != to_json(plan)) {
-			fail("Reports ", p_folders.front(), " and ", folder,
-					" were not planned alike. Run all shards with the same program, project and ",
-					"options.");
-		}
-		std::error_code code;
-		if (fs::equivalent(folder, p_out, code)) {
-			continue; // its records are in place
-		}
-		const RecordStore part(get_record_folder(folder));
-		for (const std::string &name : list_records(plan)) {
-			if (!name.empty() && !fs::exists(merged.get_folder() / (name + ".json"), code)) {
-				merged.copy_from(part, name);
-			}
-		}
-	}
-	save_plan(p_out, plan);
-	return collect_report(plan, merged);
 }
 
 } // namespace gnomon

@@ -24,17 +24,4 @@ struct RunOptions {
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
 		const RunOptions &p_options);
 
-/// The report of a plan with what a store holds of it; the rest stays missing.
-Report collect_report(const Report &p_plan, const RecordStore &p_store);
-
-/// Puts the records of several stores, parts of one plan, into one. The folders are those of
-/// reports, with plan.json and cells. Folders whose plans differ are an Error naming two of them.
-Report merge_reports(
-		const std::vector<std::filesystem::path> &p_folders, const std::filesystem::path &p_out);
-
-/// Where in a report's folder its plan and its records lie.
-std::filesystem::path get_plan_path(const std::filesystem::path &p_folder);
-std::filesystem::path get_record_folder(const std::filesystem::path &p_folder);
-void save_plan(const std::filesystem::path &p_folder, const Report &p_report);
-
 } // namespace gnomon

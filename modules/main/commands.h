@@ -31,6 +31,8 @@ void add_compare_command(CLI::App &r_app);
 void add_report_command(CLI::App &r_app, CommonOptions &r_common);
 void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
 
+/// A whole number of digits alone; false for any other text.
+bool parse_whole(std::string_view p_text, uint32_t &r_value);
 /// "640x480" to a size of 1..16384 each; else a UsageError.
 glm::uvec2 parse_size(const std::string &p_text);
 /// The size that the command line names, else [defaults] size of the scene's project, else 512x512.

@@ -19,12 +19,6 @@ namespace {
 constexpr uint32_t MAX_SIZE_PX = 16384;
 const char *const DEFAULT_SIZE = "512x512";
 
-bool parse_whole(std::string_view p_text, uint32_t &r_value) {
-	const char *end = p_text.data() + p_text.size();
-	const std::from_chars_result result = std::from_chars(p_text.data(), end, r_value);
-	return result.ec == std::errc() && result.ptr == end;
-}
-
 const PropertyInfo *find_property(const std::string &p_name) {
 	if (const PropertyInfo *info = Light3D::get_property_list().find(p_name)) {
 		return info;
@@ -69,6 +63,12 @@ std::string list_properties() {
 }
 
 } // namespace
+
+bool parse_whole(std::string_view p_text, uint32_t &r_value) {
+	const char *end = p_text.data() + p_text.size();
+	const std::from_chars_result result = std::from_chars(p_text.data(), end, r_value);
+	return result.ec == std::errc() && result.ptr == end;
+}
 
 glm::uvec2 parse_size(const std::string &p_text) {
 	glm::uvec2 size_px(0);

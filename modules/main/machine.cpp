@@ -3,7 +3,6 @@
 #include "modules/core/files.h"
 #include "modules/main/commands.h"
 
-#include <cstdio>
 #include <fstream>
 
 namespace gnomon {
@@ -20,10 +19,8 @@ std::string find_cpu_name() {
 }
 
 std::string describe_program() {
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%016llx",
-			static_cast<unsigned long long>(compute_hash(load_file("/proc/self/exe"))));
-	return std::string(PROGRAM_VERSION) + " " + digits;
+	return std::string(PROGRAM_VERSION) + " " +
+			format_hash(compute_hash(load_file("/proc/self/exe")));
 }
 
 } // namespace gnomon

@@ -63,7 +63,8 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		samples.add_frame(select_passes(r_renderer.render(p_request).timings, p_request));
 		const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 		const bool is_enough = seconds >= p_limits.seconds ||
-				samples.compute_median_error() <= p_limits.median_error;
+				(p_limits.median_error > 0 &&
+						samples.compute_median_error() <= p_limits.median_error);
 		if (is_enough && samples.get_frame_count() >= p_limits.least_frame_count) {
 			break;
 		}

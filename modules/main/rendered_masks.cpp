@@ -9,7 +9,6 @@
 #include "modules/renderer/shadow_registry.h"
 
 #include <algorithm>
-#include <chrono>
 #include <thread>
 
 namespace gnomon {
@@ -60,9 +59,14 @@ ReportMachine RenderedMasks::get_machine() const {
 
 TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) {
 	const ShadowTechniqueInfo &reference = get_reference();
+	const std::string samples = reference.id + SAMPLES_ENDING;
+	if (!ShadowRegistry::get_light_properties(reference.id).find(samples)) {
+		fail("Technique \"", reference.id, "\" is the reference, but has no property ", samples,
+				" that says how many rays it takes. Declare it.");
+	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
 	for (LightSnapshot &light : scene->lights) {
-		light.properties[reference.id + SAMPLES_ENDING] = int64_t(p_sample_count);
+		light.properties[samples] = int64_t(p_sample_count);
 	}
 	RenderRequest request = make_request(p_question, reference.id);
 	request.scene = scene;

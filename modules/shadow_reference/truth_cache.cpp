@@ -1,9 +1,7 @@
 #include "modules/shadow_reference/truth_cache.h"
 
 #include "modules/core/files.h"
-#include "modules/core/text.h"
 
-#include <cstdio>
 #include <cstring>
 
 namespace gnomon {
@@ -19,9 +17,7 @@ struct EntryHeader {
 };
 
 std::string get_entry_name(uint64_t p_key) {
-	char name[32];
-	std::snprintf(name, sizeof(name), "truth_%016llx", static_cast<unsigned long long>(p_key));
-	return name;
+	return "truth_" + format_hash(p_key);
 }
 
 } // namespace

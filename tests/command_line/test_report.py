@@ -108,8 +108,9 @@ class Reports(ReportCase):
         problems = "\n".join(check_page(self.write("broken.html", broken)))
         self.assertIn("canary", problems)
         self.assertIn("localhost:9", problems)
-        cut = page[: page.index('id="report-data"')]
-        self.assertIn("data-ready", "\n".join(check_page(self.write("cut.html", cut))))
+        other = page.replace('"format":"gnomon_report"', '"format":"other"')
+        self.assertNotEqual(other, page)
+        self.assertIn("data-ready is 'failed'", "\n".join(check_page(self.write("other.html", other))))
 
     def test_one_scene_file_is_a_report_too(self):
         scene = os.path.join(SCENES, "contact_box.gltf")
@@ -254,13 +255,22 @@ class ComparedReports(ReportCase):
         self.assertEqual(same.returncode, 0, same.stderr)
         worse = self.small("report", "--resume", "--against", self.change("old.json", had_less_error))
         self.assertEqual(worse.returncode, 1)
-        self.assertIn("worse error: sphere/Light/0.8", worse.stdout)
+        self.assertIn("worse penumbra error: sphere/Light/0.8", worse.stdout)
         self.assertIn("Errors grew against", worse.stderr)
         report = load_report(self.path("report"))
         self.assertEqual(len(report["against"]["rows"]), len(report["cells"]))
+        self.assertEqual(check_page(self.path("report/index.html")), [])
         slower = self.small("report", "--resume", "--against", self.change("old.json", was_twice_as_fast))
         self.assertEqual(slower.returncode, 0, slower.stderr)
         self.assertIn("slower than before", slower.stderr)
+
+    def test_a_report_with_no_common_cell_is_no_proof(self):
+        self.load_done("report", self.small("report"))
+        old = self.path("report/report.json")
+        arguments = ("--scenes", "sphere", "--sizes", "0.3", "--techniques", self.get_fallback(), "--against", old)
+        result = self.report("other", *arguments)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no cell is in both", result.stderr)
 
     def test_shards_are_merged_to_the_whole(self):
         whole = self.load_done("whole", self.small("whole"))
@@ -268,7 +278,9 @@ class ComparedReports(ReportCase):
             part = self.load_done("part%d" % index, self.small("part%d" % index, "--shard", "%d/3" % index))
             self.assertGreater(part["missing_count"], 0)
         parts = [self.path("part%d" % index) for index in (1, 2, 3)]
-        result = run("report", "merge", *parts, "--out", self.path("merged"))
+        old = ("--against", self.path("whole/report.json"), "--budget", "50")
+        result = run("report", "merge", *parts, "--out", self.path("merged"), *old)
+        self.assertIn("Least error within 50 ms", result.stdout)
         self.assertEqual(drop_times(self.load_done("merged", result)["cells"]), drop_times(whole["cells"]))
         self.assertEqual(check_page(self.path("merged/index.html")), [])
         result = run("report", "merge", *parts[:2], "--out", self.path("less"))
@@ -290,6 +302,8 @@ class RefusedReports(ReportCase):
             (("--shard", "3/2"), ("3/2",)),
             (("--shard", "0/2"), ("0/2",)),
             (("--shard", "half"), ("half",)),
+            (("--shard", "1/-1"), ("1/-1",)),
+            (("--precision", "-1"), ("precision",)),
             (("--budget", "-3"), ("-3",)),
         ):
             with self.subTest(arguments=arguments):
@@ -300,6 +314,29 @@ class RefusedReports(ReportCase):
 
     def test_an_old_report_that_cannot_be_read_is_named_before_the_work(self):
         self.assert_refused(run("report", PROJECT, "--out", self.path("out"), "--against", self.path("gone.json")), "gone.json")
+
+    def test_a_project_that_does_not_exist_is_named(self):
+        self.assert_refused(run("report", self.path("demo_projct"), "--out", self.path("out")), "demo_projct")
+
+    def test_two_scenes_of_one_name_are_refused(self):
+        text = '[project]\nname="Twins"\nscenes=["a/room.gltf", "b/room.gltf"]\n'
+        project = self.path("twins")
+        for name in ("a", "b"):
+            os.makedirs(os.path.join(project, name))
+            shutil.copy(os.path.join(SCENES, "sphere.gltf"), os.path.join(project, name, "room.gltf"))
+        with open(os.path.join(project, "project.cfg"), "w", encoding="utf-8") as file:
+            file.write(text)
+        result = run("report", project, "--out", self.path("out"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("two scenes are named", result.stderr)
+
+    def test_a_report_of_other_options_is_not_resumed_and_not_lost(self):
+        whole = self.load_done("report", self.small("report"))
+        result = self.report("report", "--scenes", "sphere", "--resume")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("other options", result.stderr)
+        self.assertEqual(load_report(self.path("report")), whole)
+        self.assertEqual(self.load_done("report", self.small("report", "--resume")), whole)
 
     def test_a_folder_without_parts_cannot_be_merged(self):
         self.assert_refused(run("report", "merge", self.path("gone"), "--out", self.path("out")), "gone")

@@ -114,16 +114,18 @@
 		if (!against?.rows) {
 			return null;
 		}
+		const counts = make("p", { class: "soft" }, `${against.compared_count} cells that both measured, ${against.only_old_count} only in the ` +
+			`other, ${against.only_new_count} only in this one${against.has_same_machine ? "" : "; on another machine"}.`);
 		if (against.rows.length === 0) {
-			return make("p", { class: "soft" }, "Nothing changed.");
+			return make("div", {}, make("p", {}, "Nothing changed by more than the noise."), counts);
 		}
 		const rows = [...against.rows].sort((a, b) => Number(b.verdict === "worse") - Number(a.verdict === "worse"));
-		const showValue = (row, value) => (!report.isNumber(value) ? String(value ?? "–")
-			: row.what === "error" ? report.showError(value) : row.what === "time" ? `${report.showMs(value)} ms`
-				: report.showPlain(value));
-		const showChange = (value) => (report.isNumber(value)
-			? `${value < 0 ? "−" : "+"}${(100 * Math.abs(value)).toFixed(1)} %` : "–");
-		return report.makeTable("Changes since the other report", [
+		const showValue = (row, value) => ({ "time ratio": report.showRatio, time: (ms) => `${report.showMs(ms)} ms`,
+			status: (isMeasured) => (isMeasured ? "measured" : "failed") }[row.what] || report.showError)(value);
+		const getChange = (row) => (row.old > 0 && row.what !== "status" ? row.new / row.old - 1 : null);
+		const showChange = (row) => (getChange(row) === null ? row.message || "–"
+			: `${getChange(row) < 0 ? "−" : "+"}${(100 * Math.abs(getChange(row))).toFixed(1)} %`);
+		return make("div", {}, report.makeTable("Changes since the other report", [
 			{ title: "verdict", isText: true, value: (row) => row.verdict,
 				show: (row) => make("span", { class: `verdict ${row.verdict === "worse" ? "worse" : "better"}` }, row.verdict) },
 			{ title: "configuration", isText: true, value: (row) => row.configuration, show: (row) => row.configuration },
@@ -131,8 +133,8 @@
 			{ title: "what", isText: true, value: (row) => row.what, show: (row) => row.what },
 			{ title: "old", value: (row) => row.old, show: (row) => showValue(row, row.old) },
 			{ title: "new", value: (row) => row.new, show: (row) => showValue(row, row.new) },
-			{ title: "change", value: (row) => row.change, show: (row) => showChange(row.change) },
-		], rows, -1);
+			{ title: "change", value: getChange, show: showChange },
+		], rows, -1), counts);
 	};
 
 	/* For each configuration the best setting within a time that the reader chooses. */

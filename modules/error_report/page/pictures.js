@@ -61,7 +61,7 @@
 		for (const pass of passes || []) {
 			const key = pass.name.replace(/\d+/g, "N");
 			const entry = merged.get(key) || { name: pass.name, cost_ms: 0, count: 0 };
-			entry.cost_ms += pass.gpu_ms || pass.wall_ms || 0;
+			entry.cost_ms += pass.is_on_host ? pass.wall_ms : pass.gpu_ms;
 			entry.count += 1;
 			entry.name = entry.count > 1 ? `${key.replaceAll(/ ?N/g, "")} (${entry.count})` : pass.name;
 			merged.set(key, entry);

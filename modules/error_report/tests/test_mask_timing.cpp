@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <vector>
 
 using namespace gnomon;
@@ -11,7 +12,7 @@ namespace {
 
 std::vector<std::string> get_names(const MaskTiming &p_timing) {
 	std::vector<std::string> names;
-	for (const PassCost &pass : p_timing.passes) {
+	for (const PassMedians &pass : p_timing.passes) {
 		names.push_back(pass.name);
 	}
 	return names;
@@ -116,9 +117,29 @@ TEST_CASE("[ErrorReport] a pass that some frames lack is 0 in their sums, not in
 TEST_CASE("[ErrorReport] the times in JSON have the documented keys in their order") {
 	CHECK(to_json(FrameCost{ 0.5, 1.5, 2, 3 }).dump() ==
 			R"({"gpu_ms":0.5,"gpu_ms_p90":1.5,"wall_ms":2.0,"wall_ms_p90":3.0})");
-	const std::vector<PassCost> passes = { { "depth", 0.5, 1 }, { "trace", 0, 2, true } };
+	const std::vector<PassMedians> passes = { { "depth", 0.5, 1, false, 0.75, 1.5 },
+		{ "trace", 0, 2, true, 0, 3 } };
 	CHECK(to_json(passes).dump() ==
-			R"([{"name":"depth","gpu_ms":0.5,"wall_ms":1.0},)"
-			R"({"name":"trace","gpu_ms":0.0,"wall_ms":2.0}])");
-	CHECK(to_json(std::vector<PassCost>()).dump() == "[]");
+			R"([{"name":"depth","gpu_ms":0.5,"gpu_ms_p90":0.75,"wall_ms":1.0,"wall_ms_p90":1.5,)"
+			R"("is_on_host":false},{"name":"trace","gpu_ms":0.0,"gpu_ms_p90":0.0,"wall_ms":2.0,)"
+			R"("wall_ms_p90":3.0,"is_on_host":true}])");
+	CHECK(to_json(std::vector<PassMedians>()).dump() == "[]");
+}
+
+TEST_CASE("[ErrorReport] the median's error shrinks with frames and grows with their spread") {
+	const auto measure = [](std::vector<double> p_costs_ms) {
+		TimingSamples samples;
+		for (const double cost_ms : p_costs_ms) {
+			samples.add_frame({ { "pass", cost_ms, cost_ms } });
+		}
+		return samples.compute_median_error();
+	};
+	CHECK(measure({}) == 1);
+	CHECK(measure({ 5 }) == 1);
+	CHECK(measure({ 5, 5, 5 }) == 0);
+	const double five = measure({ 8, 9, 10, 11, 12 });
+	// Median distance 1, times 1.4826 * 5 / 4.2; of a median of 10, over the root of 5.
+	CHECK(five == doctest::Approx(1.2533 * 1.4826 * 5 / 4.2 / std::sqrt(5.0) / 10));
+	CHECK(measure({ 8, 8, 9, 9, 10, 10, 11, 11, 12, 12 }) < five);
+	CHECK(measure({ 6, 8, 10, 12, 14 }) > five);
 }

@@ -54,7 +54,7 @@ ReportDifference find_difference(const Report &p_old, const Report &p_new) {
 	const ReportComparison comparison = compare_reports(p_old, p_new);
 	REQUIRE(comparison.differences.size() == 1);
 	CHECK(comparison.has_regression() ==
-			(comparison.differences[0].is_worse && comparison.differences[0].what != "time"));
+			(comparison.differences[0].is_worse && !comparison.differences[0].is_of_time()));
 	return comparison.differences[0];
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("[ErrorReport] an error differs by more than 0.0005 and 1 %, in both d
 	CHECK(count_differences(old_report, make_report(0.09851)) == 0);
 	const ReportDifference worse = find_difference(old_report, make_report(0.10151));
 	CHECK(worse.is_worse);
-	CHECK(worse.what == "error");
+	CHECK(worse.what == "penumbra error");
 	CHECK(worse.configuration == "sphere/Spot/0.4");
 	CHECK(worse.old_value == 0.1);
 	CHECK(worse.new_value == 0.10151);
@@ -101,7 +101,7 @@ TEST_CASE("[ErrorReport] a time differs by more than 15 % and is never a regress
 	CHECK(count_differences(old_report, make_report(0.1, 6.89)) == 0);
 	CHECK(count_differences(old_report, make_report(0.1, 5.11)) == 0);
 	const ReportDifference worse = find_difference(old_report, make_report(0.1, 6.92));
-	CHECK(worse.what == "time");
+	CHECK(worse.what == "time ratio");
 	CHECK(worse.is_worse);
 	CHECK(worse.old_value == 3);
 	CHECK(worse.new_value == 3.46);
@@ -129,7 +129,7 @@ TEST_CASE("[ErrorReport] a slower machine alone is no difference") {
 	CHECK(comparison.differences.empty());
 	CHECK_FALSE(comparison.has_same_machine);
 	slow.cells[0].time.cost_ms = 2; // the baseline as fast as ever: the other did change
-	CHECK(find_difference(make_report(), slow).what == "time");
+	CHECK(find_difference(make_report(), slow).what == "time ratio");
 }
 
 TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed before is better") {
@@ -140,7 +140,8 @@ TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed 
 	CHECK(worse.what == "status");
 	CHECK(worse.is_worse);
 	CHECK(to_text(compare_reports(make_report(), failed)) ==
-			"Against the old report: 1 cells compared, 0 only in the old, 0 only in the new.\n"
+			"Against the old report: 1 cells that both measured, 0 only in the old, 0 only in the "
+			"new.\n"
 			"worse status: sphere/Spot/0.4, soft, 32 taps: fails now: no memory\n");
 	CHECK_FALSE(find_difference(failed, make_report()).is_worse);
 	CHECK(count_differences(failed, failed) == 0);
@@ -168,11 +169,11 @@ TEST_CASE("[ErrorReport] cells are the same by names and size of the picture") {
 	check_apart();
 	other.configurations.push_back(other.configurations[0]);
 	other.configurations[1].id = "sphere/Spot/1.2";
-	other.cells[1].configuration = 1;
+	other.cells[1].configuration_index = 1;
 	check_apart();
 	other.configurations.push_back(other.configurations[0]);
 	other.configurations[1].size_px = { 64, 32 };
-	other.cells[1].configuration = 1;
+	other.cells[1].configuration_index = 1;
 	check_apart();
 	// Other indices change nothing.
 	std::swap(other.cells[0], other.cells[1]);
@@ -189,12 +190,43 @@ TEST_CASE("[ErrorReport] worse ones come first, in text and JSON") {
 	const ReportComparison comparison = compare_reports(make_report(), new_report);
 	REQUIRE(comparison.differences.size() == 3);
 	CHECK(to_text(comparison) ==
-			"Against the old report: 2 cells compared, 0 only in the old, 0 only in the new.\n"
-			"worse error: sphere/Spot/0.4, soft, 32 taps: 0.1 -> 0.5\n"
-			"better error: sphere/Spot/0.4, hard, default: 0.4 -> 0.25\n"
-			"better time: sphere/Spot/0.4, soft, 32 taps: 3 -> 2 times the baseline\n");
+			"Against the old report: 2 cells that both measured, 0 only in the old, 0 only in the "
+			"new.\n"
+			"worse penumbra error: sphere/Spot/0.4, soft, 32 taps: 0.1 -> 0.5\n"
+			"better penumbra error: sphere/Spot/0.4, hard, default: 0.4 -> 0.25\n"
+			"better time ratio: sphere/Spot/0.4, soft, 32 taps: 3 -> 2 times the baseline\n");
 	CHECK(to_json(comparison)["rows"][1].dump() ==
 			R"({"configuration":"sphere/Spot/0.4","technique":"hard","setting":"default",)"
-			R"("what":"error","old":0.4,"new":0.25,"change":-0.15000000000000002,)"
+			R"("what":"penumbra error","old":0.4,"new":0.25,"change":-0.15000000000000002,)"
 			R"("verdict":"better","message":""})");
+}
+
+TEST_CASE("[ErrorReport] an error outside the penumbra is seen too") {
+	Report old_report = make_report();
+	Report new_report = make_report();
+	old_report.cells[1].error->all.receiver = { 1000, 0.01, 0, 0, 0 };
+	new_report.cells[1].error->all.receiver = { 1000, 0.03, 0, 0, 0 };
+	const ReportDifference worse = find_difference(old_report, new_report);
+	CHECK(worse.what == "receiver error");
+	CHECK(worse.is_worse);
+	CHECK(compare_reports(old_report, new_report).has_regression());
+}
+
+TEST_CASE("[ErrorReport] the baseline's own time is compared on the same machine, beyond 30 %") {
+	Report slow = make_report();
+	for (ReportCell &cell : slow.cells) {
+		cell.time.cost_ms *= 1.29; // a pass that both share: no ratio changes
+	}
+	CHECK(count_differences(make_report(), slow) == 0);
+	for (ReportCell &cell : slow.cells) {
+		cell.time.cost_ms *= 1.1;
+	}
+	const ReportDifference worse = find_difference(make_report(), slow);
+	CHECK(worse.what == "time");
+	CHECK(worse.technique == "hard");
+	// An unsteady baseline makes the ratios to it unsteady.
+	Report unsteady = make_report(0.1, 6 * 1.2);
+	CHECK(find_difference(make_report(), unsteady).what == "time ratio");
+	unsteady.cells[0].time.total = { 2, 2.5, 3, 3 };
+	CHECK(count_differences(make_report(), unsteady) == 0);
 }

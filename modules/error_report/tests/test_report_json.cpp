@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 #include "modules/error_report/report_page.h"
 #include "modules/error_report/run_report.h"
@@ -85,4 +86,18 @@ TEST_CASE("[ErrorReport] the page holds library, data and pictures, and names ca
 	CHECK(image.rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);
 	CHECK(image.size() % 4 == 22 % 4); // whole groups of base64 after the prefix
 	CHECK(data.at("heat_map").at("colors").size() % 2 == 1);
+}
+
+TEST_CASE("[ErrorReport] what has no pixels has no numbers, and file names may be any bytes") {
+	TemporaryFolder folder;
+	Report report = make_report(folder.path);
+	report.cells[0].error->all.penumbra = {};
+	report.configurations[0].scene = "caf\xe9";
+	const Json json = to_json(report);
+	CHECK(!json.at("cells")[0].at("error").at("all").contains("penumbra"));
+	save_file_atomically(folder.path / "report.json", dump_json(json));
+	const Report again = load_report(folder.path / "report.json");
+	CHECK(again.cells[0].error->all.penumbra.pixel_count == 0);
+	CHECK(again.configurations[0].scene == "caf\xef\xbf\xbd");
+	CHECK(!build_report_page(json, RecordStore(get_record_folder(folder.path))).empty());
 }

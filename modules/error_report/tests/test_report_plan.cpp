@@ -37,7 +37,7 @@ TEST_CASE("[ErrorReport] an expensive setting is measured at the middle size onl
 	CHECK(count_cells(plan, "many") == 2);
 	for (const ReportCell &cell : plan.report.cells) {
 		if (cell.setting == "many") {
-			CHECK(plan.report.configurations[cell.configuration].light_size_m ==
+			CHECK(plan.report.configurations[cell.configuration_index].light_size_m ==
 					doctest::Approx(0.4));
 		}
 	}
@@ -54,7 +54,7 @@ TEST_CASE("[ErrorReport] sizes and light types that are asked for replace the sc
 	CHECK(plan.report.configurations[1].light_type == "omni");
 	CHECK(plan.report.configurations[1].id == "scene_0/Light 1 as omni/0.5");
 	CHECK(plan.report.configurations[2].light_type == "directional");
-	CHECK(plan.report.configurations[2].light_angle_deg > 0);
+	CHECK(plan.report.configurations[2].light_angular_distance_deg > 0);
 	CHECK(plan.report.configurations[2].light_size_m == 0);
 }
 
@@ -62,7 +62,8 @@ TEST_CASE("[ErrorReport] a setting reaches the light's properties, r and t are d
 	const ReportPlan plan = make_scripted_plan(1);
 	for (size_t index = 0; index < plan.report.cells.size(); ++index) {
 		const ReportCell &cell = plan.report.cells[index];
-		const MaskQuestion question = plan.questions[cell.configuration](plan.settings[index]);
+		const MaskQuestion question =
+				plan.questions[cell.configuration_index](plan.settings[index]);
 		const LightSnapshot &light = question.scene->lights.front();
 		CHECK(light.penumbra_outer_width_m == light.light_size_m);
 		CHECK((light.properties.count("soft_taps") == 1) == (cell.technique == "soft"));
@@ -140,7 +141,7 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 	std::set<std::string> groups;
 	std::set<std::string> records;
 	for (const ReportCell &cell : plan.report.cells) {
-		const ReportConfiguration &at = plan.report.configurations[cell.configuration];
+		const ReportConfiguration &at = plan.report.configurations[cell.configuration_index];
 		groups.insert(at.group);
 		records.insert(cell.record);
 		CHECK(!at.has_truth());
@@ -161,4 +162,18 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 			CHECK(double(at.triangle_count) == doctest::Approx(at.value).epsilon(0.02));
 		}
 	}
+}
+
+TEST_CASE("[ErrorReport] a light size that a light cannot have fails alone") {
+	ReportOptions options = make_scripted_options();
+	options.sizes_m = { 0.1, 1000 }; // a directional light of 180 degrees
+	options.light_types = { LightType::DIRECTIONAL, LightType::SPOT };
+	const ReportPlan plan =
+			make_report_plan(options, make_scripted_scenes(1), make_scripted_techniques());
+	REQUIRE(plan.report.configurations.size() == 4);
+	CHECK(plan.report.configurations[1].id == "scene_0/Light 1 as directional/1000");
+	CHECK(plan.report.configurations[1].message.find("light_angular_distance") !=
+			std::string::npos);
+	CHECK(plan.report.count(ReportStatus::FAILED) == 1);
+	CHECK(plan.report.find_cells(3).size() == 3);
 }

@@ -2,6 +2,7 @@
 #include "modules/core/files.h"
 #include "modules/core/log.h"
 #include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 #include "modules/error_report/run_report.h"
 #include "modules/error_report/tests/scripted_masks.h"
@@ -201,4 +202,73 @@ TEST_CASE("[ErrorReport] shards of different plans are not merged") {
 			doctest::Contains("not planned alike"), Error);
 	CHECK_THROWS_WITH_AS(merge_reports({ folder.path / "none" }, folder.path / "c"),
 			doctest::Contains("plan.json"), Error);
+}
+
+TEST_CASE("[ErrorReport] what another machine measured is measured anew by a resume") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks other;
+	other.device = "another";
+	other.kill_after_count = 3;
+	CHECK_THROWS_AS(run(plan, other, folder.path), Killed);
+	ScriptedMasks masks;
+	const Report report = run(plan, masks, folder.path, { true, 0, 1 });
+	CHECK(masks.measure_count == plan.report.cells.size());
+	REQUIRE(report.machines.size() == 1);
+	CHECK(report.machines[0].device == "scripted");
+}
+
+TEST_CASE("[ErrorReport] a folder of another plan cannot be resumed, and keeps its records") {
+	TemporaryFolder folder;
+	ScriptedMasks masks;
+	run(make_scripted_plan(1), masks, folder.path);
+	check_resumable(folder.path, make_scripted_plan(1).report);
+	check_resumable(folder.path / "new", make_scripted_plan(2).report);
+	CHECK_THROWS_WITH_AS(check_resumable(folder.path, make_scripted_plan(2).report),
+			doctest::Contains("with other options"), Error);
+	const RecordStore store(get_record_folder(folder.path));
+	CHECK(collect_report(make_scripted_plan(1).report, store).count(ReportStatus::MISSING) == 0);
+}
+
+TEST_CASE("[ErrorReport] shards may share a folder, in any order") {
+	const ReportPlan plan = make_scripted_plan(2);
+	TemporaryFolder whole_folder;
+	ScriptedMasks whole_masks;
+	const std::string whole = to_text(run(plan, whole_masks, whole_folder.path));
+	TemporaryFolder folder;
+	for (const uint32_t index : { 2u, 0u, 1u }) {
+		ScriptedMasks masks;
+		run(plan, masks, folder.path, { false, index, 3 });
+	}
+	const RecordStore store(get_record_folder(folder.path));
+	CHECK(to_text(collect_report(plan.report, store)) == whole);
+}
+
+TEST_CASE("[ErrorReport] each shard gets expensive settings") {
+	const ReportPlan plan = make_scripted_plan(3); // three sizes each, one has them
+	for (uint32_t index = 0; index < 3; ++index) {
+		TemporaryFolder folder;
+		ScriptedMasks masks;
+		const Report part = run(plan, masks, folder.path, { false, index, 3 });
+		CHECK(std::count_if(part.cells.begin(), part.cells.end(), [](const ReportCell &p_cell) {
+			return p_cell.is_ok() && p_cell.setting == "many";
+		}) == 1);
+	}
+}
+
+TEST_CASE("[ErrorReport] a merge takes what did not fail, and replaces an earlier merge") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks failing;
+	failing.failing_technique = "soft";
+	run(plan, failing, folder.path / "a");
+	const std::vector<fs::path> one = { folder.path / "a" };
+	CHECK(merge_reports(one, folder.path / "all").count(ReportStatus::FAILED) == 4);
+	ScriptedMasks mended;
+	run(plan, mended, folder.path / "b");
+	const std::vector<fs::path> both = { folder.path / "a", folder.path / "b" };
+	CHECK(merge_reports(both, folder.path / "all").count(ReportStatus::FAILED) == 0);
+	CHECK(merge_reports(one, folder.path / "all").count(ReportStatus::FAILED) == 4);
 }

@@ -1,0 +1,140 @@
+#include "modules/error_report/report_folder.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/error_report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// A record that cannot be read counts as absent.
+template <typename Read>
+void read_record(const RecordStore &p_store, const std::string &p_name, Read p_read) {
+	if (p_name.empty()) {
+		return;
+	}
+	if (const std::optional<Json> content = p_store.load(p_name)) {
+		try {
+			p_read(*content);
+		} catch (const Error &error) {
+			log_warning(error.what(), " It counts as absent.");
+		}
+	}
+}
+
+bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
+	std::error_code code;
+	return fs::equivalent(p_first, p_second, code) && !code;
+}
+
+/// The store whose record of that name to take: the first that has it and did not fail, else the
+/// first that has it.
+const RecordStore *choose_store(
+		const std::vector<RecordStore> &p_stores, const std::string &p_name) {
+	const RecordStore *failed = nullptr;
+	for (const RecordStore &store : p_stores) {
+		const std::optional<Json> content = store.load(p_name);
+		if (content && content->value("status", "") == get_status_name(ReportStatus::OK)) {
+			return &store;
+		}
+		failed = content && !failed ? &store : failed;
+	}
+	return failed;
+}
+
+} // namespace
+
+fs::path get_plan_path(const fs::path &p_folder) {
+	return p_folder / "plan.json";
+}
+
+fs::path get_record_folder(const fs::path &p_folder) {
+	return p_folder / "cells";
+}
+
+std::vector<std::string> list_records(const Report &p_plan) {
+	std::vector<std::string> names;
+	for (const ReportConfiguration &configuration : p_plan.configurations) {
+		if (!configuration.record.empty()) {
+			names.push_back(configuration.record);
+		}
+	}
+	for (const ReportCell &cell : p_plan.cells) {
+		names.push_back(cell.record);
+	}
+	return names;
+}
+
+void save_plan(const fs::path &p_folder, const Report &p_plan) {
+	save_file_atomically(get_plan_path(p_folder), dump_json(to_json(p_plan)));
+}
+
+void check_resumable(const fs::path &p_folder, const Report &p_plan) {
+	std::error_code code;
+	if (!fs::exists(get_plan_path(p_folder), code)) {
+		return;
+	}
+	const Report earlier = load_report(get_plan_path(p_folder));
+	if (dump_json(to_json(earlier)) != dump_json(to_json(p_plan))) {
+		fail("Report ", p_folder, " was planned by another program or with other options (",
+				earlier.cells.size(), " cells, program ", earlier.program, "; now ",
+				p_plan.cells.size(), ", ", p_plan.program,
+				"). Resume it with the same ones, choose another --out, or leave --resume out to ",
+				"replace it.");
+	}
+}
+
+Report collect_report(
+		const Report &p_plan, const RecordStore &p_store, const ReportMachine *p_machine) {
+	Report report = p_plan;
+	for (ReportConfiguration &configuration : report.configurations) {
+		read_record(p_store, configuration.record,
+				[&](const Json &p_content) { read_truth_result(p_content, configuration); });
+	}
+	for (ReportCell &cell : report.cells) {
+		read_record(p_store, cell.record, [&](const Json &p_content) {
+			if (!p_machine || read_cell_machine(p_content) == *p_machine) {
+				read_cell_result(p_content, report, cell);
+			}
+		});
+	}
+	return report;
+}
+
+Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_out) {
+	GNOMON_ASSERT(!p_folders.empty(), "nothing to merge");
+	const Report plan = load_report(get_plan_path(p_folders.front()));
+	std::vector<RecordStore> parts;
+	bool is_in_place = false; // the whole is one of the parts
+	for (const fs::path &folder : p_folders) {
+		if (dump_json(to_json(load_report(get_plan_path(folder)))) != dump_json(to_json(plan))) {
+			fail("Reports ", p_folders.front(), " and ", folder,
+					" were not planned alike. Run all shards with the same program, project and ",
+					"options.");
+		}
+		parts.emplace_back(get_record_folder(folder));
+		is_in_place = is_in_place || is_same_folder(folder, p_out);
+	}
+	RecordStore merged(get_record_folder(p_out));
+	for (const std::string &name : list_records(plan)) {
+		const RecordStore *part = choose_store(parts, name);
+		if (part && !is_same_folder(part->get_folder(), merged.get_folder())) {
+			merged.copy_from(*part, name);
+		} else if (!part && !is_in_place) {
+			merged.remove(name); // of an earlier merge
+		}
+	}
+	save_plan(p_out, plan);
+	return collect_report(plan, merged);
+}
+
+} // namespace gnomon

@@ -1,0 +1,131 @@
+#include "modules/main/report_arguments.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/project.h"
+#include "modules/main/commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const double MAX_LIGHT_SIZE_M = 1e4;
+
+LightType parse_light_type(const std::string &p_name) {
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		if (p_name == get_light_type_name(type)) {
+			return type;
+		}
+	}
+	throw UsageError(text("--light-types: \"", p_name,
+			"\" must be own, or of spot, omni and directional, comma separated."));
+}
+
+} // namespace
+
+RunOptions parse_run_options(const ReportArguments &p_arguments) {
+	RunOptions options;
+	options.resumes = p_arguments.resumes;
+	if (!p_arguments.shard.empty()) {
+		const size_t slash = p_arguments.shard.find('/');
+		const std::string_view shard = p_arguments.shard;
+		uint32_t index = 0;
+		uint32_t count = 0;
+		if (slash == std::string::npos || !parse_whole(shard.substr(0, slash), index) ||
+				!parse_whole(shard.substr(slash + 1), count) || index < 1 || index > count) {
+			throw UsageError(text("--shard is \"", p_arguments.shard,
+					"\", must be I/N with 1 <= I <= N, for example 2/8."));
+		}
+		options.shard_index = index - 1;
+		options.shard_count = count;
+	}
+	return options;
+}
+
+ReportOptions make_report_options(
+		const ReportArguments &p_arguments, const std::string &p_project) {
+	ReportOptions options;
+	options.project = p_project;
+	options.program = describe_program();
+	for (const double size_m : p_arguments.sizes_m) {
+		if (!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LIGHT_SIZE_M) {
+			throw UsageError(text("--sizes: ", size_m, " must be 0..", MAX_LIGHT_SIZE_M,
+					" m, the light's radius."));
+		}
+		auto &sizes_m = options.sizes_m;
+		if (std::find(sizes_m.begin(), sizes_m.end(), size_m) == sizes_m.end()) {
+			sizes_m.push_back(size_m);
+		}
+	}
+	if (p_arguments.light_types != std::vector<std::string>{ "own" }) {
+		for (const std::string &name : p_arguments.light_types) {
+			const LightType type = parse_light_type(name);
+			auto &types = options.light_types;
+			if (std::find(types.begin(), types.end(), type) == types.end()) {
+				types.push_back(type);
+			}
+		}
+	}
+	options.size_px = parse_size(p_arguments.size);
+	options.sample_count = p_arguments.sample_count;
+	options.precision_percent = p_arguments.precision_percent;
+	options.scaling = p_arguments.scaling == "none" ? ScalingExtent::NONE
+			: p_arguments.scaling == "full"			? ScalingExtent::FULL
+													: ScalingExtent::QUICK;
+	return options;
+}
+
+std::vector<std::pair<std::string, fs::path>> select_scenes(
+		const ReportArguments &p_arguments, fs::path &r_folder, std::string &r_project) {
+	const fs::path path = p_arguments.project;
+	std::error_code code;
+	if (!fs::exists(path, code)) {
+		fail("Project ", path, " does not exist. Name a folder with project.cfg, or a scene file.");
+	}
+	std::vector<fs::path> files = { path };
+	if (fs::is_directory(path, code) || path.extension() == ".cfg") {
+		const Project project = Project::load(path);
+		r_folder = project.folder;
+		r_project = project.name.empty() ? fs::absolute(project.folder).filename().string()
+										 : project.name;
+		files = project.scenes;
+		for (const fs::path &missing : project.missing_scenes) {
+			log_warning("Scene ", missing, " does not exist and is left out.");
+		}
+	} else {
+		r_folder = fs::absolute(path).parent_path();
+		r_project = path.stem().string();
+	}
+	std::map<std::string, fs::path> by_name;
+	std::string names;
+	std::vector<std::pair<std::string, fs::path>> selected;
+	for (const fs::path &file : files) {
+		const std::string name = file.stem().string();
+		names += (names.empty() ? "" : ", ") + name;
+		if (!by_name.insert({ name, file }).second) {
+			fail("Project ", r_folder, ": two scenes are named \"", name, "\", ", by_name[name],
+					" and ", file, ". Rename one: the report tells scenes apart by their names.");
+		}
+		const auto &wanted = p_arguments.scenes;
+		if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
+			selected.push_back({ name, file });
+		}
+	}
+	for (const std::string &name : p_arguments.scenes) {
+		if (by_name.count(name) == 0) {
+			throw UsageError(text("--scenes: there is no \"", name, "\", must be of ", names, "."));
+		}
+	}
+	if (selected.empty()) {
+		fail("Project ", r_folder, " names no scene that exists. Set scenes in its project.cfg.");
+	}
+	return selected;
+}
+
+} // namespace gnomon

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "modules/error_report/run_report.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon {
+
+/// The options of `gnomon report` and `report merge`, as CLI11 fills them in.
+struct ReportArguments {
+	std::string project;
+	std::vector<std::string> scenes;
+	std::vector<std::string> techniques;
+	std::vector<double> sizes_m;
+	std::vector<std::string> light_types;
+	std::string size = "256x256";
+	uint32_t sample_count = 1024;
+	std::string scaling = "quick";
+	double precision_percent = 5; // a third of what --against calls a change
+	std::string out;
+	bool resumes = false;
+	std::string against;
+	std::optional<double> budget_ms;
+	std::string shard;
+	std::vector<std::string> merged;
+	std::string merge_out;
+};
+
+// Each throws a UsageError that names the option, the value and what is allowed.
+RunOptions parse_run_options(const ReportArguments &p_arguments);
+ReportOptions make_report_options(const ReportArguments &p_arguments, const std::string &p_project);
+/// Names and files of the scenes to do, the project's folder and its name.
+std::vector<std::pair<std::string, std::filesystem::path>> select_scenes(
+		const ReportArguments &p_arguments, std::filesystem::path &r_folder,
+		std::string &r_project);
+
+} // namespace gnomon
