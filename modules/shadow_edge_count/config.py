@@ -1,0 +1,10 @@
+def get_dependencies():
+    return ["core", "scene", "mesh_tools"]
+
+
+def get_layer():
+    return 4
+
+
+def get_description():
+    return "Soft shadows counted from silhouette edges per receiver"

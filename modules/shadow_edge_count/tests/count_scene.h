@@ -1,0 +1,175 @@
+#pragma once
+
+#include "modules/scene/mesh.h"
+#include "modules/shadow_edge_count/count_visibility.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+inline std::shared_ptr<const Mesh> make_count_box(const glm::dvec3 &p_half) {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (int axis = 0; axis < 3; ++axis) {
+		for (int sign = -1; sign <= 1; sign += 2) {
+			const int u = (axis + (sign > 0 ? 1 : 2)) % 3;
+			const int v = (axis + (sign > 0 ? 2 : 1)) % 3;
+			const uint32_t first = static_cast<uint32_t>(positions.size());
+			for (int corner = 0; corner < 4; ++corner) {
+				glm::dvec3 position(0.0);
+				position[axis] = sign;
+				position[u] = corner == 1 || corner == 2 ? 1.0 : -1.0;
+				position[v] = corner >= 2 ? 1.0 : -1.0;
+				positions.push_back(glm::vec3(position * p_half));
+			}
+			for (const uint32_t corner : { 0u, 1u, 2u, 0u, 2u, 3u }) {
+				indices.push_back(first + corner);
+			}
+		}
+	}
+	return make_mesh("box", std::move(positions), {}, std::move(indices));
+}
+
+/// A globe of p_rings x 2 p_rings patches.
+inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p_rings) {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	const uint32_t columns = 2 * p_rings;
+	for (uint32_t ring = 0; ring <= p_rings; ++ring) {
+		for (uint32_t column = 0; column < columns; ++column) {
+			const double polar = M_PI * ring / p_rings;
+			const double turn = 2.0 * M_PI * column / columns;
+			const double across = ring == 0 || ring == p_rings ? 0.0 : std::sin(polar);
+			positions.push_back(glm::vec3(p_radius *
+					glm::dvec3(across * std::cos(turn), std::cos(polar), across * std::sin(turn))));
+		}
+	}
+	for (uint32_t ring = 0; ring < p_rings; ++ring) {
+		for (uint32_t column = 0; column < columns; ++column) {
+			const uint32_t a = ring * columns + column;
+			const uint32_t b = ring * columns + (column + 1) % columns;
+			if (ring > 0) {
+				indices.insert(indices.end(), { a, b, b + columns });
+			}
+			if (ring + 1 < p_rings) {
+				indices.insert(indices.end(), { a, b + columns, a + columns });
+			}
+		}
+	}
+	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
+}
+
+/// Meshes, a light, and both ways to ask what a point sees: counted, and by rays.
+class CountScene {
+public:
+	glm::dvec3 light = glm::dvec3(1.8, 6.0, 1.2);
+	glm::dvec3 target = glm::dvec3(0.0, 0.4, 0.0);
+	bool is_directional = false;
+	double radius = 0.4; // R; directional: a tangent
+	double scene_size = 4;
+	double half_extent = 0.95; // directional: metres
+	uint32_t map_size = 512;
+	uint32_t mask_turns = 1;
+
+	void add(const std::shared_ptr<const Mesh> &p_mesh, const glm::dmat4 &p_world_from_node) {
+		objects.push_back({ get_topology(p_mesh), p_world_from_node });
+	}
+
+	/// After the last change.
+	void build() {
+		const glm::dvec3 forward = glm::normalize(target - light);
+		const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));
+		const glm::dmat3 rotation =
+				glm::transpose(glm::dmat3(right, glm::cross(forward, right), forward));
+		view_from_world = glm::dmat4(rotation);
+		view_from_world[3] = glm::dvec4(-(rotation * light), 1.0);
+		space = { is_directional, radius, 1e-4 * scene_size, 3 * scene_size, 3 * scene_size,
+			scene_size };
+		layers = std::make_unique<LayerMap>(space, glm::dvec2(half_extent), glm::uvec2(map_size));
+		edges.clear();
+		triangles.clear();
+		for (const Object &object : objects) {
+			const glm::dmat4 view_from_node = view_from_world * object.world_from_node;
+			add_count_edges(*object.topology, view_from_node, space, edges);
+			layers->add_mesh(*object.topology, view_from_node);
+			for (const uint32_t vertex : object.topology->triangles) {
+				triangles.push_back(glm::dvec3(object.world_from_node *
+						glm::dvec4(object.topology->welded_positions_node[vertex], 1.0)));
+			}
+		}
+		layers->mark_buried(edges);
+		masks.clear();
+		for (uint32_t turn = 0; turn < mask_turns; ++turn) {
+			masks.emplace_back(turn * (M_PI / 2 + 0.1));
+		}
+	}
+
+	double count(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
+		const glm::dvec3 moved = p_position + p_normal * (5e-5 * scene_size);
+		const CountReceiver receiver = { glm::dvec3(view_from_world * glm::dvec4(moved, 1.0)),
+			glm::dmat3(view_from_world) * p_normal };
+		return compute_count_visibility(space, receiver, edges, *layers, masks);
+	}
+
+	/// The share of p_count points of the disc that faces the point which no triangle hides.
+	double trace(const glm::dvec3 &p_position, const glm::dvec3 &p_normal, uint32_t p_count) const {
+		const glm::dvec3 from = p_position + p_normal * (5e-5 * scene_size);
+		const glm::dvec3 way = is_directional ? glm::normalize(light - target) : light - from;
+		const glm::dvec3 axis = glm::normalize(way);
+		const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3(0.3, 1.0, 0.2)));
+		const glm::dvec3 v = glm::cross(axis, u);
+		uint32_t seen = 0;
+		for (uint32_t index = 0; index < p_count; ++index) {
+			const double r = std::sqrt((index + 0.5) / p_count) * radius;
+			const double angle = 2.399963229728653 * index;
+			const glm::dvec3 to = way + u * (r * std::cos(angle)) + v * (r * std::sin(angle));
+			seen += is_hidden(from, is_directional ? to * (10.0 * scene_size) : to) ? 0 : 1;
+		}
+		return double(seen) / p_count;
+	}
+
+	const std::vector<CountEdge> &get_edges() const { return edges; }
+	const LayerMap &get_layers() const { return *layers; }
+
+private:
+	struct Object {
+		std::shared_ptr<const MeshTopology> topology;
+		glm::dmat4 world_from_node;
+	};
+
+	/// A triangle on the way, which is whole at 1.
+	bool is_hidden(const glm::dvec3 &p_from, const glm::dvec3 &p_way) const {
+		for (size_t first = 0; first < triangles.size(); first += 3) {
+			const glm::dvec3 e1 = triangles[first + 1] - triangles[first];
+			const glm::dvec3 e2 = triangles[first + 2] - triangles[first];
+			const glm::dvec3 h = glm::cross(p_way, e2);
+			const double determinant = glm::dot(e1, h);
+			if (determinant == 0) {
+				continue;
+			}
+			const glm::dvec3 s = (p_from - triangles[first]) / determinant;
+			const double b = glm::dot(s, h);
+			const glm::dvec3 q = glm::cross(s, e1);
+			const double c = glm::dot(p_way, q);
+			const double t = glm::dot(e2, q);
+			if (b >= 0 && c >= 0 && b + c <= 1 && t > 0 && t < 1) {
+				return true;
+			}
+		}
+		return false;
+	}
+
+	std::vector<Object> objects;
+	CountSpace space;
+	glm::dmat4 view_from_world = glm::dmat4(1.0);
+	std::vector<CountEdge> edges;
+	std::unique_ptr<LayerMap> layers;
+	std::vector<DiscMasks> masks;
+	std::vector<glm::dvec3> triangles; // world, three per face
+};
+
+} // namespace gnomon

@@ -1,0 +1,216 @@
+#include "modules/shadow_edge_count/tests/count_scene.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace gnomon;
+
+namespace {
+
+const glm::dvec3 UP(0.0, 1.0, 0.0);
+
+void add_ground(CountScene &r_scene, double p_scale = 1) {
+	r_scene.add(make_count_box(glm::dvec3(4.2, 0.2, 4.2) * p_scale),
+			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.2, 0.0) * p_scale));
+}
+
+void add_tilted_box(CountScene &r_scene, double p_scale = 1) {
+	r_scene.add(make_count_box(glm::dvec3(0.5, 0.3, 0.4) * p_scale),
+			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1.2, 0.1) * p_scale), 0.4,
+					glm::dvec3(0.3, 1.0, 0.1)));
+}
+
+void make_directional(CountScene &r_scene, bool p_is_directional, double p_tangent) {
+	r_scene.is_directional = p_is_directional;
+	if (p_is_directional) {
+		r_scene.radius = p_tangent;
+		r_scene.half_extent = 6.0; // metres
+	}
+}
+
+struct Difference {
+	double mean = 0; // over penumbra points
+	double greatest = 0;
+	uint32_t penumbra_count = 0;
+};
+
+/// Counts against rays on a grid of the ground around the shadow.
+/// p_is_inside: points that no camera sees, inside a solid.
+template <typename Predicate>
+Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_is_inside) {
+	const int steps = 16;
+	const uint32_t ray_count = 1024;
+	Difference difference;
+	for (int y = 0; y < steps; ++y) {
+		for (int x = 0; x < steps; ++x) {
+			const glm::dvec3 position =
+					glm::dvec3((x + 0.37) / steps * 2 - 1.25, 0.0, (y + 0.61) / steps * 2 - 1.15) *
+					p_half_width;
+			if (p_is_inside(position)) {
+				continue;
+			}
+			const double truth = p_scene.trace(position, UP, ray_count);
+			const double counted = p_scene.count(position, UP);
+			REQUIRE(counted >= 0.0);
+			REQUIRE(counted <= 1.0);
+			const double error = std::abs(counted - truth);
+			difference.greatest = std::max(difference.greatest, error);
+			if (truth > 0.002 && truth < 0.998) {
+				difference.mean += error;
+				++difference.penumbra_count;
+			}
+		}
+	}
+	difference.mean /= std::max(1u, difference.penumbra_count);
+	return difference;
+}
+
+Difference compare(const CountScene &p_scene, double p_half_width) {
+	return compare(p_scene, p_half_width, [](const glm::dvec3 &) { return false; });
+}
+
+} // namespace
+
+TEST_CASE("[EdgeCount] one solid's shadow is that of rays, for lights of every size") {
+	for (const double radius : { 0.0, 0.08, 0.4, 1.2, 3.0 }) {
+		CAPTURE(radius);
+		CountScene scene;
+		scene.radius = radius;
+		add_ground(scene);
+		add_tilted_box(scene);
+		scene.build();
+		const Difference difference = compare(scene, 1.4);
+		CHECK(difference.mean < 0.002); // the rays' own noise included
+		CHECK(difference.greatest < 0.008);
+		CHECK((difference.penumbra_count > 0) == (radius > 0));
+	}
+}
+
+TEST_CASE("[EdgeCount] a sphere's shadow, too, and under a directional light") {
+	for (const bool is_directional : { false, true }) {
+		CAPTURE(is_directional);
+		CountScene scene;
+		make_directional(scene, is_directional, 0.07);
+		add_ground(scene);
+		scene.add(make_count_sphere(0.8, 8),
+				glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.3, 0.0)));
+		scene.build();
+		const Difference difference = compare(scene, 1.4);
+		CHECK(difference.mean < 0.002);
+		CHECK(difference.greatest < 0.008);
+		CHECK(difference.penumbra_count > 10);
+	}
+}
+
+TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do for rays") {
+	for (const uint32_t turns : { 1u, 4u }) {
+		CAPTURE(turns);
+		CountScene scene;
+		scene.mask_turns = turns;
+		add_ground(scene);
+		for (int index = 0; index < 4; ++index) {
+			const glm::dvec3 place(
+					0.3 * std::cos(2.1 * index), 0.5 + 0.55 * index, 0.3 * std::sin(2.1 * index));
+			scene.add(make_count_box(glm::dvec3(0.35, 0.04, 0.3)),
+					glm::rotate(glm::translate(glm::dmat4(1.0), place), 0.7 * index,
+							glm::dvec3(0.2, 1.0, 0.1)));
+		}
+		scene.build();
+		const Difference difference = compare(scene, 1.4);
+		CHECK(difference.mean < (turns == 1 ? 0.01 : 0.006));
+		CHECK(difference.greatest < (turns == 1 ? 0.06 : 0.04));
+		CHECK(difference.penumbra_count > 50);
+	}
+}
+
+TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
+	CountScene scene;
+	scene.radius = 0.4;
+	add_ground(scene);
+	const glm::dmat4 place =
+			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.97, 0.1)), 0.4, UP);
+	const glm::dvec3 half(0.35, 1.02, 0.35);
+	scene.add(make_count_box(half), place);
+	scene.build();
+	const Difference difference = compare(scene, 1.4, [&](const glm::dvec3 &p_position) {
+		const glm::dvec3 own = glm::dvec3(glm::inverse(place) * glm::dvec4(p_position, 1.0));
+		return glm::all(glm::lessThan(glm::abs(own), half));
+	});
+	CHECK(difference.mean < 0.003);
+	CHECK(difference.greatest < 0.02);
+	CHECK(difference.penumbra_count > 20);
+}
+
+TEST_CASE("[EdgeCount] the map's size hardly matters") {
+	double errors[2] = {};
+	for (const int index : { 0, 1 }) {
+		CountScene scene;
+		scene.map_size = index == 0 ? 64 : 512;
+		add_ground(scene);
+		add_tilted_box(scene);
+		scene.build();
+		errors[index] = compare(scene, 1.4).mean;
+	}
+	CHECK(errors[0] == doctest::Approx(errors[1]).epsilon(0.05));
+}
+
+TEST_CASE("[EdgeCount] sheets without thickness cast the same shadow from both sides") {
+	for (const bool is_turned : { false, true }) {
+		CAPTURE(is_turned);
+		CountScene scene;
+		add_ground(scene);
+		std::vector<uint32_t> indices = { 0, 1, 2, 0, 2, 3 };
+		if (is_turned) {
+			std::reverse(indices.begin(), indices.end());
+		}
+		scene.add(make_mesh("sheet",
+						  { { -0.5f, 0, -0.4f }, { 0.5f, 0, -0.4f }, { 0.5f, 0, 0.4f },
+								  { -0.5f, 0, 0.4f } },
+						  {}, indices),
+				glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1.2, 0.1)), 0.3,
+						glm::dvec3(1.0, 0.2, 0.4)));
+		scene.build();
+		const Difference difference = compare(scene, 1.4);
+		CHECK(difference.mean < 0.002);
+		CHECK(difference.greatest < 0.008);
+	}
+}
+
+TEST_CASE("[EdgeCount] scale changes nothing") {
+	std::vector<double> values[3];
+	const double scales[] = { 1.0, 1e-3, 1e3 };
+	for (int index = 0; index < 3; ++index) {
+		const double scale = scales[index];
+		CountScene scene;
+		scene.light *= scale;
+		scene.target *= scale;
+		scene.radius *= scale;
+		scene.scene_size *= scale;
+		add_ground(scene, scale);
+		add_tilted_box(scene, scale);
+		scene.build();
+		for (int step = 0; step < 100; ++step) {
+			const glm::dvec3 place(-1.4 + 0.011 * step, 0.0, -1.2 + 0.017 * step);
+			values[index].push_back(scene.count(place * scale, UP));
+		}
+	}
+	for (size_t step = 0; step < values[0].size(); ++step) {
+		CHECK(std::abs(values[1][step] - values[0][step]) < 1e-3);
+		CHECK(std::abs(values[2][step] - values[0][step]) < 1e-3);
+	}
+}
+
+TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid through all is 0") {
+	CountScene scene;
+	add_ground(scene);
+	scene.build();
+	CHECK(scene.count({ 0.3, 0.0, 0.2 }, UP) == 1.0);
+	scene.add(make_count_box(glm::dvec3(2.0, 0.3, 2.0)),
+			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.5, 0.0)));
+	scene.build();
+	CHECK(scene.count({ -0.4, 0.0, -0.3 }, UP) == 0.0);
+	CHECK(scene.count({ 0.0, 1.8, 0.0 }, UP) == 1.0); // on top of it
+}
