@@ -1,5 +1,5 @@
 def get_dependencies():
-    return ["core", "scene", "mesh_tools"]
+    return ["core", "scene", "mesh_tools", "rendering_device"]
 
 
 def get_layer():

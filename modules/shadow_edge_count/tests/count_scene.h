@@ -108,11 +108,17 @@ public:
 		}
 	}
 
-	double count(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
+	CountReceiver make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
 		const glm::dvec3 moved = p_position + p_normal * (5e-5 * scene_size);
-		const CountReceiver receiver = { glm::dvec3(view_from_world * glm::dvec4(moved, 1.0)),
+		return { glm::dvec3(view_from_world * glm::dvec4(moved, 1.0)),
 			glm::dmat3(view_from_world) * p_normal };
-		return compute_count_visibility(space, receiver, edges, *layers, masks);
+	}
+
+	double count(const CountReceiver &p_receiver) const {
+		return compute_count_visibility(space, p_receiver, edges, *layers, masks);
+	}
+	double count(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
+		return count(make_receiver(p_position, p_normal));
 	}
 
 	/// The share of p_count points of the disc that faces the point which no triangle hides.
@@ -134,6 +140,8 @@ public:
 
 	const std::vector<CountEdge> &get_edges() const { return edges; }
 	const LayerMap &get_layers() const { return *layers; }
+	const CountSpace &get_space() const { return space; }
+	const std::vector<DiscMasks> &get_masks() const { return masks; }
 
 private:
 	struct Object {

@@ -1,0 +1,90 @@
+// The layer map and the texel at which a receiver's solids are counted: LayerMap in float32.
+#ifndef COUNT_LAYERS_INC_GLSL
+#define COUNT_LAYERS_INC_GLSL
+
+#include "shadow_edge_count/count_space_inc.glsl"
+
+// Shares of w (directional: of a length); see count_visibility.cpp.
+const float COUNT_AWAY_TOLERANCE = 5e-5;
+const float COUNT_TOWARD_TOLERANCE = 3e-4;
+const float COUNT_DOUBLE_SIDED_TOLERANCE = 3e-3;
+const float COUNT_STEEP_SLOPE = 3e-3;
+const float COUNT_BAD_TEXEL = 1e6; // square texels: farther than any good one
+
+/// First fragment of a texel, and how many there are; the highest bit of the count: buried.
+uvec2 load_count_texel(uvec2 p_texel);
+/// w of a fragment, and its kind: 0 turned towards the light, 1 away, 2 of a double-sided mesh.
+vec2 load_count_fragment(uint p_index);
+
+/// Where the solids before a receiver are counted: the centre of a texel of the layer map.
+struct CountReference {
+	vec2 offset; // from the receiver in x', y'
+	float w;	 // of the receiver's plane there
+	int solid_count;
+};
+
+struct CountTexel {
+	vec2 offset; // of its centre from the receiver, x', y'
+	float rise;	 // of the receiver's plane there, not below 0
+	int away_count;
+	bool is_bad; // buried, or inside a solid
+};
+
+vec2 count_texel_center(CountViewConstants p_view, ivec2 p_texel) {
+	return ((vec2(p_texel) + 0.5) / vec2(p_view.map_size_px) * 2.0 - 1.0) * p_view.half_extent;
+}
+
+CountTexel count_texel(CountViewConstants p_view, CountReceiver p_receiver, ivec2 p_texel) {
+	const uint BURIED = 0x80000000u;
+	CountTexel texel;
+	texel.offset = count_texel_center(p_view, p_texel) - p_receiver.warped.xy;
+	texel.rise = max(count_rise(p_receiver, texel.offset), 0.0);
+	const float w = p_receiver.warped.z + texel.rise;
+	const float scale = count_depth_scale(p_view, w);
+	const uvec2 range = load_count_texel(uvec2(p_texel));
+	texel.away_count = 0;
+	int toward_count = 0;
+	const uint count = range.y & ~BURIED;
+	for (uint i = 0u; i < count; ++i) {
+		const vec2 fragment = load_count_fragment(range.x + i);
+		const float height = (fragment.x - w) / scale;
+		const float toward_tolerance =
+				fragment.y == 2.0 ? COUNT_DOUBLE_SIDED_TOLERANCE : COUNT_TOWARD_TOLERANCE;
+		texel.away_count += fragment.y >= 1.0 && height > COUNT_AWAY_TOLERANCE ? 1 : 0;
+		toward_count += fragment.y != 1.0 && height > toward_tolerance ? 1 : 0;
+	}
+	texel.is_bad = (range.y & BURIED) != 0u || texel.away_count != toward_count;
+	return texel;
+}
+
+/// The nearest texel, unless it says little: then the best of the nine about it.
+CountReference find_count_reference(CountViewConstants p_view, CountReceiver p_receiver) {
+	const vec2 place = (p_receiver.warped.xy / p_view.half_extent * 0.5 + 0.5) *
+			vec2(p_view.map_size_px);
+	const ivec2 last = ivec2(p_view.map_size_px) - 1;
+	const ivec2 nearest = clamp(ivec2(floor(place)), ivec2(0), last);
+	CountTexel chosen = count_texel(p_view, p_receiver, nearest);
+	const float steep = COUNT_STEEP_SLOPE * p_receiver.scale;
+	if (chosen.is_bad || chosen.rise > steep) {
+		float least = 1e30;
+		for (int i = 0; i < 9; ++i) {
+			const ivec2 texel = nearest + ivec2(i % 3, i / 3) - 1;
+			if (any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last))) {
+				continue;
+			}
+			const CountTexel here = count_texel(p_view, p_receiver, texel);
+			const vec2 away = vec2(texel) + 0.5 - place;
+			const float rise = here.rise / steep;
+			const float cost =
+					dot(away, away) + rise * rise + (here.is_bad ? COUNT_BAD_TEXEL : 0.0);
+			if (cost < least) {
+				least = cost;
+				chosen = here;
+			}
+		}
+	}
+	return CountReference(
+			chosen.offset, p_receiver.warped.z + chosen.rise, chosen.away_count);
+}
+
+#endif
