@@ -2,6 +2,7 @@
 #ifndef COUNT_EDGE_INC_GLSL
 #define COUNT_EDGE_INC_GLSL
 
+#include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/count_layers_inc.glsl"
 #include "shadow_edge_count/count_masks_inc.glsl"
 
@@ -50,10 +51,7 @@ int count_weight(CountReceiver p_receiver, CountEdgeRecord p_edge) {
 			dot(p_edge.normal0_weight.xyz, p_receiver.r) + p_edge.by_bw_d0_d1.z > 0.0;
 	const bool is_facing1 =
 			dot(p_edge.normal1_kind.xyz, p_receiver.r) + p_edge.by_bw_d0_d1.w > 0.0;
-	const int first = is_facing0 ? 1 : -1;
-	const int sum = first - (is_facing1 ? 1 : -1);
-	const int both = (kind & EDGE_COUNT_DOUBLE_SIDED) != 0 ? sum : sum / 2;
-	return (kind & EDGE_COUNT_HAS_FACE1) != 0 ? both : first;
+	return count_sum_weights(is_facing0, is_facing1, kind);
 }
 
 /// Adds the part of the disc beyond an edge from p_a to p_b on the disc's plane, as seen from the

@@ -30,7 +30,7 @@ struct SHARED_ALIGN CountViewConstants {
 	vec2 half_extent;	 // of the layer map, x' and y'
 	uvec2 map_size_px;
 	uint is_directional;
-	uint padding0;
+	float near_m; // what is nearer to the light's plane is cut off; not for directional
 	uint padding1;
 	uint padding2;
 };

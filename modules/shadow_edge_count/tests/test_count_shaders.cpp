@@ -52,8 +52,7 @@ struct Agreement {
 	size_t apart_count = 0; // by more than 1e-3
 };
 
-/// Receivers on the ground, counted by the shader and in double.
-Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
+shader::CountViewConstants make_constants(const CountScene &p_scene) {
 	const CountSpace &space = p_scene.get_space();
 	shader::CountViewConstants constants = {};
 	constants.disc_radius = float(space.disc_radius);
@@ -63,6 +62,13 @@ Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
 	constants.half_extent = glm::vec2(float(p_scene.half_extent));
 	constants.map_size_px = p_scene.get_layers().get_size_px();
 	constants.is_directional = space.is_directional ? 1 : 0;
+	constants.near_m = float(space.near_m);
+	return constants;
+}
+
+/// Receivers on the ground, counted by the shader and in double.
+Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
+	const shader::CountViewConstants constants = make_constants(p_scene);
 	std::vector<shader::CountEdgeRecord> records;
 	for (const CountEdge &edge : p_scene.get_edges()) {
 		records.push_back(make_record(edge));
@@ -147,4 +153,73 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overla
 	CHECK(agreement.mean < 5e-4);
 	CHECK(agreement.greatest < 0.05);  // one point of 64 more or less, in two layers
 	CHECK(agreement.apart_count < 60); // of 2000: a point that lies on an edge
+}
+
+TEST_CASE("[GPU][EdgeCount] edges are classified as in double") {
+	KernelFixture fixture;
+	TestRandom random;
+	for (const bool is_directional : { false, true }) {
+		CAPTURE(is_directional);
+		CountScene scene;
+		scene.is_directional = is_directional;
+		scene.radius = is_directional ? 0.07 : 0.4;
+		scene.build();
+		const CountSpace &space = scene.get_space();
+		std::vector<glm::vec4> input;
+		std::vector<std::vector<CountEdge>> expected;
+		const size_t count = 4000;
+		for (size_t index = 0; index < count; ++index) {
+			// Two triangles with a common edge, the second one missing now and then; some reach
+			// behind the light.
+			glm::vec3 corners[4];
+			for (glm::vec3 &corner : corners) {
+				corner = glm::vec3(random.next(-2, 2), random.next(-2, 2), random.next(-1, 7));
+			}
+			const bool has_second = index % 5 != 0;
+			std::vector<uint32_t> indices = { 0, 1, 2 };
+			if (has_second) {
+				indices.insert(indices.end(), { 1, 0, 3 });
+			}
+			const auto mesh =
+					make_mesh("pair", { corners, corners + (has_second ? 4 : 3) }, {}, indices);
+			MeshTopology topology = build_topology(*mesh);
+			std::erase_if(topology.edges, [&](const MeshEdge &p_edge) {
+				return (p_edge.face1 != NO_FACE) != has_second ||
+						topology.welded_positions_node[p_edge.a] == corners[2] ||
+						topology.welded_positions_node[p_edge.b] == corners[2];
+			});
+			REQUIRE(topology.edges.size() == 1);
+			expected.emplace_back();
+			add_count_edges(topology, glm::dmat4(1.0), space, expected.back());
+			const bool is_reversed =
+					topology.welded_positions_node[topology.edges[0].a] != corners[0];
+			input.emplace_back(corners[0], has_second ? 1.0f : 0.0f);
+			input.emplace_back(corners[1], is_reversed ? 1.0f : 0.0f);
+			input.emplace_back(corners[2], 0.0f);
+			input.emplace_back(corners[3], 0.0f);
+		}
+		const auto results = fixture.run_with_constants(
+				"count_classify.comp", make_constants(scene), input, count, 5);
+		size_t apart_count = 0;
+		for (size_t index = 0; index < count; ++index) {
+			const glm::vec4 *result = &results[5 * index];
+			if ((result[4].x > 0.5f) != !expected[index].empty()) {
+				++apart_count; // a light that touches a face's plane
+				continue;
+			}
+			if (expected[index].empty()) {
+				continue;
+			}
+			const CountEdge &edge = expected[index][0];
+			const shader::CountEdgeRecord record = make_record(edge);
+			CHECK(result[3].w == record.normal1_kind.w);
+			CHECK(result[2].w == record.normal0_weight.w);
+			// Near the light w is large: compared as shares.
+			const float scale = 1.0f + float(std::max(std::abs(edge.a.z), std::abs(edge.b.z)));
+			CHECK(glm::length(result[0] - record.a_bx) < 2e-3f * scale);
+			CHECK(glm::length(result[1] - record.by_bw_d0_d1) < 2e-3f * scale);
+			CHECK(glm::length(glm::vec3(result[2]) - glm::vec3(record.normal0_weight)) < 1e-4f);
+		}
+		CHECK(apart_count <= 2);
+	}
 }

@@ -1,0 +1,68 @@
+// Which edges a receiver may have to count: add_count_edges in float32.
+#ifndef COUNT_CLASSIFY_INC_GLSL
+#define COUNT_CLASSIFY_INC_GLSL
+
+#include "shadow_edge_count/count_space_inc.glsl"
+
+/// n and d of a face in the view, n unit: n.r + d = 0, above 0 in front. All 0 for a face without
+/// area. Made once per face, so that both edges' sides of it are equal bit for bit.
+vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
+	// The longest side's direction is exact enough for slivers; its scale must not underflow.
+	const vec3 u = p_b - p_a;
+	const vec3 v = p_c - p_a;
+	const float size = max(max(abs(u.x), max(abs(u.y), abs(u.z))), max(abs(v.x), max(abs(v.y), abs(v.z))));
+	const vec3 normal = size > 0.0 ? cross(u / size, v / size) : vec3(0.0);
+	const float length_normal = length(normal);
+	const vec3 unit = length_normal > 0.0 ? normal / length_normal : vec3(0.0);
+	return vec4(unit, -dot(unit, p_a));
+}
+
+/// +1 when the whole light lies in front of the face, -1 when behind it, 0 when it is divided.
+int count_find_light_side(CountViewConstants p_view, vec4 p_plane) {
+	const float SIDE_TOLERANCE_SIZES = 2.5e-7;
+	const float SIDE_TOLERANCE_COSINE = 1e-6;
+	const bool is_directional = p_view.is_directional != 0u;
+	const float reach = p_view.disc_radius * (is_directional ? length(p_plane.xy) : 1.0);
+	const float tolerance = is_directional ? SIDE_TOLERANCE_COSINE
+										   : SIDE_TOLERANCE_SIZES * p_view.scene_size_m;
+	const float side = count_light_side(p_view, p_plane.xyz, p_plane.w);
+	return side > reach + tolerance ? 1 : (side < -reach - tolerance ? -1 : 0);
+}
+
+/// Signed weight from the sides of the faces; p_kind: EDGE_COUNT_HAS_FACE1, _DOUBLE_SIDED.
+int count_sum_weights(bool p_is_facing0, bool p_is_facing1, int p_kind) {
+	const int first = p_is_facing0 ? 1 : -1;
+	const int sum = first - (p_is_facing1 ? 1 : -1);
+	const int both = (p_kind & EDGE_COUNT_DOUBLE_SIDED) != 0 ? sum : sum / 2;
+	return (p_kind & EDGE_COUNT_HAS_FACE1) != 0 ? both : first;
+}
+
+/// The record of an edge between two points of the view, as its first face winds. False where no
+/// receiver counts it: the light lies wholly on one side of both faces, or the edge before the near
+/// plane. A boundary edge is always kept.
+bool make_count_record(CountViewConstants p_view, vec3 p_a, vec3 p_b, vec4 p_plane0, vec4 p_plane1,
+		int p_kind, out CountEdgeRecord r_record) {
+	const bool has_face1 = (p_kind & EDGE_COUNT_HAS_FACE1) != 0;
+	const int side = count_find_light_side(p_view, p_plane0);
+	const bool is_one_sided = has_face1 && side != 0 && side == count_find_light_side(p_view, p_plane1);
+	const int weight = count_sum_weights(count_light_side(p_view, p_plane0.xyz, p_plane0.w) > 0.0,
+			count_light_side(p_view, p_plane1.xyz, p_plane1.w) > 0.0, p_kind);
+	vec3 a = p_a;
+	vec3 b = p_b;
+	const bool is_a_before = p_view.is_directional == 0u && p_a.z < p_view.near_m;
+	const bool is_b_before = p_view.is_directional == 0u && p_b.z < p_view.near_m;
+	if (is_a_before) {
+		a = vec3(mix(p_a.xy, p_b.xy, (p_view.near_m - p_a.z) / (p_b.z - p_a.z)), p_view.near_m);
+	} else if (is_b_before) {
+		b = vec3(mix(p_b.xy, p_a.xy, (p_view.near_m - p_b.z) / (p_a.z - p_b.z)), p_view.near_m);
+	}
+	const vec3 warped_a = count_warp(p_view, a);
+	const vec3 warped_b = count_warp(p_view, b);
+	r_record.a_bx = vec4(warped_a, warped_b.x);
+	r_record.by_bw_d0_d1 = vec4(warped_b.yz, p_plane0.w, p_plane1.w);
+	r_record.normal0_weight = vec4(p_plane0.xyz, float(weight));
+	r_record.normal1_kind = vec4(p_plane1.xyz, float(p_kind));
+	return !is_one_sided && !(is_a_before && is_b_before);
+}
+
+#endif
