@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <tuple>
 
@@ -33,6 +34,13 @@ double compute_spread(const ReportCell &p_cell) {
 	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;
 	const double median_ms = is_on_gpu ? total.gpu_ms : total.wall_ms;
 	return median_ms > 0 ? (is_on_gpu ? total.gpu_ms_p90 : total.wall_ms_p90) / median_ms - 1.0 : 0;
+}
+
+/// For reading: report.json has all digits.
+std::string format_value(double p_value) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%.4g", p_value);
+	return digits;
 }
 
 class Comparer {
@@ -168,7 +176,8 @@ std::string to_text(const ReportComparison &p_comparison) {
 		lines += difference.what == "status"
 				? (difference.is_worse ? "fails now: " + difference.message
 									   : std::string("does not fail any more"))
-				: text(difference.old_value, " -> ", difference.new_value,
+				: text(format_value(difference.old_value), " -> ",
+						  format_value(difference.new_value),
 						  difference.what == "time ratio"	  ? " times the baseline"
 								  : difference.what == "time" ? " ms"
 															  : "");

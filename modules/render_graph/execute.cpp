@@ -30,7 +30,7 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 		barrier.before = resource.last_access;
 		barrier.after = use.access;
 		if (resource.first_pass == p_pass_index) {
-			if (!resource.is_texture) {
+			if (!resource.is_texture && resource.earlier_users.empty()) {
 				resource.last_access = use.access;
 				continue; // earlier frames are ordered by the submission itself
 			}

@@ -53,6 +53,48 @@ uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
 	return total_bytes;
 }
 
+std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_requests,
+		std::vector<std::vector<uint32_t>> &r_predecessors) {
+	struct Slot {
+		uint32_t owner = 0; // the request whose buffer it is
+		uint32_t last = 0;	// the request that used it last
+	};
+	std::vector<uint32_t> order;
+	for (uint32_t index = 0; index < p_requests.size(); ++index) {
+		if (!p_requests[index].is_texture) {
+			order.push_back(index);
+		}
+	}
+	std::stable_sort(order.begin(), order.end(), [&](uint32_t p_left, uint32_t p_right) {
+		return p_requests[p_left].first_pass < p_requests[p_right].first_pass;
+	});
+	const auto is_alike = [](BufferDesc p_left, const BufferDesc &p_right) {
+		p_left.name = p_right.name;
+		return p_left == p_right;
+	};
+	std::vector<Slot> slots;
+	std::vector<uint32_t> owners(p_requests.size());
+	for (const uint32_t index : order) {
+		const TransientRequest &request = p_requests[index];
+		// What the host maps is ordered by submissions, not by barriers: each has its own.
+		const auto free_slot = request.buffer.memory != MemoryKind::GPU
+				? slots.end()
+				: std::find_if(slots.begin(), slots.end(), [&](const Slot &p_slot) {
+					  return is_alike(p_requests[p_slot.owner].buffer, request.buffer) &&
+							  p_requests[p_slot.last].last_pass < request.first_pass;
+				  });
+		if (free_slot == slots.end()) {
+			slots.push_back({ index, index });
+			owners[index] = index;
+			continue;
+		}
+		r_predecessors[index].push_back(free_slot->last);
+		owners[index] = free_slot->owner;
+		free_slot->last = index;
+	}
+	return owners;
+}
+
 const TransientPlacement &TransientPool::place(const std::vector<TransientRequest> &p_requests) {
 	++use_count;
 	for (const std::unique_ptr<Entry> &entry : entries) {
@@ -80,8 +122,6 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 	for (uint32_t index = 0; index < p_requests.size(); ++index) {
 		const TransientRequest &request = p_requests[index];
 		if (!request.is_texture) {
-			entry->buffers.emplace_back(device, device.create_buffer(request.buffer));
-			placement.buffers[index] = entry->buffers.back().get();
 			continue;
 		}
 		const auto needs = device.compute_placement_needs(request.texture);
@@ -89,6 +129,18 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 				{ needs.size_bytes, needs.alignment_bytes, request.first_pass, request.last_pass });
 		block_requests.push_back(index);
 		placement.unaliased_bytes += needs.size_bytes;
+	}
+	const std::vector<uint32_t> slots = share_buffers(p_requests, placement.predecessors);
+	for (uint32_t index = 0; index < p_requests.size(); ++index) {
+		if (!p_requests[index].is_texture && slots[index] == index) {
+			entry->buffers.emplace_back(device, device.create_buffer(p_requests[index].buffer));
+			placement.buffers[index] = entry->buffers.back().get();
+		}
+	}
+	for (uint32_t index = 0; index < p_requests.size(); ++index) {
+		if (!p_requests[index].is_texture) {
+			placement.buffers[index] = placement.buffers[slots[index]];
+		}
 	}
 	placement.aliased_bytes = place_blocks(blocks);
 	if (!blocks.empty()) {

@@ -40,6 +40,12 @@ struct PlacedBlock {
 /// first, each at the lowest free offset. Returns the size of the whole.
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks);
 
+/// For each request of a buffer the request whose buffer it gets: its own, or one of the same size,
+/// usage and memory that was done with before. r_predecessors, one list per request, gets those
+/// that had it before. Entries of textures mean nothing. Buffers that the host maps are not shared.
+std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_requests,
+		std::vector<std::vector<uint32_t>> &r_predecessors);
+
 /// Keeps the transient resources of the last few frame shapes, so that a frame like an earlier one
 /// allocates nothing.
 class TransientPool {

@@ -52,3 +52,34 @@ TEST_CASE("[TransientPool] no two of 200 random sets of blocks overlap") {
 		}
 	}
 }
+
+TEST_CASE("[TransientPool] buffers alike that live one after the other are one, others are not") {
+	const auto request = [](uint32_t p_first, uint32_t p_last, const BufferDesc &p_desc) {
+		TransientRequest made;
+		made.is_texture = false;
+		made.buffer = p_desc;
+		made.first_pass = p_first;
+		made.last_pass = p_last;
+		return made;
+	};
+	const BufferDesc small = { "small", 64 };
+	const BufferDesc alike = { "another name", 64 };
+	const BufferDesc large = { "large", 128 };
+	const BufferDesc mapped = { "mapped", 64, BufferUsage::STORAGE, MemoryKind::READBACK };
+	// In the order of their making, which is not that of their use.
+	const std::vector<TransientRequest> requests = { request(4, 5, small), request(0, 2, alike),
+		request(2, 3, small), request(3, 6, small), request(6, 7, large), request(0, 1, mapped),
+		request(2, 3, mapped), TransientRequest() };
+	std::vector<std::vector<uint32_t>> predecessors(requests.size());
+	const std::vector<uint32_t> owners = share_buffers(requests, predecessors);
+	CHECK(owners[1] == 1);
+	CHECK(owners[2] == 2); // begins in the pass in which the first one ends
+	CHECK(owners[3] == 1);
+	CHECK(owners[0] == 2);
+	CHECK(predecessors[3] == std::vector<uint32_t>{ 1 });
+	CHECK(predecessors[0] == std::vector<uint32_t>{ 2 });
+	CHECK(predecessors[1].empty());
+	CHECK(owners[4] == 4);
+	CHECK(owners[5] == 5);
+	CHECK(owners[6] == 6);
+}
