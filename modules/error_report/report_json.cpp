@@ -214,9 +214,12 @@ Report read_report(const Json &p_json) {
 	}
 	for (const Json &cell : p_json.at("cells")) {
 		report.cells.push_back(read_cell(cell));
-		if (report.cells.back().configuration_index >= report.configurations.size()) {
+		const ReportCell &last = report.cells.back();
+		const bool has_machine = !last.is_ok() || last.machine_index < report.machines.size();
+		if (last.configuration_index >= report.configurations.size() || !has_machine) {
 			fail("cell ", report.cells.size() - 1, " names configuration ",
-					report.cells.back().configuration_index, " of ", report.configurations.size());
+					last.configuration_index, " of ", report.configurations.size(), " and machine ",
+					last.machine_index, " of ", report.machines.size());
 		}
 	}
 	return report;

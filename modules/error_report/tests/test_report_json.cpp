@@ -58,6 +58,9 @@ TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
 	wrong["cells"][0]["configuration"] = 99;
 	check_refused(wrong.dump());
 	wrong = whole;
+	wrong["cells"][0]["machine"] = 1;
+	check_refused(wrong.dump());
+	wrong = whole;
 	wrong["cells"][0]["time"]["cost_ms"] = "fast";
 	check_refused(wrong.dump());
 	CHECK_THROWS_AS(load_report(folder.path / "absent.json"), Error);
