@@ -60,7 +60,8 @@ class Browser:
         # The protocol wants exactly descriptors 3 and 4; the shell gives ours these names.
         command = 'exec "$0" "$@" 3<&%d 4>&%d' % (to_browser, from_browser)
         options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run"]
-        options += ["--disable-background-networking", "--user-data-dir=" + self.folder]
+        # Containers often have 64 MB of shared memory, too little for it.
+        options += ["--disable-dev-shm-usage", "--disable-background-networking", "--user-data-dir=" + self.folder]
         options += ["--remote-debugging-pipe", "about:blank"]
         self.process = subprocess.Popen(
             ["bash", "-c", command, BROWSER, *options],
