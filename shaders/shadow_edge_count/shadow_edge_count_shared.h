@@ -21,6 +21,45 @@ struct SHARED_ALIGN CountEdgeRecord {
 };
 SHARED_SIZE(CountEdgeRecord, 64);
 
+// Edges are found 32 to a word, 64 words to a block, so that the list has their own order.
+#define EDGE_COUNT_EDGES_PER_WORD 32
+#define EDGE_COUNT_WORDS_PER_BLOCK 64
+#define EDGE_COUNT_NO_FACE 0xffffffffu
+
+// Bindings of the passes that find edges.
+#define FIND_BINDING_VIEW 0
+#define FIND_BINDING_POSITIONS 1
+#define FIND_BINDING_FACES 2
+#define FIND_BINDING_PLANES 3
+#define FIND_BINDING_EDGES 4
+#define FIND_BINDING_WORDS 5
+#define FIND_BINDING_BLOCKS 6
+#define FIND_BINDING_LIST 7
+
+/// An edge between welded vertices, a -> b as its first face winds.
+struct SHARED_ALIGN CountMeshEdge {
+	uint a;
+	uint b;
+	uint face0;
+	uint face1; // EDGE_COUNT_NO_FACE at a boundary
+};
+SHARED_SIZE(CountMeshEdge, 16);
+
+/// One caster in a light view. Where its faces and edges stand in the buffers that all share.
+struct SHARED_ALIGN CountCasterPush {
+	mat4 view_from_node;
+	uint face_count;
+	uint first_face;
+	uint edge_count;
+	uint first_word;
+	uint first_block;
+	uint inconsistent_from; // edges from this one on: both faces wind a -> b
+	uint kind;				// a sum of EDGE_COUNT_DOUBLE_SIDED and EDGE_COUNT_MIRRORED
+	uint padding;
+};
+SHARED_SIZE(CountCasterPush, 96);
+#define EDGE_COUNT_MIRRORED 4
+
 /// A light view for counting; see CountSpace.
 struct SHARED_ALIGN CountViewConstants {
 	float disc_radius; // R in metres; directional: a tangent

@@ -1,3 +1,4 @@
+#include "modules/shadow_edge_count/tests/count_records.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
@@ -10,17 +11,6 @@ using namespace gnomon;
 namespace {
 
 const glm::dvec3 UP(0.0, 1.0, 0.0);
-
-shader::CountEdgeRecord make_record(const CountEdge &p_edge) {
-	const int kind = (p_edge.has_face1 ? EDGE_COUNT_HAS_FACE1 : 0) |
-			(p_edge.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0);
-	shader::CountEdgeRecord record;
-	record.a_bx = glm::vec4(glm::vec3(p_edge.a), float(p_edge.b.x));
-	record.by_bw_d0_d1 = glm::vec4(p_edge.b.y, p_edge.b.z, p_edge.plane0.w, p_edge.plane1.w);
-	record.normal0_weight = glm::vec4(glm::vec3(p_edge.plane0), float(p_edge.center_weight));
-	record.normal1_kind = glm::vec4(glm::vec3(p_edge.plane1), float(kind));
-	return record;
-}
 
 /// The layer map as the shaders read it.
 struct LayerArrays {
@@ -51,20 +41,6 @@ struct Agreement {
 	double greatest = 0;
 	size_t apart_count = 0; // by more than 1e-3
 };
-
-shader::CountViewConstants make_constants(const CountScene &p_scene) {
-	const CountSpace &space = p_scene.get_space();
-	shader::CountViewConstants constants = {};
-	constants.disc_radius = float(space.disc_radius);
-	constants.depth_scale_m = float(space.get_depth_scale(0));
-	constants.depth_far_m = float(space.depth_far_m);
-	constants.scene_size_m = float(space.scene_size_m);
-	constants.half_extent = glm::vec2(float(p_scene.half_extent));
-	constants.map_size_px = p_scene.get_layers().get_size_px();
-	constants.is_directional = space.is_directional ? 1 : 0;
-	constants.near_m = float(space.near_m);
-	return constants;
-}
 
 /// Receivers on the ground, counted by the shader and in double.
 Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
