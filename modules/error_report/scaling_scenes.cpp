@@ -1,6 +1,7 @@
 #include "modules/error_report/scaling_scenes.h"
 
 #include "modules/core/text.h"
+#include "modules/scene/box_mesh.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -17,6 +18,7 @@ const glm::dvec3 KNOT_MIDDLE(0.0, 1.4, 0.0);
 const double TUBE_RADIUS_M = 0.16;
 const double ALONG_PER_AROUND = 500.0 / 30.0;
 const uint32_t GROUND_TRIANGLE_COUNT = 12;
+const glm::vec3 GROUND_HALF_SIZE_M(4.2f, 0.2f, 4.2f);
 const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
 const glm::dvec3 LIGHT_TARGET(0.0, 0.4, 0.0);
 const double LIGHT_CONE_TANGENT = 0.95;
@@ -60,31 +62,6 @@ std::shared_ptr<const Mesh> make_knot(uint32_t p_triangle_count) {
 		}
 	}
 	return make_mesh("knot", std::move(positions), {}, std::move(indices));
-}
-
-std::shared_ptr<const Mesh> make_ground() {
-	const glm::vec3 half(4.2f, 0.2f, 4.2f);
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-	for (int axis = 0; axis < 3; ++axis) {
-		for (int sign = -1; sign <= 1; sign += 2) {
-			// The next two axes, swapped on the far side so that all faces wind outwards.
-			const int u = (axis + (sign > 0 ? 1 : 2)) % 3;
-			const int v = (axis + (sign > 0 ? 2 : 1)) % 3;
-			const uint32_t first = static_cast<uint32_t>(positions.size());
-			for (int corner = 0; corner < 4; ++corner) {
-				glm::vec3 position(0.0f);
-				position[axis] = float(sign);
-				position[u] = corner == 1 || corner == 2 ? 1.0f : -1.0f;
-				position[v] = corner >= 2 ? 1.0f : -1.0f;
-				positions.push_back(position * half - glm::vec3(0.0f, half.y, 0.0f));
-			}
-			for (const uint32_t corner : { 0u, 1u, 2u, 0u, 2u, 3u }) {
-				indices.push_back(first + corner);
-			}
-		}
-	}
-	return make_mesh("ground", std::move(positions), {}, std::move(indices));
 }
 
 glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
@@ -131,10 +108,14 @@ std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description) {
 	auto scene = std::make_unique<Scene>();
 	scene->scene_size_m = 4.0;
 	const uint32_t knot_count = p_description.triangle_count - GROUND_TRIANGLE_COUNT;
-	for (const std::shared_ptr<const Mesh> &mesh : { make_knot(knot_count), make_ground() }) {
+	for (const std::shared_ptr<const Mesh> &mesh :
+			{ make_knot(knot_count), make_box_mesh("ground", GROUND_HALF_SIZE_M) }) {
 		auto instance = std::make_unique<MeshInstance3D>();
 		instance->name = mesh->name;
 		instance->surfaces.push_back({ mesh, nullptr });
+		if (mesh->name == "ground") { // its top is at 0
+			instance->parent_from_node[3].y = -GROUND_HALF_SIZE_M.y;
+		}
 		scene->root->add_child(std::move(instance));
 	}
 	add_lights(*scene->root, p_description);

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/ordered_list_inc.glsl"
 #include "shadow_edge_count/caster_edge_inc.glsl"
 
 // Writes the marked edges of one caster into the list of all, behind those of the casters before, in
@@ -15,32 +16,24 @@ layout(std430, set = 0, binding = FIND_BINDING_LIST) writeonly buffer List {
 	CountEdgeRecord records[];
 };
 
-shared uint edges_before_block;
+uint load_list_word(uint p_index) {
+	return words[p_index];
+}
+
+uint load_list_block(uint p_index) {
+	return block_counts[p_index];
+}
 
 void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + uint(EDGE_COUNT_EDGES_PER_WORD) - 1u) /
 			uint(EDGE_COUNT_EDGES_PER_WORD);
-	const uint block = push.first_block + gl_WorkGroupID.x;
-	if (gl_LocalInvocationID.x == 0u) {
-		edges_before_block = 0u;
-	}
-	barrier();
-	// A work group is a block: together it adds up the blocks before, other casters' too.
-	uint count = 0u;
-	for (uint i = gl_LocalInvocationID.x; i < block; i += uint(EDGE_COUNT_WORDS_PER_BLOCK)) {
-		count += block_counts[i];
-	}
-	if (count != 0u) {
-		atomicAdd(edges_before_block, count);
-	}
-	barrier();
+	const uint first_word = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK);
+	// All blocks before, other casters' too: one list for all.
+	uint place = find_list_place(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u,
+			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
-	}
-	uint place = edges_before_block;
-	for (uint i = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK); i < word_index; ++i) {
-		place += uint(bitCount(words[push.first_word + i]));
 	}
 	for (uint bits = words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
 		CountEdgeRecord record;

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/ordered_list_inc.glsl"
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 
 // Writes one caster's silhouette edges into a list, in their own order, so that the picture never
@@ -21,31 +22,22 @@ layout(push_constant) uniform Push {
 	EdgesPush push;
 };
 
-shared uint edges_before_block;
+uint load_list_word(uint p_index) {
+	return edge_words[p_index];
+}
+
+uint load_list_block(uint p_index) {
+	return block_counts[p_index];
+}
 
 void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + FINS_EDGES_PER_WORD - 1u) / FINS_EDGES_PER_WORD;
-	// A work group is a block: together it adds up the blocks before.
-	const uint block = gl_WorkGroupID.x;
-	if (gl_LocalInvocationID.x == 0u) {
-		edges_before_block = 0u;
-	}
-	barrier();
-	uint count = 0u;
-	for (uint i = gl_LocalInvocationID.x; i < block; i += FINS_WORDS_PER_BLOCK) {
-		count += block_counts[push.first_block + i];
-	}
-	if (count != 0u) {
-		atomicAdd(edges_before_block, count);
-	}
-	barrier();
+	const uint first_word = gl_WorkGroupID.x * FINS_WORDS_PER_BLOCK;
+	uint place = find_list_place(FINS_WORDS_PER_BLOCK, push.first_block,
+			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
-	}
-	uint place = edges_before_block;
-	for (uint i = block * FINS_WORDS_PER_BLOCK; i < word_index; ++i) {
-		place += uint(bitCount(edge_words[push.first_word + i]));
 	}
 	for (uint bits = edge_words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
 		const uint bit = uint(findLSB(bits));

@@ -103,11 +103,11 @@ class Reports(ReportCase):
         path = self.path("report/index.html")
         with open(path, encoding="utf-8") as file:
             page = file.read()
-        broken = page.replace("</body>", '<img src="http://localhost:9/x.png"><script>throw new Error("canary")</script></body>')
+        broken = page.replace("</body>", '<img src="missing.png"><script>throw new Error("canary")</script></body>')
         self.assertNotEqual(broken, page)
         problems = "\n".join(check_page(self.write("broken.html", broken)))
         self.assertIn("canary", problems)
-        self.assertIn("localhost:9", problems)
+        self.assertIn("missing.png", problems)
         other = page.replace('"format":"gnomon_report"', '"format":"other"')
         self.assertNotEqual(other, page)
         self.assertIn("data-ready is 'failed'", "\n".join(check_page(self.write("other.html", other))))

@@ -4,6 +4,7 @@
 #include "modules/renderer/renderer.h"
 #include "modules/renderer/shadow_registry.h"
 #include "modules/rendering_device/rendering_device.h"
+#include "modules/scene/box_mesh.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
 
@@ -18,33 +19,6 @@
 // technique.
 
 namespace gnomon {
-
-/// A closed box, outward faces counter-clockwise, normals per face.
-inline std::shared_ptr<const Mesh> make_box_mesh(
-		const std::string &p_name, const glm::vec3 &p_half_size) {
-	std::vector<glm::vec3> positions;
-	std::vector<glm::vec3> normals;
-	std::vector<uint32_t> indices;
-	for (int axis = 0; axis < 3; ++axis) {
-		for (float side : { -1.0f, 1.0f }) {
-			glm::vec3 normal(0.0f);
-			normal[axis] = side;
-			glm::vec3 u(0.0f);
-			u[(axis + 1) % 3] = 1.0f;
-			const glm::vec3 v = glm::cross(normal, u);
-			const uint32_t first = static_cast<uint32_t>(positions.size());
-			for (const glm::vec2 corner :
-					{ glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1) }) {
-				positions.push_back((normal + u * corner.x + v * corner.y) * p_half_size);
-				normals.push_back(normal);
-			}
-			for (uint32_t offset : { 0u, 1u, 2u, 0u, 2u, 3u }) {
-				indices.push_back(first + offset);
-			}
-		}
-	}
-	return make_mesh(p_name, positions, normals, indices);
-}
 
 inline MeshInstance3D &add_mesh(Scene &r_scene, const std::string &p_name,
 		const std::shared_ptr<const Mesh> &p_mesh, const glm::dvec3 &p_position) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/scene/mesh.h"
+#include "modules/scene/box_mesh.h"
 #include "modules/shadow_edge_count/count_visibility.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,29 +10,6 @@
 #include <vector>
 
 namespace gnomon {
-
-inline std::shared_ptr<const Mesh> make_count_box(const glm::dvec3 &p_half) {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-	for (int axis = 0; axis < 3; ++axis) {
-		for (int sign = -1; sign <= 1; sign += 2) {
-			const int u = (axis + (sign > 0 ? 1 : 2)) % 3;
-			const int v = (axis + (sign > 0 ? 2 : 1)) % 3;
-			const uint32_t first = static_cast<uint32_t>(positions.size());
-			for (int corner = 0; corner < 4; ++corner) {
-				glm::dvec3 position(0.0);
-				position[axis] = sign;
-				position[u] = corner == 1 || corner == 2 ? 1.0 : -1.0;
-				position[v] = corner >= 2 ? 1.0 : -1.0;
-				positions.push_back(glm::vec3(position * p_half));
-			}
-			for (const uint32_t corner : { 0u, 1u, 2u, 0u, 2u, 3u }) {
-				indices.push_back(first + corner);
-			}
-		}
-	}
-	return make_mesh("box", std::move(positions), {}, std::move(indices));
-}
 
 /// A globe of p_rings x 2 p_rings patches.
 inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p_rings) {

@@ -99,7 +99,7 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where one solid hid
 			scene.is_directional = is_directional;
 			scene.half_extent = is_directional ? 6.0 : 0.95;
 			scene.map_size = 128;
-			scene.add(make_count_box({ 4.2, 0.2, 4.2 }),
+			scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2)),
 					glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.2, 0.0)));
 			scene.add(make_count_sphere(0.8, 8),
 					glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.3, 0.0)));
@@ -115,12 +115,12 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overla
 	KernelFixture fixture;
 	CountScene scene;
 	scene.map_size = 128;
-	scene.add(make_count_box({ 4.2, 0.2, 4.2 }),
+	scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2)),
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.2, 0.0)));
 	for (int index = 0; index < 6; ++index) {
 		const glm::dvec3 place(
 				0.4 * std::cos(2.1 * index), 0.4 + 0.35 * index, 0.4 * std::sin(2.1 * index));
-		scene.add(make_count_box({ 0.4, 0.04, 0.35 }),
+		scene.add(make_box_mesh("box", glm::vec3(0.4, 0.04, 0.35)),
 				glm::rotate(glm::translate(glm::dmat4(1.0), place), 0.7 * index,
 						glm::dvec3(0.2, 1.0, 0.1)));
 	}

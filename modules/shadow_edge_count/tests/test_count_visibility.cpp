@@ -13,12 +13,12 @@ namespace {
 const glm::dvec3 UP(0.0, 1.0, 0.0);
 
 void add_ground(CountScene &r_scene, double p_scale = 1) {
-	r_scene.add(make_count_box(glm::dvec3(4.2, 0.2, 4.2) * p_scale),
+	r_scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2) * float(p_scale)),
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.2, 0.0) * p_scale));
 }
 
 void add_tilted_box(CountScene &r_scene, double p_scale = 1) {
-	r_scene.add(make_count_box(glm::dvec3(0.5, 0.3, 0.4) * p_scale),
+	r_scene.add(make_box_mesh("box", glm::vec3(0.5, 0.3, 0.4) * float(p_scale)),
 			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 1.2, 0.1) * p_scale), 0.4,
 					glm::dvec3(0.3, 1.0, 0.1)));
 }
@@ -114,7 +114,7 @@ TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do f
 		for (int index = 0; index < 4; ++index) {
 			const glm::dvec3 place(
 					0.3 * std::cos(2.1 * index), 0.5 + 0.55 * index, 0.3 * std::sin(2.1 * index));
-			scene.add(make_count_box(glm::dvec3(0.35, 0.04, 0.3)),
+			scene.add(make_box_mesh("box", glm::vec3(0.35, 0.04, 0.3)),
 					glm::rotate(glm::translate(glm::dmat4(1.0), place), 0.7 * index,
 							glm::dvec3(0.2, 1.0, 0.1)));
 		}
@@ -133,7 +133,7 @@ TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
 	const glm::dmat4 place =
 			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.97, 0.1)), 0.4, UP);
 	const glm::dvec3 half(0.35, 1.02, 0.35);
-	scene.add(make_count_box(half), place);
+	scene.add(make_box_mesh("box", glm::vec3(half)), place);
 	scene.build();
 	const Difference difference = compare(scene, 1.4, [&](const glm::dvec3 &p_position) {
 		const glm::dvec3 own = glm::dvec3(glm::inverse(place) * glm::dvec4(p_position, 1.0));
@@ -208,7 +208,7 @@ TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid 
 	add_ground(scene);
 	scene.build();
 	CHECK(scene.count({ 0.3, 0.0, 0.2 }, UP) == 1.0);
-	scene.add(make_count_box(glm::dvec3(2.0, 0.3, 2.0)),
+	scene.add(make_box_mesh("box", glm::vec3(2.0, 0.3, 2.0)),
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 1.5, 0.0)));
 	scene.build();
 	CHECK(scene.count({ -0.4, 0.0, -0.3 }, UP) == 0.0);

@@ -142,7 +142,7 @@ TEST_CASE(
 			std::vector<Caster> casters(4);
 			casters[0].topology = get_topology(make_count_sphere(0.8, 24)); // several blocks
 			casters[0].view_from_node = place(0.4, 1.0);
-			casters[1].topology = get_topology(make_count_box({ 0.4, 0.3, 0.2 }));
+			casters[1].topology = get_topology(make_box_mesh("box", glm::vec3(0.4, 0.3, 0.2)));
 			casters[1].view_from_node = place(1.3, -1.0); // mirrored
 			casters[2].topology = get_topology(sheet);
 			casters[2].view_from_node = place(2.1, 1.0);

@@ -1,0 +1,37 @@
+// Lists of marked items in their own order, whatever the scheduling: a bit per item, 32 to a word; a
+// work group's words are a block, and blocks know how many bits they hold.
+#ifndef ORDERED_LIST_INC_GLSL
+#define ORDERED_LIST_INC_GLSL
+
+/// The words and the blocks' counts; each entry point has them in buffers of its own.
+uint load_list_word(uint p_index);
+uint load_list_block(uint p_index);
+
+shared uint list_count_before;
+
+/// How many items are marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
+/// p_word - 1, those of the work group's own block. Called by a whole work group, of p_group_size
+/// invocations (gl_WorkGroupSize is 1 in what stands before the entry point's layout).
+uint find_list_place(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,
+		uint p_word) {
+	if (gl_LocalInvocationID.x == 0u) {
+		list_count_before = 0u;
+	}
+	barrier();
+	// Together the invocations add up the blocks before.
+	uint count = 0u;
+	for (uint i = p_first_block + gl_LocalInvocationID.x; i < p_block; i += p_group_size) {
+		count += load_list_block(i);
+	}
+	if (count != 0u) {
+		atomicAdd(list_count_before, count);
+	}
+	barrier();
+	uint place = list_count_before;
+	for (uint i = p_first_word; i < p_word; ++i) {
+		place += uint(bitCount(load_list_word(i)));
+	}
+	return place;
+}
+
+#endif
