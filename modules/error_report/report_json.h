@@ -10,6 +10,9 @@ namespace gnomon {
 
 // The forms of doc/report_format.md.
 
+inline constexpr const char *REPORT_FORMAT = "gnomon_report";
+inline constexpr int REPORT_VERSION = 1;
+
 /// The whole report with what is computed from its cells: fronts, ratios, ranking, curves.
 nlohmann::ordered_json to_json(const Report &p_report);
 /// Reads report.json or plan.json; what is computed from the cells is not read. A file that is

@@ -1,0 +1,45 @@
+"""What the tests of `gnomon report` share."""
+
+import json
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from command_line_case import ROOT, CommandLineTest, load_json, run  # noqa: E402
+
+PROJECT = os.path.join(ROOT, "demo_project")
+SMALL_TRUTH = ("--size", "64x64", "--samples", "64")
+QUICK = (*SMALL_TRUTH, "--scaling", "none")
+
+
+def load_report(folder):
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def drop_times(value):
+    """A copy without what two measurements never have in common."""
+    if isinstance(value, dict):
+        timed = ("time", "wall_ms", "time_ratio", "cost_ms", "pareto", "scaling")
+        return {name: drop_times(item) for name, item in value.items() if name not in timed}
+    return [drop_times(item) for item in value] if isinstance(value, list) else value
+
+
+class ReportCase(CommandLineTest):
+    def report(self, name, *arguments, project=PROJECT, **environment):
+        """The finished process; its report, where there is one, lies in the folder of that name."""
+        return run("report", project, "--out", self.path(name), *QUICK, *arguments, **environment)
+
+    def report_techniques(self):
+        """The fallback and another one: enough for a report with ratios and a front."""
+        listed = load_json("techniques", "--json")
+        others = [item["id"] for item in listed if not item["is_fallback"] and not item["is_reference"]]
+        return ",".join([self.get_fallback(), *others[:1]])
+
+    def small(self, name, *arguments):
+        techniques = ("--techniques", self.report_techniques())
+        return self.report(name, "--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *techniques, *arguments)
+
+    def load_done(self, name, result):
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return load_report(self.path(name))
