@@ -13,6 +13,9 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes"))
+from fin_widths import get_fin_settings  # noqa: E402
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROJECT = os.path.join(ROOT, "demo_project")
 QUICK_SCENE_COUNT = 3
@@ -191,7 +194,10 @@ class Measurement:
                 row["failure"] = self.fail(what, error)
         for technique in self.techniques:
             self.done_count += 1
-            row["techniques"].append(self.measure_technique(stem, scene_path, light, technique["id"], truth))
+            settings = get_fin_settings(technique["id"], scene_name, light)
+            row["techniques"].append(
+                self.measure_technique(stem, scene_path, light, technique["id"], settings, truth)
+            )
             result = row["techniques"][-1]
             if result["failure"]:
                 self.fail("%s, %s" % (what, technique["id"]), result["failure"])
@@ -203,12 +209,13 @@ class Measurement:
             os.remove(truth)
         return row
 
-    def measure_technique(self, stem, scene_path, light, technique, truth):
+    def measure_technique(self, stem, scene_path, light, technique, settings, truth):
         stem = "%s.%s" % (stem, technique)
         row = {"id": technique, "mask": None, "heat": None, "error": None, "time": None, "failure": None}
         times = os.path.join(self.work_folder, "time.json")
         try:
-            mask = self.compute_mask(stem, scene_path, light, technique, "--time", times)
+            words = [word for setting in settings for word in ("--set", setting)]
+            mask = self.compute_mask(stem, scene_path, light, technique, "--time", times, *words)
             row["mask"] = stem + ".png"
             with open(times, encoding="utf-8") as file:
                 row["time"] = json.load(file)["total"]

@@ -75,7 +75,7 @@ def main():
         raise SystemExit("ERROR: bunny: cannot read %s: %s" % (path, error))
     if len(triangles) != TRIANGLE_COUNT:
         print("WARNING: bunny: %s has %d triangles, not %d." % (path, len(triangles), TRIANGLE_COUNT), file=sys.stderr)
-    document = make_document((0.1, 0.17))
+    document = make_document()
     add_ground(document)
     material = document.add_material("Bunny", CORAL, roughness=0.5)
     document.add_object("Bunny", make_bunny(points, triangles), material)

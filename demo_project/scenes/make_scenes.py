@@ -58,17 +58,12 @@ def add_ground(document):
     document.add_object("Ground", make_ground(), material, extras={"shadow_planar_receiver": True})
 
 
-def make_light_extras(size_name, size, widths_m):
-    """Size and widths (r, t) of a light's shadow; widths near the best that tests/benchmark/search_fins.py found."""
-    return {
-        size_name: size,
-        "penumbra_outer_width": widths_m[0],
-        "penumbra_inner_width": widths_m[1],
-        "shadow_enabled": True,
-    }
+def make_light_extras(size_name, size):
+    """Size of a light's shadow; the widths of its penumbra follow from it."""
+    return {size_name: size, "shadow_enabled": True}
 
 
-def add_spot_light(document, widths_m, eye=LIGHT_EYE, target=LIGHT_TARGET, tangent=LIGHT_TANGENT):
+def add_spot_light(document, eye=LIGHT_EYE, target=LIGHT_TARGET, tangent=LIGHT_TANGENT):
     light = {
         "type": "spot",
         "color": WARM_WHITE,
@@ -78,19 +73,19 @@ def add_spot_light(document, widths_m, eye=LIGHT_EYE, target=LIGHT_TARGET, tange
             "outerConeAngle": round(math.atan(tangent), 9),
         },
     }
-    document.add_light("Light", light, eye, target, make_light_extras("light_size", LIGHT_SIZE_M, widths_m))
+    document.add_light("Light", light, eye, target, make_light_extras("light_size", LIGHT_SIZE_M))
 
 
-def make_document(widths_m, camera_target=CAMERA_TARGET, vertical_fov_deg=CAMERA_FOV_DEG, **light):
+def make_document(camera_target=CAMERA_TARGET, vertical_fov_deg=CAMERA_FOV_DEG, **light):
     """What all study scenes have: camera, spot light."""
     document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", CAMERA_EYE, camera_target, math.radians(vertical_fov_deg))
-    add_spot_light(document, widths_m, **light)
+    add_spot_light(document, **light)
     return document
 
 
 def make_sphere_scene():
-    document = make_document((0.08, 0.17))
+    document = make_document()
     add_ground(document)
     material = document.add_material("Coral", CORAL, roughness=0.45)
     document.add_object("Sphere", make_icosphere(4, 0.8), material, (0.0, 1.3, 0.0))
@@ -98,7 +93,7 @@ def make_sphere_scene():
 
 
 def make_contact_box_scene():
-    document = make_document((0.14, 0.28), camera_target=(-0.35, 0.55, -0.25))
+    document = make_document(camera_target=(-0.35, 0.55, -0.25))
     add_ground(document)
     material = document.add_material("Teal", TEAL, roughness=0.6)
     turn = quaternion_about((0.0, 1.0, 0.0), 0.4)
@@ -107,7 +102,7 @@ def make_contact_box_scene():
 
 
 def make_torus_knot_scene():
-    document = make_document((0.08, 0.17))
+    document = make_document()
     add_ground(document)
     material = document.add_material("Amber", AMBER, roughness=0.4)
     document.add_object("Knot", make_torus_knot(0.36, 0.16, 500, 30), material, (0.0, 1.4, 0.0))
@@ -115,7 +110,7 @@ def make_torus_knot_scene():
 
 
 def make_stacked_layers_scene():
-    document = make_document((0.14, 0.56))
+    document = make_document()
     add_ground(document)
     teal = document.add_material("Teal", TEAL, roughness=0.6)
     coral = document.add_material("Coral", CORAL, roughness=0.6)
@@ -129,7 +124,7 @@ def make_stacked_layers_scene():
 
 
 def make_clutter_scene():
-    document = make_document((0.1, 0.48))
+    document = make_document()
     add_ground(document)
     leaves = document.add_material("Leaves", MOSS, roughness=0.7)
     bark = document.add_material("Bark", BARK, roughness=0.9)
@@ -140,16 +135,14 @@ def make_clutter_scene():
 
 
 def make_terrain_scene():
-    document = make_document(
-        (0.06, 0.1), vertical_fov_deg=48.9, eye=(4.4, 3.9, 2.6), target=(0.0, 0.1, 0.0), tangent=0.85
-    )
+    document = make_document(vertical_fov_deg=48.9, eye=(4.4, 3.9, 2.6), target=(0.0, 0.1, 0.0), tangent=0.85)
     material = document.add_material("Sand", SAND, roughness=0.95)
     document.add_object("Terrain", make_terrain(150, 3.6, -0.8, seed=150), material)
     return document
 
 
 def make_open_sheets_scene():
-    document = make_document((0.1, 0.2))
+    document = make_document()
     add_ground(document)
     plum = document.add_material("Cloth", PLUM, roughness=0.8, is_double_sided=True)
     sky = document.add_material("Leaning sheet", SKY, roughness=0.7, is_double_sided=True)
@@ -172,11 +165,11 @@ def make_three_lights_scene():
         "intensity": 170.0,
         "spot": {"innerConeAngle": round(math.atan(0.55), 9), "outerConeAngle": round(math.atan(0.7), 9)},
     }
-    document.add_light("Spot", spot, (2.6, 5.2, 1.8), (0.0, 0.5, 0.0), make_light_extras("light_size", 0.35, (0.08, 0.13)))
+    document.add_light("Spot", spot, (2.6, 5.2, 1.8), (0.0, 0.5, 0.0), make_light_extras("light_size", 0.35))
     omni = {"type": "point", "color": [0.45, 0.70, 1.0], "intensity": 16.0}
-    document.add_light("Omni", omni, (-2.3, 2.3, -1.5), None, make_light_extras("light_size", 0.2, (0.06, 0.14)))
+    document.add_light("Omni", omni, (-2.3, 2.3, -1.5), None, make_light_extras("light_size", 0.2))
     sun = {"type": "directional", "color": [1.0, 0.93, 0.85], "intensity": 1.3}
-    sun_extras = make_light_extras("light_angular_distance", 6.0, (0.06, 0.13))
+    sun_extras = make_light_extras("light_angular_distance", 6.0)
     document.add_light("Sun", sun, (-3.0, 6.0, 4.0), (0.0, 0.0, 0.0), sun_extras)
     add_ground(document)
     amber = document.add_material("Amber", AMBER, roughness=0.35)

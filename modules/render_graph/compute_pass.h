@@ -42,6 +42,12 @@ struct PassBinding {
 	}
 };
 
+/// The reads and writes of a pass's bindings.
+void declare_bindings(PassBuilder &r_pass, std::span<const PassBinding> p_bindings);
+/// Binds pipeline, resources and push constants (empty: the shader has none), for a dispatch.
+void bind_compute(PassContext &r_context, PipelineRID p_pipeline,
+		std::span<const PassBinding> p_bindings, std::span<const uint8_t> p_push);
+
 /// A pass that runs one compute shader over the items: enough groups of its local size to cover
 /// them. The bindings declare the reads and writes and bind the resources in one. p_push: the
 /// shader's push constants, copied; empty when it has none.

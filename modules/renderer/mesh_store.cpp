@@ -41,6 +41,7 @@ void MeshStore::collect_garbage() {
 	const auto is_gone = [](const auto &p_entry) { return p_entry.second.mesh.expired(); };
 	std::erase_if(meshes, is_gone);
 	std::erase_if(topologies, is_gone);
+	std::erase_if(derived, is_gone);
 }
 
 std::vector<VertexAttribute> get_position_attributes() {

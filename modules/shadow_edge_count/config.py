@@ -1,5 +1,5 @@
 def get_dependencies():
-    return ["core", "scene", "mesh_tools", "rendering_device"]
+    return ["core", "scene", "mesh_tools", "rendering_device", "render_graph", "renderer"]
 
 
 def get_layer():
@@ -8,3 +8,11 @@ def get_layer():
 
 def get_description():
     return "Soft shadows counted from silhouette edges per receiver"
+
+
+def get_source():
+    return "Own; after Sun, Lü, Liu, Wu 2010"
+
+
+def get_doc():
+    return "doc/techniques/edge_count.md"

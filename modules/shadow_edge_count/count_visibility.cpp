@@ -85,9 +85,16 @@ private:
 				space, layers.get_fragments(p_texel), compute_plane_w(layers.get_center(p_texel)));
 	}
 
-	/// The texel whose solids are counted: the nearest one, unless it says little.
+	/// The texel whose solids are counted: the nearest one, unless it says little. Beside the map,
+	/// which holds all casters, nothing lies between the receiver and the light's centre.
 	void choose_reference() {
 		const glm::dvec2 place = layers.to_texels(p);
+		const glm::dvec2 size_px(layers.get_size_px());
+		if (glm::any(glm::lessThan(place, glm::dvec2(0.0))) ||
+				glm::any(glm::greaterThan(place, size_px))) {
+			reference_w = wp;
+			return;
+		}
 		const glm::ivec2 last = glm::ivec2(layers.get_size_px()) - 1;
 		const glm::ivec2 nearest = glm::clamp(glm::ivec2(glm::floor(place)), glm::ivec2(0), last);
 		glm::ivec2 chosen = nearest;
@@ -207,16 +214,11 @@ private:
 		sum += p_weight * sign * 0.5 *
 				(radius * radius * (std::atan2(to, distance) - std::atan2(from, distance)) -
 						distance * (to - from));
-		const auto turn = [](const glm::dvec2 &p_v) { return glm::dvec2(-p_v.y, p_v.x); };
-		const glm::dvec2 beyond = p_side > 0 ? -turn(u) : turn(u);
-		const glm::dvec2 first = p_side > 0 ? turn(p_a) : -turn(p_a);
-		const glm::dvec2 second = p_side > 0 ? -turn(p_b) : turn(p_b);
+		const glm::dvec2 beyond = p_side > 0 ? glm::dvec2(u.y, -u.x) : glm::dvec2(-u.y, u.x);
 		for (size_t index = 0; index < masks.size(); ++index) {
 			const DiscMasks &table = masks[index];
-			// Not the mask beyond the second end but what is not before it: neighbours that share
-			// an end then leave no crack.
 			const uint64_t mask = table.get_mask(beyond, distance / radius) &
-					table.get_mask(first, 0) & ~table.get_mask(-second, 0);
+					(p_side > 0 ? table.get_wedge(p_a, p_b) : table.get_wedge(p_b, p_a));
 			for (uint32_t sample = 0; sample < DiscMasks::SAMPLE_COUNT; ++sample) {
 				counts[index][sample] += (mask >> sample & 1) != 0 ? sign * p_weight : 0;
 			}
@@ -229,20 +231,26 @@ private:
 				SMALLEST_RADIUS_SIZES * (space.is_directional ? 1.0 : space.scene_size_m);
 		const double radius = std::max(space.disc_radius, least_radius);
 		const double mean = solids + sum / (std::numbers::pi * radius * radius);
-		double over = 0;
-		double under = 0;
-		double blocked = 0;
-		const double share = 1.0 / double(DiscMasks::SAMPLE_COUNT * masks.size());
+		int over_sum = 0;
+		int under_sum = 0;
+		int blocked_count = 0;
 		for (const auto &samples : counts) {
 			for (const int delta : samples) {
 				const int count = solids + delta;
-				blocked += count >= 1 ? share : 0.0;
-				over += share * std::max(count - 1, 0);
-				under += share * std::max(-count, 0);
+				blocked_count += count >= 1 ? 1 : 0;
+				over_sum += std::max(count - 1, 0);
+				under_sum += std::max(-count, 0);
 			}
 		}
+		const int sample_count = static_cast<int>(DiscMasks::SAMPLE_COUNT * masks.size());
+		const double over = double(over_sum) / sample_count;
+		const double under = double(under_sum) / sample_count;
+		const double blocked = double(blocked_count) / sample_count;
 		if (over + under == 0) {
 			return 1.0 - std::clamp(mean, 0.0, 1.0); // one layer at most: exact
+		}
+		if (blocked_count == sample_count) {
+			return 0.0; // what the area of overlaps, known by points alone, would leave is noise
 		}
 		const double exact = 1.0 - std::clamp(mean - over + under, 0.0, 1.0);
 		return glm::mix(1.0 - blocked, exact, std::clamp(1.0 - over - under, 0.0, 1.0));

@@ -2,12 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace gnomon {
 
 namespace {
 
-const double GOLDEN_ANGLE_RAD = 2.399963229728653;
+const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
+
+/// In sectors.
+double compute_turn(uint32_t p_turn) {
+	return p_turn * (DiscMasks::SAMPLE_COUNT / 4 + 0.25);
+}
+
+/// 6 bits the other way round.
+uint32_t reverse_bits(uint32_t p_value) {
+	uint32_t reversed = 0;
+	for (uint32_t bit = 1; bit < DiscMasks::SAMPLE_COUNT; bit *= 2) {
+		reversed = 2 * reversed + ((p_value & bit) != 0 ? 1 : 0);
+	}
+	return reversed;
+}
 
 /// The middle of a bin of diamond angles, see find_direction; not unit.
 glm::dvec2 compute_bin_center(uint32_t p_bin) {
@@ -19,10 +34,24 @@ glm::dvec2 compute_bin_center(uint32_t p_bin) {
 
 } // namespace
 
-glm::dvec2 DiscMasks::compute_sample(uint32_t p_index, double p_turn_rad) {
-	const double radius = std::sqrt((p_index + 0.5) / SAMPLE_COUNT);
-	const double angle = GOLDEN_ANGLE_RAD * p_index + p_turn_rad;
+glm::dvec2 DiscMasks::compute_sample(uint32_t p_index, uint32_t p_turn) {
+	const double radius = std::sqrt((reverse_bits(p_index) + 0.5) / SAMPLE_COUNT);
+	const double angle = SECTOR_RAD * (p_index + 0.5 + compute_turn(p_turn));
 	return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+uint32_t DiscMasks::find_sector(const glm::dvec2 &p_direction, uint32_t p_turn) {
+	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
+	const double place = angle + 0.5 + 3.0 * SAMPLE_COUNT - compute_turn(p_turn);
+	return static_cast<uint32_t>(place) % SAMPLE_COUNT;
+}
+
+uint64_t DiscMasks::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const {
+	const auto before = [](uint32_t p_place) { return (uint64_t(1) << p_place) - 1; };
+	const uint32_t from = find_sector(p_from, turn);
+	const uint32_t to = find_sector(p_to, turn);
+	const uint64_t between = before(from) ^ before(to);
+	return from > to ? ~between : between;
 }
 
 uint32_t DiscMasks::find_direction(const glm::dvec2 &p_direction) {
@@ -37,14 +66,15 @@ uint32_t DiscMasks::find_offset(double p_offset) {
 	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
 }
 
-DiscMasks::DiscMasks(double p_turn_rad) : table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
+DiscMasks::DiscMasks(uint32_t p_turn) :
+		turn(p_turn), table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
 	for (uint32_t direction = 0; direction < DIRECTION_COUNT; ++direction) {
 		const glm::dvec2 unit = glm::normalize(compute_bin_center(direction));
 		for (uint32_t row = 0; row < OFFSET_COUNT; ++row) {
 			const double offset = row == 0 ? 0.0 : (row + 0.5) / OFFSET_COUNT;
 			uint64_t &mask = table[size_t(direction) * OFFSET_COUNT + row];
 			for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
-				if (glm::dot(compute_sample(index, p_turn_rad), unit) > offset) {
+				if (glm::dot(compute_sample(index, p_turn), unit) > offset) {
 					mask |= uint64_t(1) << index;
 				}
 			}

@@ -59,9 +59,9 @@ bool make_count_record(CountViewConstants p_view, vec3 p_a, vec3 p_b, vec4 p_pla
 	const vec3 warped_a = count_warp(p_view, a);
 	const vec3 warped_b = count_warp(p_view, b);
 	r_record.a_bx = vec4(warped_a, warped_b.x);
-	r_record.by_bw_d0_d1 = vec4(warped_b.yz, p_plane0.w, p_plane1.w);
-	r_record.normal0_weight = vec4(p_plane0.xyz, float(weight));
-	r_record.normal1_kind = vec4(p_plane1.xyz, float(p_kind));
+	r_record.by_bw_weight_kind = vec4(warped_b.yz, float(weight), float(p_kind));
+	r_record.plane0 = p_plane0;
+	r_record.plane1 = p_plane1;
 	return !is_one_sided && !(is_a_before && is_b_before);
 }
 

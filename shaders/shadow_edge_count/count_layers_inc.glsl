@@ -11,8 +11,10 @@ const float COUNT_DOUBLE_SIDED_TOLERANCE = 3e-3;
 const float COUNT_STEEP_SLOPE = 3e-3;
 const float COUNT_BAD_TEXEL = 1e6; // square texels: farther than any good one
 
-/// First fragment of a texel, and how many there are; the highest bit of the count: buried.
-uvec2 load_count_texel(uvec2 p_texel);
+/// First fragment of a texel, and how many there are, with LAYERS_BURIED and
+/// LAYERS_ONLY_AWAY. Texels of all views stand one
+/// after the other, by view, row and column.
+uvec2 load_count_texel(uint p_index);
 /// w of a fragment, and its kind: 0 turned towards the light, 1 away, 2 of a double-sided mesh.
 vec2 load_count_fragment(uint p_index);
 
@@ -35,29 +37,37 @@ vec2 count_texel_center(CountViewConstants p_view, ivec2 p_texel) {
 }
 
 CountTexel count_texel(CountViewConstants p_view, CountReceiver p_receiver, ivec2 p_texel) {
-	const uint BURIED = 0x80000000u;
 	CountTexel texel;
 	texel.offset = count_texel_center(p_view, p_texel) - p_receiver.warped.xy;
 	texel.rise = max(count_rise(p_receiver, texel.offset), 0.0);
 	const float w = p_receiver.warped.z + texel.rise;
 	const float scale = count_depth_scale(p_view, w);
-	const uvec2 range = load_count_texel(uvec2(p_texel));
+	const uvec2 range = load_count_texel(
+			(p_view.index * p_view.map_size_px.y + uint(p_texel.y)) * p_view.map_size_px.x +
+			uint(p_texel.x));
 	texel.away_count = 0;
 	int toward_count = 0;
-	const uint count = range.y & ~BURIED;
-	for (uint i = 0u; i < count; ++i) {
-		const vec2 fragment = load_count_fragment(range.x + i);
+	const uint count = range.y & ~(LAYERS_BURIED | LAYERS_ONLY_AWAY);
+	uint i = 0u;
+	do { // asks at its end: see count_resolve_inc.glsl
+		const bool is_there = i < count;
+		const vec2 fragment = is_there ? load_count_fragment(range.x + i) : vec2(0.0);
 		const float height = (fragment.x - w) / scale;
 		const float toward_tolerance =
 				fragment.y == 2.0 ? COUNT_DOUBLE_SIDED_TOLERANCE : COUNT_TOWARD_TOLERANCE;
-		texel.away_count += fragment.y >= 1.0 && height > COUNT_AWAY_TOLERANCE ? 1 : 0;
-		toward_count += fragment.y != 1.0 && height > toward_tolerance ? 1 : 0;
-	}
-	texel.is_bad = (range.y & BURIED) != 0u || texel.away_count != toward_count;
+		texel.away_count +=
+				is_there && fragment.y >= 1.0 && height > COUNT_AWAY_TOLERANCE ? 1 : 0;
+		toward_count += is_there && fragment.y != 1.0 && height > toward_tolerance ? 1 : 0;
+		++i;
+	} while (i < count);
+	const bool is_inside =
+			(range.y & LAYERS_ONLY_AWAY) == 0u && texel.away_count != toward_count;
+	texel.is_bad = (range.y & LAYERS_BURIED) != 0u || is_inside;
 	return texel;
 }
 
-/// The nearest texel, unless it says little: then the best of the nine about it.
+/// The nearest texel, unless it says little: then the best of the nine about it. Beside the map, which
+/// holds all casters, nothing lies between the receiver and the light's centre.
 CountReference find_count_reference(CountViewConstants p_view, CountReceiver p_receiver) {
 	const vec2 place = (p_receiver.warped.xy / p_view.half_extent * 0.5 + 0.5) *
 			vec2(p_view.map_size_px);
@@ -65,26 +75,25 @@ CountReference find_count_reference(CountViewConstants p_view, CountReceiver p_r
 	const ivec2 nearest = clamp(ivec2(floor(place)), ivec2(0), last);
 	CountTexel chosen = count_texel(p_view, p_receiver, nearest);
 	const float steep = COUNT_STEEP_SLOPE * p_receiver.scale;
-	if (chosen.is_bad || chosen.rise > steep) {
-		float least = 1e30;
-		for (int i = 0; i < 9; ++i) {
-			const ivec2 texel = nearest + ivec2(i % 3, i / 3) - 1;
-			if (any(lessThan(texel, ivec2(0))) || any(greaterThan(texel, last))) {
-				continue;
-			}
-			const CountTexel here = count_texel(p_view, p_receiver, texel);
-			const vec2 away = vec2(texel) + 0.5 - place;
-			const float rise = here.rise / steep;
-			const float cost =
-					dot(away, away) + rise * rise + (here.is_bad ? COUNT_BAD_TEXEL : 0.0);
-			if (cost < least) {
-				least = cost;
-				chosen = here;
-			}
+	// A loop of no rounds and not a branch: software drivers run what a branch skips.
+	const int candidate_count = chosen.is_bad || chosen.rise > steep ? 9 : 0;
+	float least = 1e30;
+	for (int i = 0; i < candidate_count; ++i) {
+		const ivec2 texel = nearest + ivec2(i % 3, i / 3) - 1;
+		const ivec2 inside = clamp(texel, ivec2(0), last);
+		const CountTexel here = count_texel(p_view, p_receiver, inside);
+		const vec2 away = vec2(inside) + 0.5 - place;
+		const float rise = here.rise / steep;
+		const float cost = dot(away, away) + rise * rise + (here.is_bad ? COUNT_BAD_TEXEL : 0.0);
+		if (texel == inside && cost < least) {
+			least = cost;
+			chosen = here;
 		}
 	}
-	return CountReference(
-			chosen.offset, p_receiver.warped.z + chosen.rise, chosen.away_count);
+	const bool is_inside = all(lessThanEqual(abs(p_receiver.warped.xy), p_view.half_extent));
+	return CountReference(is_inside ? chosen.offset : vec2(0.0),
+			p_receiver.warped.z + (is_inside ? chosen.rise : 0.0),
+			is_inside ? chosen.away_count : 0);
 }
 
 #endif

@@ -4,7 +4,14 @@
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-/// The mask of the table at that place; each entry point has the table where it reads it best.
+const float COUNT_PI = 3.14159265358979;
+
+// The points may be turned several times; their results are averaged.
+#ifndef COUNT_TURN_COUNT
+#define COUNT_TURN_COUNT 1
+#endif
+
+/// The mask of the tables at that place; each entry point has the table where it reads it best.
 uvec2 load_count_mask(uint p_index);
 
 /// The bin of a direction by its diamond angle y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
@@ -15,45 +22,137 @@ uint count_direction(vec2 p_direction) {
 	return uint(angle * float(EDGE_COUNT_DIRECTION_COUNT / 4)) % uint(EDGE_COUNT_DIRECTION_COUNT);
 }
 
-/// Points of the unit disc beyond the line that is p_offset from the centre in that direction.
-uvec2 find_count_mask(vec2 p_direction, float p_offset) {
+/// Points of the unit disc beyond the line that is p_offset from the centre in that direction, of the
+/// points' turn p_turn.
+uvec2 find_count_mask(vec2 p_direction, float p_offset, uint p_turn) {
 	const uint row = uint(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
-	return load_count_mask(
-			count_direction(p_direction) * uint(EDGE_COUNT_OFFSET_COUNT) + row);
+	return load_count_mask((p_turn * uint(EDGE_COUNT_DIRECTION_COUNT) + count_direction(p_direction)) *
+					uint(EDGE_COUNT_OFFSET_COUNT) +
+			row);
 }
 
-/// Counters of all points, with a bias so that they may fall below 0: -16..47.
+/// Angle of a direction with y not below 0, 0..pi, to 2e-6; two divisions less than atan.
+float count_half_angle(vec2 p_direction) {
+	// Half a right angle and the arc tangent of u in -1..1: a Chebyshev series of six terms.
+	const float x = abs(p_direction.x);
+	const float u = (p_direction.y - x) / max(p_direction.y + x, 1e-37);
+	const float u2 = u * u;
+	const float odd = ((((-0.0114658097 * u2 + 0.0519505321) * u2 - 0.115729441) * u2 + 0.193235292) *
+									u2 -
+							0.332568317) *
+					u2 +
+			0.999974491;
+	const float angle = 0.25 * COUNT_PI + u * odd;
+	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
+}
+
+/// The first point whose angle is not below the direction's: points stand in the order of their angles,
+/// in the middle of 64 equal sectors, each turn by a quarter of the circle and of a sector.
+int find_count_sector(vec2 p_direction, float p_turn) {
+	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
+	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
+	const float sectors = float(EDGE_COUNT_SAMPLE_COUNT);
+	const float place = angle * (sectors / (2.0 * COUNT_PI)) + 0.5 + 2.0 * sectors -
+			p_turn * (sectors / 4.0 + 0.25);
+	return int(place) & (EDGE_COUNT_SAMPLE_COUNT - 1);
+}
+
+/// The points before a place, 0..63.
+uvec2 count_points_before(int p_place) {
+	const uint part = (1u << (p_place & 31)) - 1u;
+	return p_place < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);
+}
+
+/// The points from one direction on to another, the way that angles grow. Neighbours that share a
+/// direction share no point and leave none.
+uvec2 find_count_wedge(vec2 p_from, vec2 p_to, uint p_turn) {
+	const int from = find_count_sector(p_from, float(p_turn));
+	const int to = find_count_sector(p_to, float(p_turn));
+	const uvec2 between = count_points_before(from) ^ count_points_before(to);
+	return from > to ? ~between : between;
+}
+
+/// Counters of all points, one bit of each in a plane, with a bias so that they may fall below 0:
+/// -16..47. No array: where one of its places is not known to the compiler, drivers keep it in memory.
 struct CountPlanes {
-	uvec2 planes[6];
+	uvec2 bit0;
+	uvec2 bit1;
+	uvec2 bit2;
+	uvec2 bit3;
+	uvec2 bit4;
+	uvec2 bit5;
 };
 const int COUNT_BIAS = 16;
 
 CountPlanes make_count_planes() {
-	CountPlanes counters;
-	for (int i = 0; i < 6; ++i) {
-		counters.planes[i] = uvec2((COUNT_BIAS >> i & 1) != 0 ? 0xffffffffu : 0u);
-	}
-	return counters;
+	return CountPlanes(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0xffffffffu), uvec2(0u));
 }
 
-/// Adds 1, or subtracts it, at the points of the mask.
-void count_step(inout CountPlanes r_counters, uvec2 p_mask, bool p_is_added) {
+/// Adds a carry to one plane; the carry that goes on.
+uvec2 carry_count(inout uvec2 r_plane, uvec2 p_carry, uvec2 p_flip) {
+	const uvec2 next = (r_plane ^ p_flip) & p_carry;
+	r_plane ^= p_carry;
+	return next;
+}
+
+/// Adds 1 or 2, or subtracts it, at the points of the mask.
+void count_step(inout CountPlanes r_counters, uvec2 p_mask, bool p_is_twice, bool p_is_added) {
 	// Borrowing is carrying over the inverse.
 	const uvec2 flip = uvec2(p_is_added ? 0u : 0xffffffffu);
-	uvec2 carry = p_mask;
-	for (int i = 0; i < 6; ++i) {
-		const uvec2 next = (r_counters.planes[i] ^ flip) & carry;
-		r_counters.planes[i] ^= carry;
-		carry = next;
-	}
+	uvec2 carry = carry_count(r_counters.bit0, p_is_twice ? uvec2(0u) : p_mask, flip);
+	carry = carry_count(r_counters.bit1, p_is_twice ? p_mask : carry, flip);
+	carry = carry_count(r_counters.bit2, carry, flip);
+	carry = carry_count(r_counters.bit3, carry, flip);
+	carry = carry_count(r_counters.bit4, carry, flip);
+	carry_count(r_counters.bit5, carry, flip);
 }
 
-int get_count(CountPlanes p_counters, uint p_sample) {
-	int count = -COUNT_BIAS;
-	for (int i = 0; i < 6; ++i) {
-		count += int(p_counters.planes[i][p_sample >> 5] >> (p_sample & 31u) & 1u) << i;
-	}
-	return count;
+/// What the counters say: numbers of points, and sums over them.
+struct CountTotals {
+	int blocked; // points whose count is above 0
+	int over;	 // sum of what counts are above 1
+	int under;	 // sum of what counts are below 0
+};
+
+int count_points(uvec2 p_mask) {
+	const ivec2 counts = bitCount(p_mask);
+	return counts.x + counts.y;
+}
+
+/// Adds a bit that is the same for all points, and a carry.
+void add_bit(inout uvec2 r_plane, int p_bit, inout uvec2 r_carry) {
+	const uvec2 added = uvec2(p_bit != 0 ? 0xffffffffu : 0u);
+	const uvec2 both = r_plane ^ added;
+	const uvec2 next = (r_plane & added) | (both & r_carry);
+	r_plane = both ^ r_carry;
+	r_carry = next;
+}
+
+/// Of p_solids, 0..15, plus each counter.
+CountTotals sum_counts(CountPlanes p_counters, int p_solids) {
+	uvec2 carry = uvec2(0u);
+	add_bit(p_counters.bit0, p_solids & 1, carry);
+	add_bit(p_counters.bit1, p_solids & 2, carry);
+	add_bit(p_counters.bit2, p_solids & 4, carry);
+	add_bit(p_counters.bit3, p_solids & 8, carry);
+	add_bit(p_counters.bit4, 0, carry);
+	add_bit(p_counters.bit5, 0, carry);
+	const uvec2 low = p_counters.bit0 | p_counters.bit1 | p_counters.bit2 | p_counters.bit3;
+	const uvec2 negative = ~(p_counters.bit4 | p_counters.bit5);
+	const uvec2 blocked = p_counters.bit5 | (p_counters.bit4 & low);
+	CountTotals totals;
+	totals.blocked = count_points(blocked);
+	totals.over = count_points(p_counters.bit0 & blocked) +
+			2 * count_points(p_counters.bit1 & blocked) +
+			4 * count_points(p_counters.bit2 & blocked) +
+			8 * count_points(p_counters.bit3 & blocked) +
+			16 * count_points(p_counters.bit4 & blocked) + 32 * count_points(p_counters.bit5) -
+			(COUNT_BIAS + 1) * totals.blocked;
+	totals.under = COUNT_BIAS * count_points(negative) - count_points(p_counters.bit0 & negative) -
+			2 * count_points(p_counters.bit1 & negative) -
+			4 * count_points(p_counters.bit2 & negative) -
+			8 * count_points(p_counters.bit3 & negative);
+	return totals;
 }
 
 #endif

@@ -11,6 +11,7 @@ struct CountReceiver {
 	vec3 warped; // x', y', w
 	vec2 slope;	 // of its plane: w per x' and y'
 	float scale; // of tolerances: w; directional: metres
+	float inverse_radius; // 1 / R; R = 0 has no penumbra, and no edge is asked for it
 	// Of the disc that faces it: see count_project.
 	vec2 side;
 	float turn;
@@ -41,6 +42,7 @@ CountReceiver make_count_receiver(CountViewConstants p_view, vec3 p_r, vec3 p_no
 	CountReceiver receiver;
 	receiver.r = p_r;
 	receiver.normal = p_normal;
+	receiver.inverse_radius = 1.0 / max(p_view.disc_radius, 1e-37);
 	receiver.warped = count_warp(p_view, p_r);
 	const bool is_directional = p_view.is_directional != 0u;
 	receiver.scale = count_depth_scale(p_view, receiver.warped.z);

@@ -8,7 +8,7 @@ layout(std430, set = 0, binding = FIND_BINDING_POSITIONS) readonly buffer Positi
 	vec4 positions_node[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_FACES) readonly buffer Faces {
-	uvec4 faces[];
+	uint faces[]; // three vertices each
 };
 layout(std430, set = 0, binding = FIND_BINDING_PLANES) writeonly buffer Planes {
 	vec4 planes_view[];
@@ -24,7 +24,7 @@ void main() {
 	}
 	vec3 corners[3];
 	for (int i = 0; i < 3; ++i) {
-		corners[i] = (push.view_from_node * vec4(positions_node[faces[face][i]].xyz, 1.0)).xyz;
+		corners[i] = (push.view_from_node * vec4(positions_node[faces[3u * face + uint(i)]].xyz, 1.0)).xyz;
 	}
 	const vec4 plane = make_count_plane(corners[0], corners[1], corners[2]);
 	planes_view[push.first_face + face] =

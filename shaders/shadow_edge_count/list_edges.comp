@@ -4,7 +4,8 @@
 #include "shadow_edge_count/caster_edge_inc.glsl"
 
 // Writes the marked edges of one caster into the list of all, behind those of the casters before, in
-// their own order, so that no sum depends on scheduling. One invocation per word.
+// their own order, so that no sum depends on scheduling. One invocation per word. The last caster's
+// pass tells how many there are.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = FIND_BINDING_WORDS) readonly buffer Words {
 	uint words[];
@@ -14,6 +15,9 @@ layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) readonly buffer Blocks {
 };
 layout(std430, set = 0, binding = FIND_BINDING_LIST) writeonly buffer List {
 	CountEdgeRecord records[];
+};
+layout(std430, set = 0, binding = FIND_BINDING_TOTALS) writeonly buffer Totals {
+	uint totals[];
 };
 
 uint load_list_word(uint p_index) {
@@ -35,11 +39,17 @@ void main() {
 	if (word_index >= word_count) {
 		return;
 	}
+	const uint first_record = view.index * push.record_capacity;
 	for (uint bits = words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
 		CountEdgeRecord record;
 		make_caster_record(
 				word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits)), record);
-		records[place] = record;
+		if (place < push.record_capacity) {
+			records[first_record + place] = record;
+		}
 		++place;
+	}
+	if ((push.kind & uint(EDGE_COUNT_LAST_CASTER)) != 0u && word_index + 1u == word_count) {
+		totals[uint(EDGE_COUNT_TOTAL_RECORDS) + view.index] = place; // also those without room
 	}
 }

@@ -57,7 +57,7 @@ def make_knot(triangle_count):
     quad_count = (triangle_count - len(make_box(GROUND_HALF).triangles)) / 2
     around_count = round(math.sqrt(quad_count / SEGMENTS_PER_SIDE))
     along_count = round(quad_count / around_count)
-    document = make_document(WIDTHS_M)
+    document = make_document()
     add_ground(document)
     material = document.add_material("Amber", AMBER, roughness=0.4)
     document.add_object("Knot", make_torus_knot(0.36, 0.16, along_count, around_count), material, (0.0, 1.4, 0.0))

@@ -33,8 +33,8 @@ void main() {
 	const bool is_kept = make_count_record(view, is_reversed ? b : a, is_reversed ? a : b,
 			is_reversed ? second : first, is_reversed ? first : second, kind, record);
 	results[5u * item] = record.a_bx;
-	results[5u * item + 1u] = record.by_bw_d0_d1;
-	results[5u * item + 2u] = record.normal0_weight;
-	results[5u * item + 3u] = record.normal1_kind;
+	results[5u * item + 1u] = record.by_bw_weight_kind;
+	results[5u * item + 2u] = record.plane0;
+	results[5u * item + 3u] = record.plane1;
 	results[5u * item + 4u] = vec4(is_kept ? 1.0 : 0.0);
 }

@@ -30,12 +30,16 @@ uvec2 load_count_mask(uint p_index) {
 	return masks[p_index];
 }
 
-uvec2 load_count_texel(uvec2 p_texel) {
-	return texels[p_texel.y * view.map_size_px.x + p_texel.x];
+uvec2 load_count_texel(uint p_index) {
+	return texels[p_index];
 }
 
 vec2 load_count_fragment(uint p_index) {
 	return fragments[p_index];
+}
+
+CountEdgePlanes load_count_planes(uint p_record) {
+	return CountEdgePlanes(edges[p_record].plane0, edges[p_record].plane1);
 }
 
 void main() {
@@ -47,8 +51,12 @@ void main() {
 			make_count_receiver(view, items[2u * item].xyz, items[2u * item + 1u].xyz);
 	CountState state = make_count_state(find_count_reference(view, receiver));
 	for (uint i = 0u; i < uint(edges.length()); ++i) {
-		count_add_edge(view, receiver, edges[i], state);
+		const CountEdgeRecord edge = edges[i];
+		const uint use = (view.disc_radius > 0.0 ? COUNT_USE_AREA : 0u) |
+				(edge.by_bw_weight_kind.z != 0.0 ? COUNT_USE_CENTER : 0u);
+		count_add_edge(view, receiver, make_count_segment(edge.a_bx, edge.by_bw_weight_kind), i, use,
+				state);
 	}
-	results[item] = vec4(count_resolve(view, state), float(state.reference.solid_count),
+	results[item] = vec4(count_resolve(state), float(state.reference.solid_count),
 			state.area, 0.0);
 }

@@ -12,9 +12,10 @@ inline shader::CountEdgeRecord make_record(const CountEdge &p_edge) {
 			(p_edge.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0);
 	shader::CountEdgeRecord record;
 	record.a_bx = glm::vec4(glm::vec3(p_edge.a), float(p_edge.b.x));
-	record.by_bw_d0_d1 = glm::vec4(p_edge.b.y, p_edge.b.z, p_edge.plane0.w, p_edge.plane1.w);
-	record.normal0_weight = glm::vec4(glm::vec3(p_edge.plane0), float(p_edge.center_weight));
-	record.normal1_kind = glm::vec4(glm::vec3(p_edge.plane1), float(kind));
+	record.by_bw_weight_kind =
+			glm::vec4(p_edge.b.y, p_edge.b.z, float(p_edge.center_weight), float(kind));
+	record.plane0 = glm::vec4(p_edge.plane0);
+	record.plane1 = glm::vec4(p_edge.plane1);
 	return record;
 }
 

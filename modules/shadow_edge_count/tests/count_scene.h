@@ -81,7 +81,7 @@ public:
 		layers->mark_buried(edges);
 		masks.clear();
 		for (uint32_t turn = 0; turn < mask_turns; ++turn) {
-			masks.emplace_back(turn * (M_PI / 2 + 0.1));
+			masks.emplace_back(turn);
 		}
 	}
 

@@ -188,13 +188,13 @@ TEST_CASE("[GPU][EdgeCount] edges are classified as in double") {
 			}
 			const CountEdge &edge = expected[index][0];
 			const shader::CountEdgeRecord record = make_record(edge);
-			CHECK(result[3].w == record.normal1_kind.w);
-			CHECK(result[2].w == record.normal0_weight.w);
+			CHECK(result[1].w == record.by_bw_weight_kind.w);
+			CHECK(result[1].z == record.by_bw_weight_kind.z);
 			// Near the light w is large: compared as shares.
 			const float scale = 1.0f + float(std::max(std::abs(edge.a.z), std::abs(edge.b.z)));
 			CHECK(glm::length(result[0] - record.a_bx) < 2e-3f * scale);
-			CHECK(glm::length(result[1] - record.by_bw_d0_d1) < 2e-3f * scale);
-			CHECK(glm::length(glm::vec3(result[2]) - glm::vec3(record.normal0_weight)) < 1e-4f);
+			CHECK(glm::length(result[1] - record.by_bw_weight_kind) < 2e-3f * scale);
+			CHECK(glm::length(glm::vec3(result[2]) - glm::vec3(record.plane0)) < 1e-4f);
 		}
 		CHECK(apart_count <= 2);
 	}

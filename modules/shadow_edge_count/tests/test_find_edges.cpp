@@ -30,18 +30,20 @@ std::vector<shader::CountEdgeRecord> find_edges(
 	for (Caster &caster : r_casters) {
 		caster.mesh = build_count_mesh(*caster.topology);
 		const bool is_mirrored = glm::determinant(glm::dmat3(caster.view_from_node)) < 0;
-		caster.push = { glm::mat4(caster.view_from_node), uint32_t(caster.mesh.faces.size()),
+		const bool is_last = &caster == &r_casters.back();
+		caster.push = { glm::mat4(caster.view_from_node), caster.topology->get_face_count(),
 			face_count, uint32_t(caster.mesh.edges.size()), word_count, block_count,
 			caster.mesh.inconsistent_from,
 			(caster.topology->is_double_sided() ? uint32_t(EDGE_COUNT_DOUBLE_SIDED) : 0u) |
-					(is_mirrored ? uint32_t(EDGE_COUNT_MIRRORED) : 0u),
-			0 };
+					(is_mirrored ? uint32_t(EDGE_COUNT_MIRRORED) : 0u) |
+					(is_last ? uint32_t(EDGE_COUNT_LAST_CASTER) : 0u),
+			1u << 20 };
 		std::vector<glm::vec4> positions;
 		for (const glm::vec3 &position : caster.topology->welded_positions_node) {
 			positions.emplace_back(position, 1.0f);
 		}
 		caster.positions = r_fixture.make_buffer("positions", positions);
-		caster.faces = r_fixture.make_buffer("faces", caster.mesh.faces);
+		caster.faces = r_fixture.make_buffer("faces", caster.topology->triangles);
 		caster.edges = r_fixture.make_buffer("edges", caster.mesh.edges);
 		face_count += caster.push.face_count;
 		edge_count += caster.push.edge_count;
@@ -60,6 +62,11 @@ std::vector<shader::CountEdgeRecord> find_edges(
 			r_fixture.device->create_buffer({ .name = "list",
 					.size_bytes = list_bytes,
 					.usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE }));
+	const OwnedBuffer totals =
+			r_fixture.make_buffer("totals", std::vector<uint32_t>(EDGE_COUNT_TOTAL_COUNT),
+					BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
+	const OwnedBuffer totals_readback =
+			r_fixture.make_readback(EDGE_COUNT_TOTAL_COUNT * sizeof(uint32_t));
 	const OwnedBuffer list_readback = r_fixture.make_readback(list_bytes);
 	const OwnedBuffer blocks_readback = r_fixture.make_readback(block_count * sizeof(uint32_t));
 
@@ -102,16 +109,21 @@ std::vector<shader::CountEdgeRecord> find_edges(
 				{ FIND_BINDING_POSITIONS, p_caster.positions.get() },
 				{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_EDGES, p_caster.edges.get() },
 				{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() },
-				{ FIND_BINDING_LIST, list.get() } });
+				{ FIND_BINDING_LIST, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
 	});
 	wait(list, Access::COPY_READ);
+	wait(totals, Access::COPY_READ);
+	wait(blocks, Access::COPY_READ);
 	commands.copy_buffer(list.get(), list_readback.get(), list_bytes);
+	commands.copy_buffer(
+			totals.get(), totals_readback.get(), EDGE_COUNT_TOTAL_COUNT * sizeof(uint32_t));
 	commands.copy_buffer(blocks.get(), blocks_readback.get(), block_count * sizeof(uint32_t));
 	r_fixture.device->submit_commands(RenderingDevice::SubmitMode::WAIT);
 	uint32_t found_count = 0;
 	for (const uint32_t count : r_fixture.read<uint32_t>(blocks_readback, block_count)) {
 		found_count += count;
 	}
+	CHECK(r_fixture.read<uint32_t>(totals_readback, EDGE_COUNT_TOTAL_COUNT)[0] == found_count);
 	auto records = r_fixture.read<shader::CountEdgeRecord>(list_readback, edge_count);
 	records.resize(found_count);
 	return records;
@@ -158,10 +170,11 @@ TEST_CASE(
 			CHECK(found.size() > 50);
 			for (size_t index = 0; index < found.size(); ++index) {
 				const shader::CountEdgeRecord record = make_record(expected[index]);
-				CHECK(found[index].normal0_weight.w == record.normal0_weight.w);
-				CHECK(found[index].normal1_kind.w == record.normal1_kind.w);
+				CHECK(found[index].by_bw_weight_kind.z == record.by_bw_weight_kind.z);
+				CHECK(found[index].by_bw_weight_kind.w == record.by_bw_weight_kind.w);
 				CHECK(glm::length(found[index].a_bx - record.a_bx) < 1e-4f);
-				CHECK(glm::length(found[index].by_bw_d0_d1 - record.by_bw_d0_d1) < 1e-4f);
+				CHECK(glm::length(found[index].by_bw_weight_kind - record.by_bw_weight_kind) <
+						1e-4f);
 			}
 			CHECK(std::memcmp(find_edges(fixture, casters, scene).data(), found.data(),
 						  found.size() * sizeof(found[0])) == 0);

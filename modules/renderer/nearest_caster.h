@@ -1,0 +1,11 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+namespace gnomon {
+
+/// The greatest w (see LightViewConstants) that a caster has in any view: no blocker is nearer to
+/// the light, so that none is searched farther out than it can reach.
+float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs);
+
+} // namespace gnomon

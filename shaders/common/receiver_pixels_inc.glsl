@@ -1,0 +1,41 @@
+// The receivers of a picture's pixels, and the views of one light. It reads make_map_resolve_bindings of
+// the renderer.
+#ifndef RECEIVER_PIXELS_INC_GLSL
+#define RECEIVER_PIXELS_INC_GLSL
+
+#include "common/light_view_inc.glsl"
+#include "common/receiver_inc.glsl"
+#include "shared/map_resolve_shared.h"
+
+layout(set = 0, binding = MAP_RESOLVE_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(set = 0, binding = MAP_RESOLVE_BINDING_VIEWS) uniform Views {
+	LightViewsConstants light_views;
+};
+layout(set = 0, binding = MAP_RESOLVE_BINDING_DEPTH) uniform texture2D depth_texture;
+layout(set = 0, binding = MAP_RESOLVE_BINDING_NORMAL) uniform utexture2D normal_texture;
+layout(set = 0, binding = MAP_RESOLVE_BINDING_RECEIVERS) uniform texture2D receivers_texture;
+
+bool is_in_picture(ivec2 p_pixel) {
+	return all(lessThan(p_pixel, ivec2(frame.size_px)));
+}
+
+/// The mask counts only there.
+bool is_receiver_pixel(ivec2 p_pixel) {
+	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0;
+}
+
+struct ReceiverPixel {
+	vec3 position; // camera-relative, moved off the surface
+	vec3 normal;   // unit, of the face, towards the viewer
+};
+
+/// Only for pixels that receive.
+ReceiverPixel load_receiver(ivec2 p_pixel) {
+	const vec3 normal = unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
+	return ReceiverPixel(
+			receiver_position(frame, p_pixel, texelFetch(depth_texture, p_pixel, 0).r, normal), normal);
+}
+
+#endif

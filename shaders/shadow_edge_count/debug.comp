@@ -1,0 +1,22 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_vote : require
+#include "shadow_edge_count/count_resolve_inc.glsl"
+
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DArray
+		debug_image;
+
+// What was counted, for debug views.
+void main() {
+	const CountPixel pixel = count_pixel();
+	if (!is_in_picture(pixel.pixel)) {
+		return;
+	}
+	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_EDGES), vec4(pixel.edge_count));
+	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_SOLIDS),
+			vec4(max(pixel.solid_count, 0)));
+	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_BLOCKS), vec4(push.kind));
+}

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "common/pcss_inc.glsl"
+#include "shadow_edge_count/count_blocks_inc.glsl"
+
+// Percentage-closer soft shadows in the blocks that have too many edges to count.
+layout(set = 0, binding = COUNT_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+void main() {
+	const ivec2 pixel = ivec2(find_block_group(find_block()) + gl_LocalInvocationID.xy);
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	float visibility = 0.0;
+	if (is_receiver_pixel(pixel)) {
+		uint view;
+		const MapPoint point = load_map_point(pixel, view);
+		visibility = is_surely_lit(point, view, light.empty_views)
+				? 1.0
+				: pcss(map_texture, light.empty_views, light_views.views[view], point,
+						  light.views[view].disc_radius, push.nearest_w, EDGE_COUNT_FILTER_TAPS,
+						  interleaved_noise(pixel) * TWO_PI);
+	}
+	imageStore(mask_image, pixel, vec4(visibility));
+}

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/count_blocks_inc.glsl"
+#include "shadow_edge_count/count_map_inc.glsl"
+
+// Blocks without edges: each receiver is lit or dark as the light's centre sees it.
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+void main() {
+	const ivec2 pixel = ivec2(find_block_group(find_block()) + gl_LocalInvocationID.xy);
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	float visibility = 0.0;
+	if (is_receiver_pixel(pixel)) {
+		uint view;
+		const CountReceiver receiver = load_count_receiver(pixel, view);
+		visibility = !may_count_at(receiver.warped, view) ||
+						find_count_reference(light.views[view], receiver).solid_count <= 0
+				? 1.0
+				: 0.0;
+	}
+	imageStore(mask_image, pixel, vec4(visibility));
+}
