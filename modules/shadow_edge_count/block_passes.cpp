@@ -143,9 +143,10 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	CountBlocks blocks;
 	blocks.receivers = make_map_resolve_bindings(r_graph, inputs);
 	blocks.constants = r_graph.upload_constants("counted light", constants);
-	const RGBuffer boxes = r_graph.create_buffer(
-			{ "receiver boxes", group_count * constants.view_count * sizeof(shader::CountGroupBox),
-					BufferUsage::STORAGE });
+	const RGBuffer boxes = r_graph.create_buffer({ "receiver boxes",
+			group_count * constants.view_count * EDGE_COUNT_BOXES_PER_GROUP *
+					sizeof(shader::CountGroupBox),
+			BufferUsage::STORAGE });
 	const auto make_texel_buffer = [&](const char *p_name, uint64_t p_count) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t),
 				BufferUsage::STORAGE | BufferUsage::TEXEL, MemoryKind::GPU, Format::R32_UINT });

@@ -3,6 +3,7 @@
 #include "modules/core/text.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace gnomon {
@@ -13,14 +14,16 @@ namespace {
 // but how small is known only on the GPU: room for so many a view, where there are more edges.
 constexpr uint32_t RECORDS_OF_ONE_VIEW = 1u << 18;
 constexpr uint32_t RECORDS_OF_SIX_VIEWS = 1u << 16;
-// Fragments per texel on average.
+// Fragments per texel on average; more where it is known beforehand that there may be more, up to
+// 16 MiB a view.
+constexpr uint64_t MOST_BOUNDED_FRAGMENTS = 1u << 22;
 constexpr uint32_t FRAGMENTS_OF_ONE_VIEW = 12;
 constexpr uint32_t FRAGMENTS_OF_SIX_VIEWS = 8;
 
 } // namespace
 
 CountCapacities choose_capacities(uint32_t p_view_count, glm::uvec2 p_map_size_px,
-		uint32_t p_edge_count, uint32_t p_layer_count) {
+		uint32_t p_edge_count, uint64_t p_fragment_bound, uint32_t p_layer_count) {
 	const bool is_one = p_view_count == 1;
 	CountCapacities capacities;
 	capacities.view_count = p_view_count;
@@ -31,6 +34,11 @@ CountCapacities choose_capacities(uint32_t p_view_count, glm::uvec2 p_map_size_p
 			: is_one							 ? FRAGMENTS_OF_ONE_VIEW
 												 : FRAGMENTS_OF_SIX_VIEWS;
 	capacities.fragments_per_view = capacities.texels_per_view * per_texel;
+	if (p_layer_count == 0 && p_fragment_bound <= MOST_BOUNDED_FRAGMENTS) {
+		// In powers of two, so that what moves seldom needs other buffers.
+		capacities.fragments_per_view = std::max(capacities.fragments_per_view,
+				std::bit_ceil(static_cast<uint32_t>(p_fragment_bound)));
+	}
 	return capacities;
 }
 
@@ -62,6 +70,14 @@ bool CountBuffers::prepare(
 				std::max(p_capacities.fragments_per_view, capacities.fragments_per_view);
 		grow(p_device, p_capacities);
 	}
+	// Without room in the device's buffers either, the filter stays.
+	const auto limit = [&](uint32_t &r_count, uint64_t p_item_bytes) {
+		const uint64_t most = p_device.get_features().max_storage_buffer_bytes / p_item_bytes /
+				p_capacities.view_count;
+		r_count = static_cast<uint32_t>(std::min<uint64_t>(r_count, most));
+	};
+	limit(p_capacities.records_per_view, sizeof(shader::CountEdgeRecord));
+	limit(p_capacities.fragments_per_view, sizeof(uint32_t));
 	if (records && capacities == p_capacities) {
 		return true;
 	}
@@ -79,8 +95,16 @@ bool CountBuffers::prepare(
 	const uint64_t view_count = capacities.view_count;
 	records = make("edges", view_count * capacities.records_per_view,
 			sizeof(shader::CountEdgeRecord), Format::RGBA32_SFLOAT, BufferUsage::STORAGE);
-	texels = make("layer map", view_count * capacities.texels_per_view, 2 * sizeof(uint32_t),
-			Format::RG32_UINT, BufferUsage::STORAGE);
+	// Pixels beside the receivers of a group look into the map as well, also of views without
+	// casters, and must find short lists there.
+	const std::vector<uint8_t> empty_texels(
+			view_count * capacities.texels_per_view * sizeof(glm::uvec2), 0);
+	texels = OwnedBuffer(p_device,
+			p_device.create_buffer_with_data(
+					{ text("layer map of ", p_light), empty_texels.size(),
+							BufferUsage::STORAGE | BufferUsage::TEXEL | BufferUsage::COPY_TARGET,
+							MemoryKind::GPU, Format::RG32_UINT },
+					empty_texels));
 	fragments = make("layers", view_count * capacities.fragments_per_view, sizeof(uint32_t),
 			Format::R32_UINT, BufferUsage::STORAGE);
 	const std::vector<uint8_t> zeros(EDGE_COUNT_TOTAL_COUNT * sizeof(uint32_t), 0);

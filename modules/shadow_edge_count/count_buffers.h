@@ -18,9 +18,10 @@ struct CountCapacities {
 };
 
 /// Enough for nearly all scenes; see CountBuffers::prepare for the rest. p_edge_count: of the view
-/// that has the most; p_layer_count: see CountSettings.
+/// that has the most; p_fragment_bound: likewise, see CountCasters; p_layer_count: see
+/// CountSettings.
 CountCapacities choose_capacities(uint32_t p_view_count, glm::uvec2 p_map_size_px,
-		uint32_t p_edge_count, uint32_t p_layer_count);
+		uint32_t p_edge_count, uint64_t p_fragment_bound, uint32_t p_layer_count);
 
 /// Buffers of one light that all its views share, as handles of this frame.
 struct CountFrameBuffers {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 
@@ -12,6 +13,38 @@ namespace {
 
 // Per light view: six times as many must fit into 26 bits, beside what an edge is used for.
 constexpr uint32_t MAX_COUNT = 10'000'000;
+
+// Faces of a view that are looked at one by one: at most some tenths of a millisecond.
+constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
+
+/// How many texel centres the faces of a mesh may cover.
+uint64_t compute_fragment_bound(
+		const MeshTopology &p_topology, const glm::mat4 &p_clip_from_node, glm::vec2 p_size_px) {
+	const double whole = double(p_size_px.x) * p_size_px.y;
+	std::vector<glm::vec4> clip;
+	for (const glm::vec3 &position : p_topology.welded_positions_node) {
+		clip.push_back(p_clip_from_node * glm::vec4(position, 1.0f));
+	}
+	double sum = 0;
+	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
+		glm::dvec2 least(std::numeric_limits<double>::infinity());
+		glm::dvec2 greatest = -least;
+		bool is_before = false;
+		for (size_t corner = first; corner < first + 3; ++corner) {
+			const glm::dvec4 point(clip[p_topology.triangles[corner]]);
+			is_before = is_before || !(point.z <= point.w) || !(point.w > 0.0); // the near plane
+			const glm::dvec2 place =
+					(glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
+			least = glm::min(least, place);
+			greatest = glm::max(greatest, place);
+		}
+		const glm::dvec2 size =
+				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 1.0;
+		const double covered = std::max(size.x, 0.0) * std::max(size.y, 0.0);
+		sum += is_before || !std::isfinite(covered) ? whole : std::min(covered, whole);
+	}
+	return static_cast<uint64_t>(std::ceil(sum));
+}
 
 uint32_t add_up(uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
 	if (p_count > MAX_COUNT - p_sum) {
@@ -50,6 +83,12 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, uint32
 					(volume < 0 ? uint32_t(EDGE_COUNT_MIRRORED) : 0u),
 			0 };
 		caster.clip_from_node = view.compute_clip_from_node(instance.world_from_node);
+		const bool is_bounded = result.fragment_bound != CountCasters::UNKNOWN_COUNT &&
+				result.face_count + gpu.face_count <= MAX_BOUNDED_FACES;
+		result.fragment_bound = !is_bounded ? CountCasters::UNKNOWN_COUNT
+											: result.fragment_bound +
+						compute_fragment_bound(*get_topology(instance.mesh), caster.clip_from_node,
+								glm::vec2(view.size_px));
 		result.face_count =
 				add_up(result.face_count, gpu.face_count, "triangles", p_inputs.light.name);
 		result.edge_count = add_up(result.edge_count, gpu.edge_count, "edges", p_inputs.light.name);

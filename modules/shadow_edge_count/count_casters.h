@@ -25,6 +25,11 @@ struct CountCasters {
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
 	uint32_t flat_instance_count = 0; // with a singular transform: they hide nothing
+	/// Fragments that the layer map may have at most; UNKNOWN_COUNT where there are too many faces
+	/// to ask each.
+	uint64_t fragment_bound = 0;
+
+	static constexpr uint64_t UNKNOWN_COUNT = ~uint64_t(0);
 };
 
 /// More faces or edges than a 32-bit index can name are an Error.

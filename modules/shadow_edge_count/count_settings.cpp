@@ -8,7 +8,7 @@ void add_count_properties(PropertyList &r_list) {
 			"Points of the light that are counted where several casters overlap. More have finer "
 			"steps there and cost time.",
 			"", group });
-	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,4096,16",
+	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,1024,16",
 			"Width and height of each map that counts solids. Has little effect on the picture.",
 			"px", group });
 	r_list.add({ "edge_count_layers", PropertyType::INT, int64_t(0), "0,16,1",

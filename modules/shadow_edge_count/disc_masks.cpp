@@ -12,7 +12,9 @@ const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
 /// In sectors.
 double compute_turn(uint32_t p_turn) {
-	return p_turn * (DiscMasks::SAMPLE_COUNT / 4 + 0.25);
+	// Neighbours in angle are half a radius apart. So one sector on, points fall between those of
+	// the turn before; a quarter of the circle on, they would all but coincide.
+	return p_turn * 1.25;
 }
 
 /// 6 bits the other way round.

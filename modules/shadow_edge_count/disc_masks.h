@@ -16,7 +16,7 @@ public:
 
 	/// Points in the middle of 64 equal sectors, in the order of their angles, as far from the
 	/// centre as the bits of their numbers read backwards say (Hammersley's set on a disc). p_turn:
-	/// by so many quarters of the circle, and of a sector, they are turned.
+	/// they are turned by so many sectors and as many quarters of one.
 	explicit DiscMasks(uint32_t p_turn = 0);
 
 	/// Points beyond the line that is p_offset (0..1) from the centre in that direction, which need

@@ -98,6 +98,7 @@ void add_all_layers(
 					PassBinding::read(LAYERS_BINDING_COUNTS, counts),
 					PassBinding::read(LAYERS_BINDING_SUMS, sums),
 					PassBinding::write(LAYERS_BINDING_TEXELS, light.texels, Content::UPDATE),
+					PassBinding::write(LAYERS_BINDING_FRAGMENTS, light.fragments, Content::UPDATE),
 					PassBinding::write(LAYERS_BINDING_TOTALS, light.totals, Content::UPDATE) },
 			group_count * LAYERS_GROUP_SIZE);
 	add_draw_pass(p_device,

@@ -51,16 +51,18 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	}
 	uint32_t most_edges = 0;
 	uint32_t edge_count = 0;
+	uint64_t fragment_bound = 0;
 	std::vector<CountCasters> casters;
 	empty_views = views.get_empty_views();
 	for (uint32_t view = 0; view < view_count; ++view) {
 		casters.push_back(build_count_casters(p_inputs, view));
 		most_edges = std::max(most_edges, casters.back().edge_count);
 		edge_count += casters.back().edge_count;
+		fragment_bound = std::max(fragment_bound, casters.back().fragment_bound);
 		empty_views |= casters.back().edge_count == 0 ? 1u << view : 0u;
 	}
-	const CountCapacities wanted = choose_capacities(
-			view_count, p_inputs.views[0].size_px, most_edges, settings.layer_count);
+	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
+			most_edges, fragment_bound, settings.layer_count);
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
 	if (!has_content || found.size() != view_count) {
 		found.assign(view_count, {});
@@ -92,8 +94,10 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		r_plan.leave_out(text("find edges, casters: ", kept_count),
 				"kept: neither the light nor the caster moved");
 	}
-	may_be_over = edge_count > settings.budget || !p_inputs.may_leave_out ||
-			most_edges > buffers.get_capacities().records_per_view;
+	const CountCapacities &capacities = buffers.get_capacities();
+	const bool may_lack_room = most_edges > capacities.records_per_view ||
+			(settings.layer_count == 0 && fragment_bound > capacities.fragments_per_view);
+	may_be_over = edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
 	if (may_be_over) {
 		r_plan.run(text("filter where a block has more than ", settings.budget, " edges"));
 	} else {

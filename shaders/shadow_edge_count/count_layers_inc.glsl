@@ -47,7 +47,7 @@ CountTexel count_texel(CountViewConstants p_view, CountReceiver p_receiver, ivec
 			uint(p_texel.x));
 	texel.away_count = 0;
 	int toward_count = 0;
-	const uint count = range.y & ~(LAYERS_BURIED | LAYERS_ONLY_AWAY);
+	const uint count = range.y & LAYERS_COUNT_MASK;
 	uint i = 0u;
 	do { // asks at its end: see count_resolve_inc.glsl
 		const bool is_there = i < count;

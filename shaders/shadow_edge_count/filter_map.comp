@@ -22,7 +22,7 @@ void main() {
 	}
 	const uvec2 range = texelFetch(texels_buffer,
 			int((place.z * view.size_px.y + place.y) * view.size_px.x + place.x)).rg;
-	const uint end = range.x + (range.y & ~(LAYERS_BURIED | LAYERS_ONLY_AWAY));
+	const uint end = range.x + (range.y & LAYERS_COUNT_MASK);
 	float w = 0.0;
 	for (uint i = range.x; i < end; ++i) {
 		w = max(w, uintBitsToFloat(texelFetch(fragments_buffer, int(i)).r & ~LAYERS_KIND_MASK));

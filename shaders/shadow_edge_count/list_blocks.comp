@@ -33,31 +33,53 @@ uint find_total(uint p_index) {
 	return texelFetch(totals_buffer, int(p_index)).r;
 }
 
-/// Bounds of the block's receivers in one view.
-void find_block_box(uvec2 p_block, uint p_view, out vec3 r_least, out vec3 r_greatest) {
+/// Least and greatest x', y', w of receivers.
+struct Bounds {
+	vec3 least;
+	vec3 greatest;
+};
+
+/// Of those boxes of the block's groups whose middle w lies in a range.
+Bounds find_bounds(uvec2 p_block, uint p_view, float p_least_w, float p_greatest_w) {
 	const float FAR = 3e38;
 	const uint side = light.groups_per_block_side;
-	r_least = vec3(FAR);
-	r_greatest = vec3(-FAR);
-	for (uint i = gl_SubgroupInvocationID; i < side * side; i += gl_SubgroupSize) {
+	Bounds bounds = Bounds(vec3(FAR), vec3(-FAR));
+	const uint count = side * side * uint(EDGE_COUNT_BOXES_PER_GROUP);
+	for (uint i = gl_SubgroupInvocationID; i < count; i += gl_SubgroupSize) {
+		const uint place = i / uint(EDGE_COUNT_BOXES_PER_GROUP);
 		const uvec2 group = min(
-				p_block * side + uvec2(i % side, i / side), light.group_count - uvec2(1u));
+				p_block * side + uvec2(place % side, place / side), light.group_count - uvec2(1u));
 		const CountGroupBox box =
-				boxes[(group.y * light.group_count.x + group.x) * light.view_count + p_view];
-		r_least = min(r_least, box.least.xyz);
-		r_greatest = max(r_greatest, box.greatest.xyz);
+				boxes[((group.y * light.group_count.x + group.x) * light.view_count + p_view) *
+								uint(EDGE_COUNT_BOXES_PER_GROUP) +
+						i % uint(EDGE_COUNT_BOXES_PER_GROUP)];
+		const float middle = 0.5 * (box.least.z + box.greatest.z);
+		const bool is_inside = box.least.x <= box.greatest.x && middle >= p_least_w &&
+				middle < p_greatest_w;
+		bounds.least = is_inside ? min(bounds.least, box.least.xyz) : bounds.least;
+		bounds.greatest = is_inside ? max(bounds.greatest, box.greatest.xyz) : bounds.greatest;
 	}
-	r_least = subgroupMin(r_least);
-	r_greatest = subgroupMax(r_greatest);
+	return Bounds(subgroupMin(bounds.least), subgroupMax(bounds.greatest));
 }
 
-/// Lists the edges of one view from r_end on, as far as there is room, and counts all of them.
-void list_view(uint p_block_index, uint p_view, CountBox p_box, uint p_edge_count, inout uint r_end) {
+/// Lists the edges of one view from r_end on, as far as there is room, and counts all of them. Receivers
+/// lie in either of two boxes, or in the near one alone.
+void list_view(uint p_block_index, uint p_view, CountBox p_near, CountBox p_far, uint p_box_count,
+		uint p_edge_count, inout uint r_end) {
+	const CountViewConstants view = light.views[p_view];
 	for (uint first = 0u; first < p_edge_count; first += gl_SubgroupSize) {
 		const uint edge = first + gl_SubgroupInvocationID;
 		const uint record = p_view * light.record_capacity + min(edge, p_edge_count - 1u);
-		const bool is_used = edge < p_edge_count &&
-				find_count_use(light.views[p_view], p_box, load_count_record(record)) != 0u;
+		const CountEdgeRecord loaded = load_count_record(record);
+		uint use = 0u;
+		CountBox box = p_near;
+		uint i = 0u;
+		do { // not twice where there is one box: software drivers run a branch that nobody takes
+			use |= find_count_use(view, box, loaded);
+			box = p_far;
+			++i;
+		} while (i < p_box_count);
+		const bool is_used = edge < p_edge_count && use != 0u;
 		const uvec4 used = subgroupBallot(is_used);
 		const uint place = r_end + subgroupBallotExclusiveBitCount(used);
 		if (is_used && place < light.list_capacity) {
@@ -90,14 +112,22 @@ void main() {
 	uint end = 0u;
 	bool is_over = false;
 	for (uint v = 0u; v < light.view_count; ++v) {
-		vec3 least;
-		vec3 greatest;
-		find_block_box(block, v, least, greatest);
-		if (least.x <= greatest.x) {
+		const float FAR = 3e38;
+		const Bounds all = find_bounds(block, v, -FAR, FAR);
+		if (all.least.x <= all.greatest.x) {
+			// Near and far ones, as they lie about the middle.
+			const float middle = 0.5 * (all.least.z + all.greatest.z);
+			Bounds near = find_bounds(block, v, middle, FAR);
+			Bounds far = find_bounds(block, v, -FAR, middle);
+			const bool is_one =
+					near.least.x > near.greatest.x || far.least.x > far.greatest.x;
+			near = is_one ? all : near;
+			far = is_one ? all : far;
 			const uint edge_count = find_total(uint(EDGE_COUNT_TOTAL_RECORDS) + v);
 			is_over = is_over || edge_count > light.record_capacity ||
 					find_total(uint(EDGE_COUNT_TOTAL_FRAGMENTS) + v) > light.fragment_capacity;
-			list_view(block_index, v, make_count_box(light.views[v], least, greatest),
+			list_view(block_index, v, make_count_box(light.views[v], near.least, near.greatest),
+					make_count_box(light.views[v], far.least, far.greatest), is_one ? 1u : 2u,
 					min(edge_count, light.record_capacity), end);
 		}
 		if (subgroupElect()) {

@@ -6,15 +6,16 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-// The bounds of the receivers of each group of 8 x 8 pixels, once per light view. One subgroup deals
-// with one group.
+// The bounds of the receivers of each group of 8 x 8 pixels, in each light view. One subgroup deals with
+// one group.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
 	CountGroupBox boxes[];
 };
 
 const float FAR = 3e38;
-shared CountGroupBox view_boxes[EDGE_COUNT_MAX_VIEWS];
+const uint PIXEL_COUNT = uint(EDGE_COUNT_GROUP_PX * EDGE_COUNT_GROUP_PX);
+const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 
 /// The receiver of one of the group's pixels. False: it is none, or no caster can hide it.
 bool load_warped(uint p_index, out vec3 r_warped, out uint r_view) {
@@ -22,68 +23,73 @@ bool load_warped(uint p_index, out vec3 r_warped, out uint r_view) {
 	const ivec2 pixel = ivec2(gl_WorkGroupID.xy * side + uvec2(p_index % side, p_index / side));
 	r_warped = vec3(0.0);
 	r_view = 0u;
-	if (p_index >= side * side || !is_in_picture(pixel) || !is_receiver_pixel(pixel)) {
+	if (p_index >= PIXEL_COUNT || !is_in_picture(pixel) || !is_receiver_pixel(pixel)) {
 		return false;
 	}
 	r_warped = load_count_receiver(pixel, r_view).warped;
 	return may_count_at(r_warped, r_view);
 }
 
-/// Several views: those of each row of pixels one after the other.
-void find_boxes(uint p_pixel_count) {
-	for (uint first = 0u; first < p_pixel_count; first += gl_SubgroupSize) {
-		vec3 warped;
-		uint view;
-		bool waits = load_warped(first + gl_SubgroupInvocationID, warped, view);
-		while (subgroupAny(waits)) {
-			const uint chosen = subgroupMin(waits ? view : uint(EDGE_COUNT_MAX_VIEWS));
-			const bool is_here = waits && view == chosen;
-			const vec3 least = subgroupMin(is_here ? warped : vec3(FAR));
-			const vec3 greatest = subgroupMax(is_here ? warped : vec3(-FAR));
-			if (subgroupElect()) {
-				view_boxes[chosen].least.xyz = min(view_boxes[chosen].least.xyz, least);
-				view_boxes[chosen].greatest.xyz = max(view_boxes[chosen].greatest.xyz, greatest);
-			}
-			waits = waits && !is_here;
-		}
-	}
+/// Where to part receivers between two w: in the middle where they are far apart, else before all.
+float find_split(uint p_view, float p_least, float p_greatest) {
+	const float APART_SIZES = 0.05; // of S
+	const bool is_directional = light.views[p_view].is_directional != 0u;
+	const float apart_m =
+			is_directional ? p_greatest - p_least : 1.0 / p_least - 1.0 / p_greatest;
+	return apart_m > APART_SIZES * light.views[p_view].scene_size_m ? 0.5 * (p_least + p_greatest)
+																	 : -FAR;
 }
 
-/// One view: each invocation collects its pixels first.
-CountGroupBox find_box(uint p_pixel_count) {
-	vec3 least = vec3(FAR);
-	vec3 greatest = vec3(-FAR);
-	for (uint first = 0u; first < p_pixel_count; first += gl_SubgroupSize) {
-		vec3 warped;
-		uint view;
-		const bool is_here = load_warped(first + gl_SubgroupInvocationID, warped, view);
-		least = is_here ? min(least, warped) : least;
-		greatest = is_here ? max(greatest, warped) : greatest;
+/// Writes both boxes of a view from what each invocation found.
+void write_boxes(uint p_view, vec3 p_warped[PIXELS_PER_INVOCATION], bool p_is_here[PIXELS_PER_INVOCATION]) {
+	float least_w = FAR;
+	float greatest_w = -FAR;
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		least_w = p_is_here[i] ? min(least_w, p_warped[i].z) : least_w;
+		greatest_w = p_is_here[i] ? max(greatest_w, p_warped[i].z) : greatest_w;
 	}
-	return CountGroupBox(
-			vec4(subgroupMin(least), FAR), vec4(subgroupMax(greatest), -FAR));
+	least_w = subgroupMin(least_w);
+	greatest_w = subgroupMax(greatest_w);
+	const float split = least_w < greatest_w ? find_split(p_view, least_w, greatest_w) : -FAR;
+	vec3 near_least = vec3(FAR);
+	vec3 near_greatest = vec3(-FAR);
+	vec3 far_least = vec3(FAR);
+	vec3 far_greatest = vec3(-FAR);
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const bool is_near = p_is_here[i] && p_warped[i].z >= split;
+		const bool is_far = p_is_here[i] && p_warped[i].z < split;
+		near_least = is_near ? min(near_least, p_warped[i]) : near_least;
+		near_greatest = is_near ? max(near_greatest, p_warped[i]) : near_greatest;
+		far_least = is_far ? min(far_least, p_warped[i]) : far_least;
+		far_greatest = is_far ? max(far_greatest, p_warped[i]) : far_greatest;
+	}
+	near_least = subgroupMin(near_least);
+	near_greatest = subgroupMax(near_greatest);
+	far_least = subgroupMin(far_least);
+	far_greatest = subgroupMax(far_greatest);
+	if (subgroupElect()) {
+		const uint group = gl_WorkGroupID.y * light.group_count.x + gl_WorkGroupID.x;
+		const uint first = (group * VIEW_COUNT + p_view) * uint(EDGE_COUNT_BOXES_PER_GROUP);
+		boxes[first + EDGE_COUNT_BOX_NEAR] =
+				CountGroupBox(vec4(near_least, 0.0), vec4(near_greatest, 0.0));
+		boxes[first + EDGE_COUNT_BOX_FAR] =
+				CountGroupBox(vec4(far_least, 0.0), vec4(far_greatest, 0.0));
+	}
 }
 
 void main() {
-	const uint lane = gl_SubgroupInvocationID;
-	const uint group = gl_WorkGroupID.y * light.group_count.x + gl_WorkGroupID.x;
-	const uint pixel_count = uint(EDGE_COUNT_GROUP_PX * EDGE_COUNT_GROUP_PX);
-	if (VIEW_COUNT == 1u) {
-		const CountGroupBox box = find_box(pixel_count);
-		if (subgroupElect()) {
-			boxes[group] = box;
+	vec3 warped[PIXELS_PER_INVOCATION];
+	bool is_there[PIXELS_PER_INVOCATION];
+	uint views[PIXELS_PER_INVOCATION];
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		is_there[i] =
+				load_warped(i * gl_WorkGroupSize.x + gl_SubgroupInvocationID, warped[i], views[i]);
+	}
+	for (uint v = 0u; v < VIEW_COUNT; ++v) {
+		bool is_here[PIXELS_PER_INVOCATION];
+		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+			is_here[i] = is_there[i] && views[i] == v;
 		}
-		return;
-	}
-	for (uint v = lane; v < light.view_count; v += gl_SubgroupSize) {
-		view_boxes[v] = CountGroupBox(vec4(FAR), vec4(-FAR));
-	}
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
-	find_boxes(pixel_count);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
-	for (uint v = lane; v < light.view_count; v += gl_SubgroupSize) {
-		boxes[group * light.view_count + v] = view_boxes[v];
+		write_boxes(v, warped, is_here);
 	}
 }

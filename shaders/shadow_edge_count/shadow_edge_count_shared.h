@@ -105,11 +105,16 @@ struct SHARED_ALIGN CountLightConstants {
 SHARED_SIZE(CountLightConstants, 336);
 
 /// Receivers of one group in one view: least and greatest x', y', w. Empty where a least is greater.
+/// Where they lie at very different depths, as beside an object's outline, they are two boxes: what is
+/// between them has no receiver.
 struct SHARED_ALIGN CountGroupBox {
 	vec4 least;
 	vec4 greatest;
 };
 SHARED_SIZE(CountGroupBox, 32);
+#define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them, where there is one box
+#define EDGE_COUNT_BOX_FAR 1
+#define EDGE_COUNT_BOXES_PER_GROUP 2 // and view
 
 // How many records and fragments the views have, also beyond the capacity.
 #define EDGE_COUNT_TOTAL_RECORDS 0
@@ -171,6 +176,8 @@ SHARED_SIZE(CountBlockPush, 16);
 // In a texel's count.
 #define LAYERS_BURIED 0x80000000u
 #define LAYERS_ONLY_AWAY 0x40000000u // faces turned towards the light are not there
+#define LAYERS_ONLY_NEAREST 0x20000000u // the buffer has no room for all of them
+#define LAYERS_COUNT_MASK 0x1fffffffu
 #define LAYERS_CONSTANT_COUNT 0 // fragments of a texel of the cheap map
 
 // Bindings of the passes that make the layer map.

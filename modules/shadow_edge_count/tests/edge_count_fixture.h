@@ -1,0 +1,190 @@
+#pragma once
+
+#include "modules/core/text.h"
+#include "modules/renderer/light_shadows.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadow_edge_count/count_visibility.h"
+#include "modules/shadow_edge_count/shadow_edge_count.h"
+#include "modules/shadow_edge_count/tests/count_scene.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+// Whole frames of the technique, and what they are compared with: the same light counted in double,
+// and the reference.
+
+namespace gnomon {
+
+/// What a frame is asked for, beside its scene.
+struct FrameWishes {
+	glm::uvec2 size_px = glm::uvec2(96);
+	std::string technique = "edge_count";
+	bool may_keep = true;
+	bool wants_surfaces = false;
+};
+
+inline RenderResult render_frame(
+		RenderFixture &r_fixture, const SmallScene &p_scene, const FrameWishes &p_wishes = {}) {
+	RenderRequest request;
+	request.scene = p_scene.snap();
+	request.size_px = p_wishes.size_px;
+	request.technique_override = p_wishes.technique;
+	request.mask_light = p_scene.light->name;
+	request.wants_mask = true;
+	request.wants_surfaces = p_wishes.wants_surfaces;
+	request.may_keep = p_wishes.may_keep;
+	RenderResult result = r_fixture.renderer->render(request);
+	CHECK(is_valid_mask(result));
+	return result;
+}
+
+/// A fine globe over the scene's box, whose shadow overlaps that of the box in part.
+inline MeshInstance3D &add_globe(
+		SmallScene &r_scene, double p_scale = 1.0, const glm::dvec3 &p_origin = glm::dvec3(0.0)) {
+	return add_mesh(r_scene.scene, "Globe", make_count_sphere(0.4 * p_scale, 16),
+			p_origin + p_scale * glm::dvec3(-0.7, 0.9, 0.5));
+}
+
+/// One light of a scene, counted in double by the functions that the shaders are tested against.
+class CountedLight {
+public:
+	CountedLight(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
+			camera_position_world(p_scene.camera.position_world), light(p_light),
+			scene_size_m(p_scene.scene_size_m) {
+		const PropertyValues properties = resolve_light_properties(
+				p_light, ShadowRegistry::get_light_properties("edge_count"));
+		const CountSettings settings = read_count_settings(p_light, p_scene, properties);
+		std::vector<LightView> light_views;
+		ShadowEdgeCount().get_light_views(p_light, p_scene, properties, light_views);
+		for (const LightView &light_view : light_views) {
+			views.push_back(make_view(p_scene, light_view, settings));
+		}
+		for (uint32_t turn = 0; turn < settings.sample_count / DiscMasks::SAMPLE_COUNT; ++turn) {
+			masks.emplace_back(turn);
+		}
+	}
+
+	double compute(const SurfacePoint &p_surface) const {
+		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
+		const glm::dvec3 place_world = camera_position_world + glm::dvec3(p_surface.position) +
+				normal * (5e-5 * scene_size_m);
+		const View &view = views[views.size() == 1 ? 0 : find_view(place_world)];
+		const CountReceiver receiver = { glm::dvec3(view.view_from_world *
+												 glm::dvec4(place_world, 1.0)),
+			glm::dmat3(view.view_from_world) * normal };
+		return compute_count_visibility(view.space, receiver, view.edges, view.layers, masks);
+	}
+
+private:
+	struct View {
+		glm::dmat4 view_from_world;
+		CountSpace space;
+		std::vector<CountEdge> edges;
+		LayerMap layers;
+	};
+
+	/// Of all casters, also those that the renderer leaves out of a view.
+	static View make_view(const SceneSnapshot &p_scene, const LightView &p_light_view,
+			const CountSettings &p_settings) {
+		const CountSpace space =
+				make_count_space(p_light_view, p_settings.disc_radius, p_scene.scene_size_m);
+		View view = { p_light_view.view_from_world, space, {},
+			LayerMap(space, glm::dvec2(p_light_view.half_extent), p_light_view.size_px) };
+		for (const InstanceSnapshot &instance : p_scene.instances) {
+			if (instance.casts_shadow) {
+				const auto topology = get_topology(instance.mesh);
+				const glm::dmat4 view_from_node =
+						p_light_view.view_from_world * instance.world_from_node;
+				add_count_edges(*topology, view_from_node, space, view.edges);
+				view.layers.add_mesh(*topology, view_from_node);
+			}
+		}
+		view.layers.mark_buried(view.edges);
+		return view;
+	}
+
+	/// As find_view_of_direction of light_view_inc.glsl.
+	size_t find_view(const glm::dvec3 &p_place_world) const {
+		const glm::dvec3 r =
+				glm::transpose(light.world_from_light) * (p_place_world - light.position_world);
+		const glm::dvec3 size = glm::abs(r);
+		const size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+		return 2 * axis + (r[int(axis)] >= 0 ? 0 : 1);
+	}
+
+	glm::dvec3 camera_position_world;
+	LightSnapshot light;
+	double scene_size_m;
+	std::vector<View> views;
+	std::vector<DiscMasks> masks;
+};
+
+/// How far a mask is from what it should be.
+struct MaskDifference {
+	double mean = 0; // over receivers
+	double greatest = 0;
+	double penumbra_mean = 0; // where the truth is neither 0 nor 1
+	size_t receiver_count = 0;
+	size_t penumbra_count = 0;
+	size_t apart_count = 0; // by more than 0.01
+};
+
+inline MaskDifference compare_masks(const std::vector<float> &p_mask, const RenderResult &p_truth) {
+	MaskDifference difference;
+	for (size_t index = 0; index < p_mask.size(); ++index) {
+		if (p_truth.receiver[index] == 0.0f) {
+			continue;
+		}
+		const double truth = p_truth.visibility[index];
+		const double error = std::abs(p_mask[index] - truth);
+		const bool is_penumbra = truth > 0.002 && truth < 0.998;
+		difference.mean += error;
+		difference.greatest = std::max(difference.greatest, error);
+		difference.apart_count += error > 0.01 ? 1 : 0;
+		difference.penumbra_mean += is_penumbra ? error : 0.0;
+		++difference.receiver_count;
+		difference.penumbra_count += is_penumbra ? 1 : 0;
+	}
+	difference.mean /= double(std::max(difference.receiver_count, size_t(1)));
+	difference.penumbra_mean /= double(std::max(difference.penumbra_count, size_t(1)));
+	return difference;
+}
+
+/// What the mask would be in double. p_frame: with surfaces.
+inline RenderResult count_in_double(const SmallScene &p_scene, const RenderResult &p_frame) {
+	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
+	const CountedLight light(*scene, scene->lights[0]);
+	RenderResult result;
+	result.receiver = p_frame.receiver;
+	result.visibility.resize(p_frame.visibility.size());
+	for (size_t index = 0; index < result.visibility.size(); ++index) {
+		if (result.receiver[index] > 0) {
+			result.visibility[index] = float(light.compute(p_frame.surfaces[index]));
+		}
+	}
+	return result;
+}
+
+/// False, and says so, in a build without the reference.
+inline bool has_reference() {
+	if (ShadowRegistry::find_reference() == nullptr) {
+		MESSAGE("No reference technique in this build: there is nothing to compare with.");
+		return false;
+	}
+	return true;
+}
+
+/// The truth, which there must be. p_sample_count: rays per pixel.
+inline RenderResult render_reference(RenderFixture &r_fixture, SmallScene &r_scene,
+		glm::uvec2 p_size_px = glm::uvec2(96), int64_t p_sample_count = 256) {
+	const std::string id = ShadowRegistry::find_reference()->id;
+	for (const PropertyInfo &property : ShadowRegistry::get_light_properties(id).get_properties()) {
+		if (property.name.ends_with("_samples")) {
+			r_scene.light->properties[property.name] = p_sample_count;
+		}
+	}
+	return render_frame(r_fixture, r_scene, { .size_px = p_size_px, .technique = id });
+}
+
+} // namespace gnomon

@@ -1,0 +1,177 @@
+// Lights of any size at any place, and meshes that are no solids.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
+const glm::uvec2 SIZE_PX(72);
+
+/// Without a reference all pixels count as right.
+MaskDifference compare_with_reference(
+		RenderFixture &r_fixture, SmallScene &r_scene, int64_t p_sample_count = 1024) {
+	const RenderResult frame = render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
+	if (!has_reference()) {
+		return compare_masks(frame.visibility, frame);
+	}
+	const MaskDifference difference = compare_masks(
+			frame.visibility, render_reference(r_fixture, r_scene, SIZE_PX, p_sample_count));
+	return difference;
+}
+
+/// A box with each of its triangles twice, the second time turned over where p_is_turned.
+std::shared_ptr<const Mesh> make_double_box(bool p_is_turned) {
+	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
+	std::vector<uint32_t> indices = box->indices;
+	for (size_t index = 0; index < box->indices.size(); index += 3) {
+		const uint32_t *corner = &box->indices[index];
+		const uint32_t second = p_is_turned ? 2 : 1;
+		indices.insert(indices.end(), { corner[0], corner[second], corner[3 - second] });
+	}
+	return make_mesh("double box", box->positions_node, {}, indices);
+}
+
+/// A box on whose top stand triangles of no area, and slivers.
+std::shared_ptr<const Mesh> make_box_with_slivers() {
+	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
+	std::vector<glm::vec3> positions = box->positions_node;
+	std::vector<uint32_t> indices = box->indices;
+	const uint32_t first = uint32_t(positions.size());
+	positions.insert(positions.end(),
+			{ { -0.4f, 0.3f, -0.3f }, { 0.0f, 0.3f, 0.0f }, { 0.4f, 0.3f, 0.3f },
+					{ 0.4f, 0.3f, 0.300001f }, { -0.4f, 0.9f, -0.3f } });
+	indices.insert(indices.end(),
+			{ first, first + 1, first + 2, first, first + 2, first + 3, first, first, first + 4 });
+	return make_mesh("box with slivers", positions, {}, indices);
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		SmallScene scene(type);
+		add_globe(scene);
+		scene.light->properties["light_size"] = 0.0;
+		scene.light->properties["light_angular_distance"] = 0.0;
+		const RenderResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+		size_t dark_count = 0;
+		size_t between_count = 0;
+		for (size_t index = 0; index < frame.visibility.size(); ++index) {
+			const float visibility = frame.visibility[index];
+			dark_count += frame.receiver[index] > 0 && visibility == 0.0f ? 1 : 0;
+			between_count += visibility != 0.0f && visibility != 1.0f ? 1 : 0;
+		}
+		CHECK(between_count == 0);
+		CHECK(dark_count > 120);
+		// The reference asks with one ray.
+		const MaskDifference difference = compare_with_reference(fixture, scene);
+		CHECK(difference.apart_count <= 2);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a light nearly as large as the scene is as exact as a small one") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		SmallScene scene(type);
+		scene.light->properties["light_size"] = 3.0;			  // 0.75 S
+		scene.light->properties["light_angular_distance"] = 73.7; // its tangent is 1.5
+		const MaskDifference difference = compare_with_reference(fixture, scene);
+		CHECK(difference.penumbra_mean < 0.004);
+		CHECK((difference.penumbra_count > 1000 || !has_reference()));
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines nowhere else") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		SmallScene scene(type);
+		scene.light->properties["light_size"] = 0.1;
+		const glm::dmat4 places[] = { look_at({ 0.1, 1.0, 0.05 }, { 0, 0, 0.01 }),
+			look_at({ 0.3, -2.0, 0.2 }, { 0, 0, 0.01 }) };
+		for (const glm::dmat4 &place : places) {
+			scene.light->parent_from_node = place;
+			CHECK(compare_with_reference(fixture, scene).mean < 0.001);
+		}
+		// Partly inside a solid it is seen too little of, see the page: no error, that is all.
+		scene.light->parent_from_node = look_at({ 0.45, 0.75, 0.05 }, { 1.0, 0, 0.01 });
+		render_frame(fixture, scene);
+		scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
+		render_frame(fixture, scene);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut, not lost") {
+	RenderFixture fixture;
+	const auto rod = make_box_mesh("rod", { 0.05f, 1.2f, 0.05f });
+	const auto sheet = make_mesh(
+			"sheet", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		for (const auto &mesh : { rod, sheet }) {
+			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(mesh->name);
+			SmallScene scene(type);
+			scene.light->properties["light_size"] = 0.1;
+			const RenderResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			add_mesh(scene.scene, "Beside", mesh, { 1.05, 3.8, 0.62 });
+			const RenderResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			CHECK(compute_mask_difference(with, without) > 0.02);
+			const MaskDifference difference = compare_with_reference(fixture, scene);
+			CHECK(difference.mean < 0.004);
+			CHECK(difference.greatest < 0.06);
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both sides") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		for (const bool is_turned : { false, true }) {
+			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(is_turned);
+			SmallScene scene(type);
+			scene.box->surfaces[0].mesh = make_mesh("sheet",
+					{ { -0.6f, 0, -0.5f }, { 0.6f, 0, -0.5f }, { 0.6f, 0.2f, 0.5f },
+							{ -0.6f, 0, 0.5f } },
+					{},
+					is_turned ? std::vector<uint32_t>{ 0, 1, 2, 0, 2, 3 }
+							  : std::vector<uint32_t>{ 2, 1, 0, 3, 2, 0 });
+			const MaskDifference difference = compare_with_reference(fixture, scene);
+			CHECK(difference.penumbra_mean < 0.004);
+			CHECK(difference.mean < 2e-4);
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] meshes that are no plain solids cast the shadow that rays see") {
+	RenderFixture fixture;
+	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
+	const auto inside_out = make_mesh("inside out", box->positions_node, {},
+			std::vector<uint32_t>(box->indices.rbegin(), box->indices.rend()));
+	const std::shared_ptr<const Mesh> meshes[] = { make_double_box(false), make_double_box(true),
+		make_box_with_slivers(), inside_out, box, box };
+	for (int index = 0; index < 6; ++index) {
+		CAPTURE(index);
+		SmallScene scene(ALL_TYPES[index % 3]);
+		scene.box->surfaces[0].mesh = meshes[index];
+		if (index == 4) {
+			add_mesh(scene.scene, "Twin", box, { 0, 1.0, 0 });
+		} else if (index == 5) {
+			scene.box->parent_from_node = // mirrored
+					glm::scale(scene.box->parent_from_node, glm::dvec3(-1.0, 1.0, 1.0));
+		}
+		const MaskDifference difference = compare_with_reference(fixture, scene);
+		CHECK(difference.penumbra_mean < 0.02);
+		// The camera looks into the box that is inside out: there, beside its edges, some pixels
+		// are wrong.
+		CHECK(difference.mean < (index == 3 ? 0.02 : 0.001));
+	}
+}

@@ -1,0 +1,152 @@
+// What must not matter: scale, place and direction of the whole scene, and where an omni light's
+// views meet.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
+
+/// Everything in the scene, the light and the camera included.
+void turn_scene(SmallScene &r_scene, double p_angle_rad, const glm::dvec3 &p_axis) {
+	const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), p_angle_rad, glm::normalize(p_axis));
+	for (const std::unique_ptr<Node3D> &node : r_scene.scene.root->children) {
+		node->parent_from_node = turn * node->parent_from_node;
+	}
+}
+
+/// Which of an omni light's views holds each pixel; 6: the pixel is none's.
+std::vector<int> find_views(const SmallScene &p_scene, const RenderResult &p_frame) {
+	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
+	const LightSnapshot &light = scene->lights[0];
+	std::vector<int> views;
+	for (size_t index = 0; index < p_frame.surfaces.size(); ++index) {
+		const glm::dvec3 place_world =
+				scene->camera.position_world + glm::dvec3(p_frame.surfaces[index].position);
+		const glm::dvec3 r =
+				glm::transpose(light.world_from_light) * (place_world - light.position_world);
+		const glm::dvec3 size = glm::abs(r);
+		const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+		views.push_back(p_frame.receiver[index] > 0 ? 2 * axis + (r[axis] < 0 ? 1 : 0) : 6);
+	}
+	return views;
+}
+
+/// Another view's receiver lies within three pixels.
+bool is_near_seam(const std::vector<int> &p_views, glm::ivec2 p_size_px, glm::ivec2 p_pixel) {
+	const auto get_view = [&](const glm::ivec2 &p_place) {
+		return p_views[size_t(p_place.y) * size_t(p_size_px.x) + size_t(p_place.x)];
+	};
+	for (int y = -3; y <= 3; ++y) {
+		for (int x = -3; x <= 3; ++x) {
+			const glm::ivec2 place =
+					glm::clamp(p_pixel + glm::ivec2(x, y), glm::ivec2(0), p_size_px - 1);
+			if (get_view(place) != 6 && get_view(place) != get_view(p_pixel)) {
+				return true;
+			}
+		}
+	}
+	return false;
+}
+
+struct MeanError {
+	double sum = 0;
+	size_t count = 0;
+	double compute_mean() const { return sum / double(std::max(count, size_t(1))); }
+};
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the same mask") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		const auto render = [&](double p_scale, const glm::dvec3 &p_origin) {
+			SmallScene scene(type, p_scale, p_origin);
+			add_globe(scene, p_scale, p_origin);
+			return render_frame(fixture, scene);
+		};
+		const RenderResult expected = render(1.0, glm::dvec3(0.0));
+		for (const double scale : { 1e-3, 1e3 }) {
+			CAPTURE(scale);
+			CHECK(compute_mask_difference(expected, render(scale, glm::dvec3(0.0))) < 1e-5);
+		}
+		const glm::dvec3 far(1e5, -3e4, 7e4);
+		CHECK(compute_mask_difference(expected, render(1.0, far)) < 1e-5);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a scene turned as a whole has the same mask") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		const auto render = [&](double p_angle_rad) {
+			SmallScene scene(type);
+			add_globe(scene);
+			turn_scene(scene, p_angle_rad, { 0.3, 0.8, -0.5 });
+			return render_frame(fixture, scene);
+		};
+		const RenderResult expected = render(0.0);
+		for (const double angle_rad : { 0.7, 2.345 }) {
+			CAPTURE(angle_rad);
+			CHECK(compute_mask_difference(expected, render(angle_rad)) < 1e-5);
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] where two of an omni light's views meet nothing is seen of it") {
+	if (!has_reference()) {
+		return;
+	}
+	RenderFixture fixture;
+	const glm::uvec2 size_px(128);
+	SmallScene scene(LightType::OMNI);
+	scene.light->properties["light_size"] = 0.4;
+	// Half a right angle about its own upright axis: the border runs through the shadow's middle.
+	scene.light->parent_from_node =
+			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 1, 0));
+	const RenderResult frame =
+			render_frame(fixture, scene, { .size_px = size_px, .wants_surfaces = true });
+	const RenderResult truth = render_reference(fixture, scene, size_px, 1024);
+	const std::vector<int> views = find_views(scene, frame);
+	MeanError near_seam;
+	MeanError elsewhere;
+	for (size_t index = 0; index < views.size(); ++index) {
+		const float visibility = truth.visibility[index];
+		if (truth.receiver[index] == 0.0f || visibility < 0.002f || visibility > 0.998f) {
+			continue;
+		}
+		const glm::ivec2 pixel(index % size_px.x, index / size_px.x);
+		MeanError &error = is_near_seam(views, glm::ivec2(size_px), pixel) ? near_seam : elsewhere;
+		error.sum += std::abs(frame.visibility[index] - visibility);
+		++error.count;
+	}
+	CHECK(near_seam.count > 50);
+	CHECK(elsewhere.count > 200);
+	CHECK(near_seam.compute_mean() < 2 * elsewhere.compute_mean() + 0.002);
+}
+
+TEST_CASE("[GPU][EdgeCount] how an omni light is turned does not matter") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	add_globe(scene);
+	scene.light->properties["light_size"] = 0.4;
+	const RenderResult expected = render_frame(fixture, scene);
+	const glm::dmat4 world_from_light = scene.light->parent_from_node;
+	for (const double angle_rad : { 0.785398, 1.1, 2.9 }) {
+		CAPTURE(angle_rad);
+		scene.light->parent_from_node =
+				glm::rotate(world_from_light, angle_rad, glm::dvec3(0.2, 1.0, 0.4));
+		const MaskDifference difference =
+				compare_masks(render_frame(fixture, scene).visibility, expected);
+		CHECK(difference.mean < 2e-4);
+		// Where two solids overlap the points of the light lie otherwise, up to three of 64.
+		CHECK(difference.greatest < 0.05);
+		CHECK(double(difference.apart_count) < 0.01 * double(difference.receiver_count));
+	}
+}

@@ -1,0 +1,206 @@
+// What is kept from frame to frame, what makes it new, and that every frame is the same bit for
+// bit.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+
+using namespace gnomon;
+
+namespace {
+
+RenderResult render(RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep = true) {
+	return render_frame(r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_keep = p_may_keep });
+}
+
+/// Casters whose edges the frame found, or kept.
+int count_casters(const RenderResult &p_result, bool p_is_found) {
+	const std::string begin = "find edges, casters: ";
+	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
+		if (entry.runs == p_is_found && entry.pass.starts_with(begin)) {
+			return std::stoi(entry.pass.substr(begin.size()));
+		}
+	}
+	return 0;
+}
+
+/// Passes that ran.
+size_t count_passes(const RenderResult &p_result, const std::string &p_name) {
+	return size_t(std::count_if(
+			p_result.timings.begin(), p_result.timings.end(), [&](const PassTiming &p_timing) {
+				return p_timing.name.find(p_name) != std::string::npos;
+			}));
+}
+
+/// Changes one thing after another; each frame must be the one that a fresh renderer draws.
+void check_changes(LightType p_type) {
+	RenderFixture keeping;
+	RenderFixture fresh;
+	SmallScene scene(p_type);
+	MeshInstance3D &globe = add_globe(scene);
+	const auto set = [&](const char *p_name, PropertyValue p_value) {
+		return [&scene, p_name, p_value] { scene.light->properties[p_name] = p_value; };
+	};
+	struct Step {
+		const char *what;
+		std::function<void()> change;
+		bool finds; // edges of casters
+	};
+	const std::vector<Step> steps = {
+		{ "first frame", set("edge_count_map_size", int64_t(128)), true },
+		{ "camera", [&] { scene.camera->parent_from_node[3].x += 0.2; }, false },
+		{ "R", set("light_size", 0.35), true },
+		{ "r alone", set("penumbra_outer_width", 0.1), true },
+		{ "points", set("edge_count_quality", std::string("256")), false },
+		{ "points again", set("edge_count_quality", std::string("64")), false },
+		{ "budget", set("edge_count_budget", int64_t(100)), false },
+		{ "budget again", set("edge_count_budget", int64_t(8192)), false },
+		{ "map size", set("edge_count_map_size", int64_t(96)), true },
+		{ "light's place", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
+		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
+		{ "a caster less", [&] { scene.box->casts_shadow = false; }, true },
+		{ "and again", [&] { scene.box->casts_shadow = true; }, true },
+		{ "another mesh", [&] { globe.surfaces[0].mesh = make_box_mesh("cube", glm::vec3(0.3f)); },
+				true },
+		{ "no casters",
+				[&] {
+					scene.box->casts_shadow = scene.ground->casts_shadow = false;
+					globe.casts_shadow = false;
+				},
+				false },
+		{ "all casters",
+				[&] {
+					scene.box->casts_shadow = scene.ground->casts_shadow = true;
+					globe.casts_shadow = true;
+				},
+				true },
+		{ "R = 0", set("light_size", 0.0), true },
+		{ "S", [&] { scene.scene.scene_size_m = 6.0; }, true },
+	};
+	for (const Step &step : steps) {
+		CAPTURE(std::string(step.what));
+		step.change();
+		const RenderResult kept = render(keeping, scene);
+		CHECK((count_casters(kept, true) > 0) == step.finds);
+		CHECK(kept.visibility == render(fresh, scene, false).visibility);
+	}
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
+		CAPTURE(int(type));
+		SmallScene scene(type);
+		add_globe(scene);
+		const RenderResult first = render(fixture, scene);
+		const RenderResult second = render(fixture, scene);
+		CHECK(first.visibility == second.visibility);
+		CHECK(count_casters(first, true) >= 3);
+		CHECK(count_casters(first, false) == 0);
+		CHECK(count_casters(second, true) == 0);
+		for (const char *pass : { "face planes", "mark edges", "list edges", "layers" }) {
+			CAPTURE(std::string(pass));
+			CHECK(count_passes(first, pass) > 0);
+			CHECK(count_passes(second, pass) == 0);
+		}
+		size_t kept_count = 0;
+		for (const FramePlanEntry &entry : second.plan.get_entries()) {
+			kept_count += !entry.runs && entry.pass.starts_with("light view") ? 1 : 0;
+		}
+		CHECK(kept_count == (type == LightType::OMNI ? 6 : 1));
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are kept, and the mask is that of a new "
+		  "frame") {
+	RenderFixture keeping;
+	RenderFixture fresh;
+	SmallScene scene;
+	MeshInstance3D &globe = add_globe(scene);
+	const auto check = [&](int p_found_count, int p_kept_count) {
+		const RenderResult kept = render(keeping, scene);
+		CHECK(count_casters(kept, true) == p_found_count);
+		CHECK(count_casters(kept, false) == p_kept_count);
+		CHECK(kept.visibility == render(fresh, scene, false).visibility);
+		CHECK(kept.visibility == render(keeping, scene).visibility);
+	};
+	check(3, 0);
+	for (int step = 0; step < 3; ++step) {
+		CAPTURE(step);
+		globe.parent_from_node = glm::translate(globe.parent_from_node, { 0.07, 0.03, -0.05 });
+		check(1, 2);
+	}
+	scene.box->parent_from_node = glm::rotate(scene.box->parent_from_node, 0.3, { 0.2, 1.0, 0.0 });
+	globe.parent_from_node = glm::translate(globe.parent_from_node, { 0.07, 0.03, -0.05 });
+	check(2, 1);
+	// Mirrored it is another kind of caster.
+	globe.parent_from_node = glm::scale(globe.parent_from_node, { -1.0, 1.0, 1.0 });
+	check(3, 0);
+}
+
+TEST_CASE("[GPU][EdgeCount] after any change the mask is that of a new frame, bit for bit") {
+	check_changes(LightType::SPOT);
+}
+
+TEST_CASE("[GPU][EdgeCount] likewise of an omni light, some of whose views have no casters") {
+	check_changes(LightType::OMNI);
+}
+
+TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") {
+	std::vector<float> first[2];
+	for (int device = 0; device < 2; ++device) {
+		RenderFixture fixture;
+		for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+			SmallScene scene(type);
+			add_globe(scene);
+			// Deep overlaps: layers stand in no order.
+			for (int sheet = 0; sheet < 8; ++sheet) {
+				add_mesh(scene.scene, text("Sheet ", sheet),
+						make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }),
+						{ 0.05 * sheet, 1.4 + 0.1 * sheet, 0 });
+			}
+			scene.light->properties["light_size"] = 0.5;
+			for (int repeat = 0; repeat < 3; ++repeat) {
+				CAPTURE(device);
+				CAPTURE(repeat);
+				const std::vector<float> mask = render(fixture, scene, false).visibility;
+				std::vector<float> &expected = first[type == LightType::OMNI ? 1 : 0];
+				expected = expected.empty() ? mask : expected;
+				CHECK(mask == expected);
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] what memory held before changes no bit of the mask") {
+	// Five of the light's views have no casters, and beside pixels in a shadow there are some that
+	// receive nothing: the shadow on the box ends where the box does.
+	SmallScene scene(LightType::OMNI);
+	scene.ground->surfaces.clear();
+	add_mesh(scene.scene, "Globe", make_count_sphere(0.4, 12), { 0.35, 1.9, 0.2 });
+	const auto fill_memory = [](RenderingDevice &r_device, uint32_t p_value) {
+		// Small enough to share a block of memory, which stays when they are gone.
+		std::vector<OwnedBuffer> buffers;
+		CommandList &commands = r_device.begin_commands();
+		for (int index = 0; index < 3; ++index) {
+			buffers.emplace_back(r_device,
+					r_device.create_buffer({ text("fill ", index), 16u << 20,
+							BufferUsage::STORAGE | BufferUsage::COPY_TARGET }));
+			commands.fill_buffer(buffers.back().get(), p_value);
+		}
+		r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
+	};
+	std::vector<float> expected;
+	for (const uint32_t value : { 0u, 0xffffffffu, 0x7f7f7f7fu, 0x00000fffu }) {
+		CAPTURE(value);
+		RenderFixture fixture;
+		fill_memory(*fixture.device, value);
+		const RenderResult result = render(fixture, scene);
+		expected = expected.empty() ? result.visibility : expected;
+		CHECK(result.visibility == expected);
+	}
+}

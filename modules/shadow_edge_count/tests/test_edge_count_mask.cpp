@@ -1,0 +1,119 @@
+// The whole technique against its double version, pixel by pixel.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
+
+/// The borders between an omni light's views shall run over what the camera sees.
+SmallScene make_scene(LightType p_type) {
+	SmallScene scene(p_type);
+	if (p_type == LightType::OMNI) {
+		scene.light->parent_from_node =
+				glm::rotate(scene.light->parent_from_node, 0.8, glm::dvec3(1.0, 0.6, 0.3));
+	}
+	return scene;
+}
+
+MaskDifference compare_with_double(const RenderResult &p_frame, const SmallScene &p_scene) {
+	const MaskDifference difference =
+			compare_masks(p_frame.visibility, count_in_double(p_scene, p_frame));
+	CHECK(difference.receiver_count > 2500);
+	return difference;
+}
+
+/// Shares the shadow of the box and of each other, in two layers and three.
+void add_overlapping_solids(SmallScene &r_scene) {
+	add_globe(r_scene);
+	for (int index = 0; index < 3; ++index) {
+		MeshInstance3D &slab = add_mesh(r_scene.scene, text("Slab ", index),
+				make_box_mesh("slab", { 0.45f, 0.03f, 0.35f }),
+				{ 0.2 - 0.25 * index, 0.4 + 0.55 * index, 0.1 + 0.15 * index });
+		slab.parent_from_node =
+				glm::rotate(slab.parent_from_node, 0.5 + 0.6 * index, glm::dvec3(0.2, 1.0, 0.1));
+	}
+	add_mesh(r_scene.scene, "Sheet",
+			make_mesh("sheet",
+					{ { -0.5f, 0, -0.3f }, { 0.4f, 0, -0.4f }, { 0.5f, 0.2f, 0.4f },
+							{ -0.4f, 0, 0.4f } },
+					{}, { 0, 1, 2, 0, 2, 3 }),
+			{ -0.3, 1.7, 0.3 });
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every kind of light") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		SmallScene scene = make_scene(type);
+		add_globe(scene);
+		const MaskDifference difference = compare_with_double(
+				render_frame(fixture, scene, { .wants_surfaces = true }), scene);
+		CHECK(difference.penumbra_count > 80);
+		// Half a step of the mask's 16 bits below 1 is 0.00024.
+		CHECK(difference.mean < 3e-5);
+		CHECK(difference.penumbra_mean < 4e-4);
+		CHECK(difference.apart_count == 0);
+	}
+}
+
+// Where solids overlap points of the light are counted, and one of 64 is 0.016 of it. Rounding
+// decides on which side of an edge it lies where it lies on one; likewise which texel is nearest.
+TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids overlap") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		std::vector<float> masks[2];
+		for (const int turn : { 0, 1 }) {
+			CAPTURE(turn);
+			SmallScene scene = make_scene(type);
+			add_overlapping_solids(scene);
+			scene.light->properties["light_size"] = 0.5;
+			scene.light->properties["light_angular_distance"] = 14.0;
+			scene.light->properties["edge_count_map_size"] = int64_t(96);
+			scene.light->properties["edge_count_quality"] = std::string(turn == 0 ? "64" : "256");
+			const RenderResult frame = render_frame(
+					fixture, scene, { .size_px = glm::uvec2(64), .wants_surfaces = true });
+			const MaskDifference difference = compare_with_double(frame, scene);
+			CHECK(difference.penumbra_count > 250);
+			CHECK(difference.mean < 2e-4);
+			CHECK(double(difference.apart_count) < 0.005 * double(difference.receiver_count));
+			masks[turn] = frame.visibility;
+		}
+		CHECK(masks[0] != masks[1]); // they do overlap
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many solids at once") {
+	RenderFixture fixture;
+	for (const int count : { 12, 30 }) {
+		CAPTURE(count);
+		SmallScene scene;
+		scene.box->surfaces.clear();
+		const auto mesh = make_box_mesh("plate", { 0.9f, 0.002f, 0.8f });
+		for (int index = 0; index < count; ++index) {
+			add_mesh(scene.scene, text("Plate ", index), mesh, { 0.0, 1.0 + 0.012 * index, 0.0 });
+		}
+		scene.light->properties["light_size"] = 0.4;
+		const FrameWishes wishes = { .size_px = glm::uvec2(64), .wants_surfaces = true };
+		render_frame(fixture, scene, wishes); // finds out how much room all layers need
+		const RenderResult frame = render_frame(fixture, scene, wishes);
+		const MaskDifference difference = compare_with_double(frame, scene);
+		CHECK(difference.penumbra_count > 300);
+		CHECK(difference.mean < 1e-4);
+		CHECK(double(difference.apart_count) < 0.002 * double(difference.receiver_count));
+		// No more than fifteen solids before the light's centre are told apart.
+		if (count <= 15 && has_reference()) {
+			const MaskDifference error = compare_masks(
+					frame.visibility, render_reference(fixture, scene, wishes.size_px));
+			CHECK(error.penumbra_mean < 0.02);
+		}
+	}
+}

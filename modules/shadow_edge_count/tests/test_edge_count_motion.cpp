@@ -1,0 +1,90 @@
+// A light that moves a little each frame: what the mask changes must be what the truth changes.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+using Masks = std::vector<RenderResult>; // one per frame
+
+/// The light moves by 1 cm a frame.
+Masks render_frames(RenderFixture &r_fixture, const std::string &p_technique) {
+	SmallScene scene;
+	scene.box->surfaces[0].mesh = make_count_sphere(0.5, 16);
+	Masks masks;
+	for (int frame = 0; frame < 6; ++frame) {
+		masks.push_back(render_frame(r_fixture, scene, { .technique = p_technique }));
+		scene.light->parent_from_node[3] += glm::dvec4(0.008, 0.0, -0.006, 0.0);
+	}
+	return masks;
+}
+
+/// What the masks should be, without noise: counted in double with 256 points.
+Masks count_frames(RenderFixture &r_fixture) {
+	SmallScene scene;
+	scene.box->surfaces[0].mesh = make_count_sphere(0.5, 16);
+	scene.light->properties["edge_count_quality"] = std::string("256");
+	Masks masks;
+	for (int frame = 0; frame < 6; ++frame) {
+		const RenderResult seen = render_frame(r_fixture, scene, { .wants_surfaces = true });
+		masks.push_back(count_in_double(scene, seen));
+		scene.light->parent_from_node[3] += glm::dvec4(0.008, 0.0, -0.006, 0.0);
+	}
+	return masks;
+}
+
+struct MotionError {
+	double rmse = 0; // of the change from frame to frame, in the penumbra of either
+	double greatest = 0;
+	double truth_rms = 0; // of the change itself
+	size_t pixel_count = 0;
+};
+
+MotionError compute_motion_error(const Masks &p_masks, const Masks &p_truths) {
+	MotionError error;
+	for (size_t frame = 1; frame < p_masks.size(); ++frame) {
+		const RenderResult *truth = &p_truths[frame];
+		for (size_t index = 0; index < truth->visibility.size(); ++index) {
+			const auto is_penumbra = [&](const RenderResult &p_truth) {
+				return p_truth.receiver[index] > 0 && p_truth.visibility[index] > 0.002f &&
+						p_truth.visibility[index] < 0.998f;
+			};
+			if (!is_penumbra(truth[0]) && !is_penumbra(truth[-1])) {
+				continue;
+			}
+			const double change =
+					p_masks[frame].visibility[index] - p_masks[frame - 1].visibility[index];
+			const double truth_change = truth[0].visibility[index] - truth[-1].visibility[index];
+			const double difference = std::abs(change - truth_change);
+			error.rmse += difference * difference;
+			error.greatest = std::max(error.greatest, difference);
+			error.truth_rms += truth_change * truth_change;
+			++error.pixel_count;
+		}
+	}
+	error.rmse = std::sqrt(error.rmse / double(std::max(error.pixel_count, size_t(1))));
+	error.truth_rms = std::sqrt(error.truth_rms / double(std::max(error.pixel_count, size_t(1))));
+	return error;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] under a light that moves nothing flickers") {
+	RenderFixture fixture;
+	REQUIRE(ShadowRegistry::find_fallback() != nullptr);
+	const Masks truths = count_frames(fixture);
+	const MotionError own = compute_motion_error(render_frames(fixture, "edge_count"), truths);
+	const MotionError filtered = compute_motion_error(
+			render_frames(fixture, ShadowRegistry::find_fallback()->id), truths);
+	CHECK(own.pixel_count > 500);
+	CHECK(own.truth_rms > 0.005); // it does move
+	// Two roundings to the mask's 16 bits: 0.0002 each.
+	CHECK(own.rmse < 0.001);
+	CHECK(own.greatest < 0.02);
+	CHECK(own.rmse < 0.1 * filtered.rmse);
+}

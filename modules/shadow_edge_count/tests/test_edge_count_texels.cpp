@@ -1,0 +1,85 @@
+// Texels of the layer map that say little: inside a solid, or on an outline.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
+
+/// Shines straight down from a height; the view's axes are those of the world.
+glm::dmat4 look_down(double p_height_m) {
+	return glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0),
+			glm::dvec4(0, p_height_m, 0, 1));
+}
+
+/// With the double version, and with the reference where there is one. Returns how far it is from
+/// the latter.
+MaskDifference check_mask(RenderFixture &r_fixture, SmallScene &r_scene, double p_reference_limit) {
+	const glm::uvec2 size_px(96);
+	const RenderResult frame =
+			render_frame(r_fixture, r_scene, { .size_px = size_px, .wants_surfaces = true });
+	const MaskDifference difference =
+			compare_masks(frame.visibility, count_in_double(r_scene, frame));
+	CHECK(difference.mean < 5e-5);
+	CHECK(difference.apart_count == 0);
+	if (has_reference()) {
+		const MaskDifference error =
+				compare_masks(frame.visibility, render_reference(r_fixture, r_scene, size_px));
+		CHECK(error.mean < p_reference_limit);
+		return error;
+	}
+	return {};
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		for (const int64_t map_size_px : { 64, 256 }) {
+			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(map_size_px);
+			SmallScene scene(type);
+			scene.light->properties["edge_count_map_size"] = map_size_px;
+			// The ground faces the light: on a slope more texels would be asked anyway.
+			scene.light->parent_from_node = look_at({ 0.5, 4.0, 0.3 }, { 0.2, 0, 0.1 });
+			scene.box->parent_from_node[3].y = 0.25;
+			add_mesh(scene.scene, "Globe", make_count_sphere(0.4, 12), { -0.9, 0.1, 0.5 });
+			MeshInstance3D &pole = add_mesh(scene.scene, "Pole",
+					make_box_mesh("pole", { 0.06f, 0.8f, 0.05f }), { -0.4, 0.5, 1.1 });
+			pole.parent_from_node = glm::rotate(pole.parent_from_node, 0.3, { 0.2, 0.3, 1.0 });
+			const MaskDifference error = check_mask(fixture, scene, 0.001);
+			// Where what stands there is thinner than a texel, a pixel beside it may be wrong.
+			CHECK(error.greatest <= (map_size_px == 64 ? 1.0 : 0.1));
+		}
+	}
+}
+
+// A rasteriser rounds corners to 1/256 of a texel: what a texel holds whose centre lies closer to
+// an outline than that is chance.
+TEST_CASE("[GPU][EdgeCount] outlines through the centres of texels do no harm") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const double height_m = 4.0;
+	const double top_m = 1.3; // of the box
+	scene.light->parent_from_node = look_down(height_m);
+	scene.light->properties["light_size"] = 0.03;
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	const LightView view = build_light_views(snapshot->lights[0], *snapshot, 256, 2)[0];
+	const auto find_side_m = [&](double p_texels) {
+		return (2.0 * p_texels / view.size_px.x - 1.0) * view.half_extent.x * (height_m - top_m);
+	};
+	for (const double offset_px : { -0.003, -0.001, 0.0, 0.001, 0.003 }) {
+		CAPTURE(offset_px);
+		scene.box->surfaces[0].mesh = make_box_mesh("box",
+				glm::vec3(find_side_m(160.5 + offset_px), 0.3, find_side_m(150.5 + offset_px)));
+		CHECK(check_mask(fixture, scene, 0.0005).greatest < 0.1);
+	}
+}
