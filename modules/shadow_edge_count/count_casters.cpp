@@ -27,21 +27,36 @@ uint64_t compute_fragment_bound(
 	}
 	double sum = 0;
 	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
-		glm::dvec2 least(std::numeric_limits<double>::infinity());
-		glm::dvec2 greatest = -least;
+		glm::dvec2 places[3];
 		bool is_before = false;
-		for (size_t corner = first; corner < first + 3; ++corner) {
-			const glm::dvec4 point(clip[p_topology.triangles[corner]]);
+		int outside_counts[5] = {}; // all three corners beyond one of the view's planes: not there
+		for (size_t corner = 0; corner < 3; ++corner) {
+			const glm::dvec4 point(clip[p_topology.triangles[first + corner]]);
+			outside_counts[0] += point.x > point.w;
+			outside_counts[1] += point.x < -point.w;
+			outside_counts[2] += point.y > point.w;
+			outside_counts[3] += point.y < -point.w;
+			outside_counts[4] += point.z > point.w;
 			is_before = is_before || !(point.z <= point.w) || !(point.w > 0.0); // the near plane
-			const glm::dvec2 place =
-					(glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
-			least = glm::min(least, place);
-			greatest = glm::max(greatest, place);
+			places[corner] = (glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
 		}
+		if (std::any_of(std::begin(outside_counts), std::end(outside_counts),
+					[](int p_count) { return p_count == 3; })) {
+			continue;
+		}
+		const glm::dvec2 least = glm::min(places[0], glm::min(places[1], places[2]));
+		const glm::dvec2 greatest = glm::max(places[0], glm::max(places[1], places[2]));
 		const glm::dvec2 size =
 				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 1.0;
-		const double covered = std::max(size.x, 0.0) * std::max(size.y, 0.0);
-		sum += is_before || !std::isfinite(covered) ? whole : std::min(covered, whole);
+		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
+		// A convex region holds no more lattice points than area + half the outline + 1.
+		const glm::dvec2 u = places[1] - places[0];
+		const glm::dvec2 v = places[2] - places[0];
+		const double triangle = 0.5 * std::abs(u.x * v.y - u.y * v.x) +
+				0.5 * (glm::length(u) + glm::length(v) + glm::length(u - v)) + 1.0;
+		const double covered = std::min(box, triangle);
+		// Rounded vertices may reach a texel farther.
+		sum += is_before || !std::isfinite(covered) ? whole : std::min(covered * 1.01 + 1.0, whole);
 	}
 	return static_cast<uint64_t>(std::ceil(sum));
 }
