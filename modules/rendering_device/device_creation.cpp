@@ -133,6 +133,12 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	features.max_texture_size_px = limits.maxImageDimension2D;
 	features.max_texel_buffer_elements = limits.maxTexelBufferElements;
 	features.subgroup_size = subgroup.subgroupSize;
+	const VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT |
+			VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
+			VK_SUBGROUP_FEATURE_BALLOT_BIT;
+	features.subgroup_operations = !p_options.without.subgroup_operations &&
+			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+			(subgroup.supportedOperations & operations) == operations;
 
 	const float priority = 1.0f;
 	const VkDeviceQueueCreateInfo queue_info = { .sType =

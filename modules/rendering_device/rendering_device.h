@@ -28,6 +28,7 @@ struct DeviceOptions {
 		bool depth_clamp = false;
 		bool fragment_stores = false;
 		bool conditional_rendering = false;
+		bool subgroup_operations = false;
 	} without;
 };
 
@@ -57,6 +58,7 @@ struct DeviceFeatures {
 	uint32_t max_texture_size_px = 0;
 	uint32_t max_texel_buffer_elements = 0;
 	uint32_t subgroup_size = 0;
+	bool subgroup_operations = false; // vote, arithmetic and ballot in compute shaders
 };
 
 struct MemoryUse {

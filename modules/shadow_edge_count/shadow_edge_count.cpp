@@ -14,6 +14,17 @@ namespace {
 
 constexpr uint32_t BORDER_PX = 2; // reference texels of receivers at the view's side
 
+void check_device(const ShadowTechnique::Inputs &p_inputs) {
+	const DeviceFeatures &features = p_inputs.device.get_features();
+	if (!features.fragment_stores || !features.subgroup_operations) {
+		fail("Light \"", p_inputs.light.name, "\": edge_count needs ",
+				features.fragment_stores ? "subgroup vote, arithmetic and ballot in compute shaders"
+										 : "stores and atomics in fragment shaders",
+				", which ", p_inputs.device.get_info().name,
+				" lacks. Set another shadow_technique; `gnomon techniques` lists them.");
+	}
+}
+
 } // namespace
 
 void ShadowEdgeCount::get_light_properties(PropertyList &r_list) const {
@@ -61,6 +72,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		fragment_bound = std::max(fragment_bound, casters.back().fragment_bound);
 		empty_views |= casters.back().edge_count == 0 ? 1u << view : 0u;
 	}
+	check_device(p_inputs);
 	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
 			most_edges, fragment_bound, settings.layer_count);
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
@@ -72,28 +84,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 					drawn_layer_count == settings.layer_count);
 	drawn_disc_radius = settings.disc_radius;
 	drawn_layer_count = settings.layer_count;
-	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
-	uint32_t kept_count = 0;
-	uint32_t moved_count = 0;
-	for (const uint32_t view : views.get_wanted_views()) {
-		FoundView &before = found[view];
-		const bool has_view_content = buffers.prepare_view(p_inputs.device, view, casters[view]);
-		if (has_view_content && may_keep && before.view == p_inputs.views[view] &&
-				before.disc_radius == settings.disc_radius) {
-			compare_casters(before.casters, casters[view]);
-		}
-		for (const CountCaster &caster : casters[view].casters) {
-			++(caster.is_moved ? moved_count : kept_count);
-		}
-		before = { p_inputs.views[view], settings.disc_radius, std::move(casters[view]) };
-	}
-	if (moved_count > 0) {
-		r_plan.run(text("find edges, casters: ", moved_count));
-	}
-	if (kept_count > 0) {
-		r_plan.leave_out(text("find edges, casters: ", kept_count),
-				"kept: neither the light nor the caster moved");
-	}
+	plan_edges(p_inputs, casters, r_plan);
 	const CountCapacities &capacities = buffers.get_capacities();
 	const bool may_lack_room = most_edges > capacities.records_per_view ||
 			(settings.layer_count == 0 && fragment_bound > capacities.fragments_per_view);
@@ -103,6 +94,37 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	} else {
 		r_plan.leave_out(text("filter where a block has more than ", settings.budget, " edges"),
 				text("all casters together have ", edge_count));
+	}
+}
+
+void ShadowEdgeCount::plan_edges(
+		const Inputs &p_inputs, std::vector<CountCasters> &r_casters, TechniquePlan &r_plan) {
+	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
+	uint32_t kept_count = 0;
+	uint32_t moved_count = 0;
+	uint32_t flat_count = 0;
+	for (const uint32_t view : views.get_wanted_views()) {
+		FoundView &before = found[view];
+		const bool has_view_content = buffers.prepare_view(p_inputs.device, view, r_casters[view]);
+		if (has_view_content && may_keep && before.view == p_inputs.views[view] &&
+				before.disc_radius == settings.disc_radius) {
+			compare_casters(before.casters, r_casters[view]);
+		}
+		flat_count = std::max(flat_count, r_casters[view].flat_instance_count);
+		for (const CountCaster &caster : r_casters[view].casters) {
+			++(caster.is_moved ? moved_count : kept_count);
+		}
+		before = { p_inputs.views[view], settings.disc_radius, std::move(r_casters[view]) };
+	}
+	if (moved_count > 0) {
+		r_plan.run(text("find edges, casters: ", moved_count));
+	}
+	if (kept_count > 0) {
+		r_plan.leave_out(text("find edges, casters: ", kept_count),
+				"kept: neither the light nor the caster moved");
+	}
+	if (flat_count > 0) {
+		r_plan.leave_out(text("edges of instances: ", flat_count), "a scale of theirs is 0");
 	}
 }
 

@@ -32,6 +32,9 @@ private:
 		CountCasters casters;
 	};
 
+	/// Of the views that are drawn: whose edges are found anew, and whose are kept.
+	void plan_edges(
+			const Inputs &p_inputs, std::vector<CountCasters> &r_casters, TechniquePlan &r_plan);
 	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
 
 	CountBuffers buffers;

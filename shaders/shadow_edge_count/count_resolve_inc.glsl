@@ -5,8 +5,6 @@
 #ifndef COUNT_RESOLVE_INC_GLSL
 #define COUNT_RESOLVE_INC_GLSL
 
-#extension GL_EXT_control_flow_attributes : require
-
 #include "shadow_edge_count/count_blocks_inc.glsl"
 #include "shadow_edge_count/count_buffers_inc.glsl"
 #include "shadow_edge_count/count_cull_inc.glsl"

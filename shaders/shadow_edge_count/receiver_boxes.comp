@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_vote : require
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
 // The bounds of the receivers of each group of 8 x 8 pixels, in each light view. One subgroup deals with

@@ -6,13 +6,4 @@
 #extension GL_KHR_shader_subgroup_vote : require
 // As resolve.comp with 256 points of the light: four turns of 64.
 #define COUNT_TURN_COUNT 4
-#include "shadow_edge_count/count_resolve_inc.glsl"
-
-layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
-
-void main() {
-	const CountPixel pixel = count_pixel();
-	if (is_in_picture(pixel.pixel)) {
-		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
-	}
-}
+#include "shadow_edge_count/count_mask_inc.glsl"

@@ -1,5 +1,6 @@
 // Lights of any size at any place, and meshes that are no solids.
 
+#include "modules/core/error.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
@@ -51,6 +52,31 @@ std::shared_ptr<const Mesh> make_box_with_slivers() {
 }
 
 } // namespace
+
+TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a flat caster is told") {
+	for (const bool has_stores : { false, true }) {
+		DeviceOptions::Without without;
+		without.fragment_stores = !has_stores;
+		without.subgroup_operations = has_stores;
+		RenderFixture fixture("", without);
+		std::string message;
+		try {
+			fixture.render_mask(SmallScene(), "edge_count");
+		} catch (const Error &error) {
+			message = error.what();
+		}
+		CAPTURE(message);
+		CHECK(message.find("Light \"Light\": edge_count needs ") != std::string::npos);
+		CHECK(message.find(has_stores ? "subgroup vote" : "stores and atomics") !=
+				std::string::npos);
+	}
+	SmallScene scene;
+	scene.box->parent_from_node = glm::scale(scene.box->parent_from_node, glm::dvec3(1, 0, 1));
+	RenderFixture fixture;
+	const RenderResult result = fixture.render_mask(scene, "edge_count");
+	CHECK(is_valid_mask(result));
+	CHECK(result.plan.is_left_out("Light", "edges of instances: 1"));
+}
 
 TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 	RenderFixture fixture;

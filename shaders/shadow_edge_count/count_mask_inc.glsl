@@ -1,0 +1,16 @@
+// Writes the mask in blocks with edges: resolve.comp and resolve_fine.comp.
+#ifndef COUNT_MASK_INC_GLSL
+#define COUNT_MASK_INC_GLSL
+
+#include "shadow_edge_count/count_resolve_inc.glsl"
+
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+void main() {
+	const CountPixel pixel = count_pixel();
+	if (is_in_picture(pixel.pixel)) {
+		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
+	}
+}
+
+#endif
