@@ -49,7 +49,7 @@ std::vector<uint8_t> compute_error_pixels(const MaskImage &p_truth, const MaskIm
 	pixels.reserve(3 * p_truth.get_pixel_count());
 	for (size_t i = 0; i < p_truth.get_pixel_count(); ++i) {
 		if (!p_truth.is_receiver(i)) {
-			pixels.insert(pixels.end(), 3, NO_RECEIVER_GREY);
+			pixels.insert(pixels.end(), 3, HEAT_MAP_NO_RECEIVER);
 			continue;
 		}
 		const glm::u8vec3 color =

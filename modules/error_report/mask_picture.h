@@ -2,6 +2,8 @@
 
 #include "modules/error_report/mask_image.h"
 
+#include "shared/heat_map_shared.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -12,17 +14,12 @@
 
 namespace gnomon {
 
-/// The error that is shown in full colour; larger ones look the same.
-constexpr float HEAT_MAP_RANGE = 0.25f;
-/// Of pixels without receiver in a heat map: neither white nor on the way to a colour.
-constexpr uint8_t NO_RECEIVER_GREY = 96;
-
 /// 8-bit grey, 0 black .. 1 white, linear as stored (255 v rounded, clamped); no receiver is black.
 /// A value that is not finite is an Error; so is an empty image or an unwritable path.
 void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image);
 
-/// Result minus truth in colour: white = no error, blue = too dark, red = too light, full at
-/// HEAT_MAP_RANGE; grey where there is no receiver. Errors as in compute_mask_metrics.
+/// Result minus truth in the colours of shared/heat_map_shared.h, as the renderer's error view.
+/// Errors as in compute_mask_metrics.
 void save_error_png(
 		const std::filesystem::path &p_path, const MaskImage &p_truth, const MaskImage &p_result);
 

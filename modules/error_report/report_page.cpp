@@ -133,7 +133,7 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 		colors.push_back({ color.x, color.y, color.z });
 	}
 	data["heat_map"] = { { "range", HEAT_MAP_RANGE }, { "colors", std::move(colors) },
-		{ "no_receiver", NO_RECEIVER_GREY } };
+		{ "no_receiver", HEAT_MAP_NO_RECEIVER } };
 
 	std::string page = join_files("", ".html");
 	// The data last: it may hold anything, markers too.

@@ -33,8 +33,9 @@ std::string format_milliseconds(const char *p_name, double p_milliseconds) {
 struct GameState {
 	Scene &scene;
 	RenderRequest &request;
+	bool has_truth = false;
 	bool shows_text = true;
-	bool shows_mask = false;
+	std::string shown; // in place of the picture; empty: what --debug-view says
 
 	/// The light's own technique, then each of the registry's, then again.
 	void choose_next_technique() {
@@ -70,7 +71,7 @@ struct GameState {
 				choose_next_technique();
 				break;
 			case GLFW_KEY_V:
-				shows_mask = !shows_mask;
+				shown = shown.empty() ? "mask" : shown == "mask" && has_truth ? "error" : "";
 				break;
 			case GLFW_KEY_F1:
 				shows_text = !shows_text;
@@ -113,7 +114,7 @@ std::vector<std::string> describe_frame(const RenderRequest &p_request, const De
 		lines.push_back(format_milliseconds(timing.name.c_str(), timing.gpu_ms));
 	}
 	lines.push_back("W A S D Q E, right mouse: fly   T: technique   +/-: light size");
-	lines.push_back("V: mask   F1: text   Esc: end");
+	lines.push_back("V: mask, error   F1: text   Esc: end");
 	return lines;
 }
 
@@ -141,7 +142,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	RenderRequest request;
 	request.technique_override = p_options.technique;
 	request.mode = RenderGraph::Mode::QUEUE;
-	GameState state{ r_scene, request };
+	const std::shared_ptr<const TruthMask> truth = load_truth(p_options);
+	GameState state{ r_scene, request, truth != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();
 	uint32_t drawn_count = 0;
@@ -162,9 +164,12 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		request.scene = build_snapshot(r_scene, camera);
 		request.size_px = size_px;
 		request.acquire_window_image = [&] { return swapchain.acquire(size_px); };
-		request.debug_view = state.shows_mask ? "mask" : p_options.debug_view;
+		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;
 		// A view that never was is refused; one that T or a light has taken away gives way.
 		request.needs_debug_view = drawn_count == 0;
+		// Likewise a truth of another size, once the window has been resized.
+		const bool fits = truth && (drawn_count == 0 || truth->size_px == size_px);
+		request.truth = fits ? truth : nullptr;
 		request.wants_image = is_last && !p_options.capture.empty();
 		request.overlay = state.shows_text
 				? make_overlay_text(describe_frame(request, device->get_info(), result, seconds),

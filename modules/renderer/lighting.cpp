@@ -106,20 +106,16 @@ void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GB
 			glm::uvec3(p_size_px, 1u));
 }
 
-namespace {
-
-RGTexture create_output(RenderGraph &r_graph, glm::uvec2 p_size_px) {
+RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
 	return r_graph.create_texture({ "picture", Format::RGBA8_UNORM, p_size_px, 1,
 			TextureUsage::STORAGE | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
 }
-
-} // namespace
 
 RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
 		RGTexture p_radiance, glm::uvec2 p_size_px) {
 	const PipelineRID pipeline =
 			p_device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} });
-	const RGTexture output = create_output(r_graph, p_size_px);
+	const RGTexture output = create_picture(r_graph, p_size_px);
 	add_compute_pass(r_graph, "tone map", pipeline,
 			{
 					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
@@ -127,22 +123,6 @@ RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGB
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
 			glm::uvec3(p_size_px, 1u));
-	return output;
-}
-
-RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
-	const RGTexture output = create_output(r_graph, p_size_px);
-	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, p_view.class_count };
-	add_compute_pass(r_graph, "debug view " + p_view.id, pipeline,
-			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
-					PassBinding::read(RENDERER_BINDING_MASK, p_view.texture),
-					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
-			},
-			p_size_px, push);
 	return output;
 }
 

@@ -28,11 +28,10 @@ RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
 		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
 		RGTexture p_radiance, glm::uvec2 p_size_px);
-/// RGBA8_UNORM, sRGB-encoded.
+/// What is shown or captured: RGBA8_UNORM, sRGB-encoded.
+RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px);
+/// Fills one.
 RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
 		RGTexture p_radiance, glm::uvec2 p_size_px);
-/// RGBA8_UNORM: the texture of a debug view in place of the picture.
-RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px);
 
 } // namespace gnomon

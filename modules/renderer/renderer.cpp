@@ -131,6 +131,10 @@ RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTe
 						r_light_constants, request.size_px, request.technique_override,
 						request.may_leave_out, request.may_keep, asks },
 				plan, r_frame.debug_views);
+		if (asks && request.truth) {
+			r_frame.debug_views.push_back(add_error_view(
+					graph, device, r_receivers, mask, *request.truth, request.size_px));
+		}
 	}
 	return mask;
 }
@@ -159,30 +163,6 @@ void Renderer::add_mask_only(Frame &r_frame) {
 		return;
 	}
 	fail("Light \"", request.mask_light, "\" is not in the scene.");
-}
-
-const ShadowTechnique::DebugView *Renderer::choose_debug_view(const Frame &p_frame) {
-	if (p_frame.request.debug_view.empty()) {
-		return nullptr;
-	}
-	std::string ids;
-	for (const ShadowTechnique::DebugView &view : p_frame.debug_views) {
-		if (view.id == p_frame.request.debug_view) {
-			return &view;
-		}
-		ids += (ids.empty() ? "\"" : ", \"") + view.id + "\"";
-	}
-	if (!p_frame.request.needs_debug_view) {
-		return nullptr;
-	}
-	if (ids.empty()) {
-		fail("Debug view \"", p_frame.request.debug_view,
-				"\": no light in view has a shadow. `gnomon run --plan` says why; see "
-				"shadow_enabled, "
-				"intensity and range of the lights.");
-	}
-	fail("Debug view \"", p_frame.request.debug_view,
-			"\" does not exist for this light's technique, must be one of ", ids, ".");
 }
 
 void Renderer::add_picture(Frame &r_frame) {
@@ -216,7 +196,8 @@ void Renderer::add_picture(Frame &r_frame) {
 		r_frame.result.debug_views.push_back(view.id);
 	}
 	RGTexture picture;
-	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame)) {
+	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame.debug_views,
+				{ request.debug_view, request.needs_debug_view, request.truth != nullptr })) {
 		picture = add_debug_view_pass(graph, device, r_frame.constants, *view, request.size_px);
 		plan.run("debug view");
 	} else {

@@ -2,6 +2,7 @@
 
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
+#include "modules/renderer/debug_view.h"
 #include "modules/renderer/frame_plan.h"
 #include "modules/renderer/light_shadows.h"
 #include "modules/renderer/mesh_store.h"
@@ -34,8 +35,10 @@ struct RenderRequest {
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
 	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or
-	/// "mask".
+	/// "mask", or "error" where there is a truth.
 	std::string debug_view;
+	/// Of that light, as the same camera sees it; of the frame's size.
+	std::shared_ptr<const TruthMask> truth;
 	/// False: where there is no such view the picture is shown, as a user expects who changes the
 	/// technique or the lights while looking at one.
 	bool needs_debug_view = true;
@@ -86,9 +89,6 @@ private:
 			RGBuffer &r_light_constants);
 	void add_mask_only(Frame &r_frame);
 	void add_picture(Frame &r_frame);
-	/// The one that was asked for; an unknown one is an Error that lists those there are.
-	/// Null: the picture is shown.
-	static const ShadowTechnique::DebugView *choose_debug_view(const Frame &p_frame);
 	void add_overlay(Frame &r_frame, RGTexture p_target);
 	/// A pass that copies a texture where the CPU can read it, and fills r_bytes.
 	void add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes);

@@ -82,6 +82,7 @@ public:
 		uint32_t layer = 0;
 		/// Above 0: values are classes 0 .. class_count - 1 (at most 8), shown in colours.
 		uint32_t class_count = 0;
+		bool is_color = false; // values are sRGB colours, shown as they are
 	};
 
 	virtual ~ShadowTechnique() = default;

@@ -35,6 +35,7 @@ shader::CountLightConstants make_light_constants(const CountBlockPasses &p_passe
 	constants.record_capacity = p_passes.capacities.records_per_view;
 	constants.fragment_capacity = p_passes.capacities.fragments_per_view;
 	constants.list_capacity = p_passes.settings.budget;
+	constants.bundle_capacity = p_passes.capacities.get_bundles_per_view();
 	return constants;
 }
 
@@ -181,6 +182,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
 					PassBinding::read(COUNT_BINDING_BOXES, boxes),
 					PassBinding::read(COUNT_BINDING_RECORDS, p_passes.light.records),
+					PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles),
 					PassBinding::read(COUNT_BINDING_TOTALS, p_passes.light.totals),
 					PassBinding::write(COUNT_BINDING_ENDS, blocks.ends),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),

@@ -22,6 +22,10 @@ constexpr uint32_t FRAGMENTS_OF_SIX_VIEWS = 8;
 
 } // namespace
 
+uint32_t CountCapacities::get_bundles_per_view() const {
+	return (records_per_view + EDGE_COUNT_BUNDLE_SIZE - 1) / EDGE_COUNT_BUNDLE_SIZE;
+}
+
 CountCapacities choose_capacities(uint32_t p_view_count, glm::uvec2 p_map_size_px,
 		uint32_t p_edge_count, uint64_t p_fragment_bound, uint32_t p_layer_count) {
 	const bool is_one = p_view_count == 1;
@@ -95,6 +99,8 @@ bool CountBuffers::prepare(
 	const uint64_t view_count = capacities.view_count;
 	records = make("edges", view_count * capacities.records_per_view,
 			sizeof(shader::CountEdgeRecord), Format::RGBA32_SFLOAT, BufferUsage::STORAGE);
+	bundles = make("bundles", view_count * capacities.get_bundles_per_view(),
+			sizeof(shader::CountEdgeBundle), Format::RGBA32_SFLOAT, BufferUsage::STORAGE);
 	// Pixels beside the receivers of a group look into the map as well, also of views without
 	// casters, and must find short lists there.
 	const std::vector<uint8_t> empty_texels(
@@ -144,6 +150,7 @@ bool CountBuffers::prepare_view(
 
 void CountBuffers::reset() {
 	records.reset();
+	bundles.reset();
 	texels.reset();
 	fragments.reset();
 	totals.reset();
@@ -154,8 +161,9 @@ void CountBuffers::reset() {
 
 const CountFrameBuffers &CountBuffers::import(RenderGraph &r_graph) {
 	if (!is_imported) {
-		frame = { r_graph.import_buffer(records.get()), r_graph.import_buffer(texels.get()),
-			r_graph.import_buffer(fragments.get()), r_graph.import_buffer(totals.get()) };
+		frame = { r_graph.import_buffer(records.get()), r_graph.import_buffer(bundles.get()),
+			r_graph.import_buffer(texels.get()), r_graph.import_buffer(fragments.get()),
+			r_graph.import_buffer(totals.get()) };
 		is_imported = true;
 	}
 	return frame;

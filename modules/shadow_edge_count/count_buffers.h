@@ -15,6 +15,7 @@ struct CountCapacities {
 	uint32_t records_per_view = 0;
 	uint32_t fragments_per_view = 0;
 	bool operator==(const CountCapacities &) const = default;
+	uint32_t get_bundles_per_view() const;
 };
 
 /// Enough for nearly all scenes; see CountBuffers::prepare for the rest. p_edge_count: of the view
@@ -26,6 +27,7 @@ CountCapacities choose_capacities(uint32_t p_view_count, glm::uvec2 p_map_size_p
 /// Buffers of one light that all its views share, as handles of this frame.
 struct CountFrameBuffers {
 	RGBuffer records;	// CountEdgeRecord
+	RGBuffer bundles;	// CountEdgeBundle
 	RGBuffer texels;	// of the layer map
 	RGBuffer fragments; // likewise
 	RGBuffer totals;	// EDGE_COUNT_TOTAL_*
@@ -73,6 +75,7 @@ private:
 	CountCapacities capacities;
 	std::string light;
 	OwnedBuffer records;
+	OwnedBuffer bundles;
 	OwnedBuffer texels;
 	OwnedBuffer fragments;
 	OwnedBuffer totals;

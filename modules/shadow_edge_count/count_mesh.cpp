@@ -3,14 +3,59 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace gnomon {
 
 static_assert(NO_FACE == EDGE_COUNT_NO_FACE);
 
+namespace {
+
+/// Of 10 bits each becomes one number; the bits of one stand three apart.
+uint32_t spread_bits(uint32_t p_value) {
+	uint32_t value = (p_value | p_value << 16) & 0x030000ffu;
+	value = (value | value << 8) & 0x0300f00fu;
+	value = (value | value << 4) & 0x030c30c3u;
+	return (value | value << 2) & 0x09249249u;
+}
+
+/// Edges in the order of their middles along a Morton curve through the mesh's bounds.
+std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
+	const std::vector<glm::vec3> &positions = p_topology.welded_positions_node;
+	glm::dvec3 least(1e300);
+	glm::dvec3 greatest(-1e300);
+	for (const glm::vec3 &position : positions) {
+		least = glm::min(least, glm::dvec3(position));
+		greatest = glm::max(greatest, glm::dvec3(position));
+	}
+	const glm::dvec3 size = glm::max(greatest - least, glm::dvec3(1e-300));
+	std::vector<std::pair<uint32_t, MeshEdge>> placed;
+	placed.reserve(p_topology.edges.size());
+	for (const MeshEdge &edge : p_topology.edges) {
+		const glm::dvec3 middle =
+				0.5 * (glm::dvec3(positions[edge.a]) + glm::dvec3(positions[edge.b]));
+		const glm::uvec3 cell(glm::clamp((middle - least) / size * 1023.0, 0.0, 1023.0));
+		placed.emplace_back(
+				spread_bits(cell.x) | spread_bits(cell.y) << 1 | spread_bits(cell.z) << 2, edge);
+	}
+	std::stable_sort(placed.begin(), placed.end(),
+			[](const auto &p_left, const auto &p_right) { return p_left.first < p_right.first; });
+	std::vector<MeshEdge> edges;
+	edges.reserve(placed.size());
+	for (const auto &[place, edge] : placed) {
+		edges.push_back(edge);
+	}
+	return edges;
+}
+
+} // namespace
+
 CountMesh build_count_mesh(const MeshTopology &p_topology) {
 	CountMesh mesh;
+	const std::vector<MeshEdge> sorted = sort_edges(p_topology);
 	const auto add_edges = [&](bool p_is_inconsistent) {
-		for (const MeshEdge &edge : p_topology.edges) {
+		for (const MeshEdge &edge : sorted) {
 			if (edge.is_inconsistent == p_is_inconsistent && !edge.is_coplanar) {
 				mesh.edges.push_back({ edge.a, edge.b, edge.face0, edge.face1 });
 			}

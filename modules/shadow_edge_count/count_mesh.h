@@ -14,7 +14,8 @@ namespace gnomon {
 /// A mesh's edges as the passes that find edges read them; vertices are welded ones.
 struct CountMesh {
 	/// Those that can be silhouettes: without edges between faces that continue each other. First
-	/// those whose faces wind against each other along them, as they should, then the others.
+	/// those whose faces wind against each other along them, as they should, then the others. In
+	/// either part what lies close together stands close together, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	uint32_t inconsistent_from = 0; // the first of the others
 

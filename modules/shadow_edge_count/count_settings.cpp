@@ -4,7 +4,7 @@ namespace gnomon {
 
 void add_count_properties(PropertyList &r_list) {
 	const std::string group = "Edge count";
-	r_list.add({ "edge_count_quality", PropertyType::ENUM, {}, "64,256",
+	r_list.add({ "edge_count_quality", PropertyType::ENUM, std::string("256"), "64,256",
 			"Points of the light that are counted where several casters overlap. More have finer "
 			"steps there and cost time.",
 			"", group });

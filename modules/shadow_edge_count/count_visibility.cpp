@@ -1,5 +1,6 @@
 #include "modules/shadow_edge_count/count_visibility.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -16,6 +17,8 @@ const double AWAY_TOLERANCE = 5e-5;			// of faces turned away from the light, an
 const double TOWARD_TOLERANCE = 3e-4;		// of faces turned towards it
 const double DOUBLE_SIDED_TOLERANCE = 3e-3; // likewise, of sheets
 const double STEEP_SLOPE = 3e-3;			// rise of the receiver to a texel that is too steep
+const double LOW_CLEARANCE = 0.02;			// below a solid, where the way to a texel has room
+const double LOW_TEXEL = 2.0;				// square texels: the cost of having none
 const double FLAT_NORMAL = 1e-7;			// of dot(n, r): the receiver is seen edge on
 const double NEARER_TOLERANCE = 2e-5;		// an edge that is no nearer to the light than this
 const double SMALLEST_RADIUS_SIZES = 1e-6;	// of S: R is at least this where it divides
@@ -25,6 +28,7 @@ const int SATURATION = 15;					// of a counter
 struct LayerCounts {
 	int away_count = 0;
 	int toward_count = 0;
+	double clearance = LOW_CLEARANCE; // below the nearest solid; a share, as the tolerances
 };
 
 LayerCounts count_layers(
@@ -34,7 +38,10 @@ LayerCounts count_layers(
 	for (const LayerFragment &fragment : p_fragments) {
 		const double height = fragment.w - p_w;
 		if (fragment.is_away || fragment.is_double_sided) {
-			counts.away_count += height > AWAY_TOLERANCE * scale ? 1 : 0;
+			if (height > AWAY_TOLERANCE * scale) {
+				++counts.away_count;
+				counts.clearance = std::min(counts.clearance, height / scale);
+			}
 		}
 		if (!fragment.is_away || fragment.is_double_sided) {
 			const double tolerance =
@@ -115,7 +122,9 @@ private:
 							std::max(compute_rise(layers.get_center(texel)), 0.0) / steep;
 					const bool is_bad =
 							layers.is_buried(texel) || here.away_count != here.toward_count;
-					const double cost = glm::dot(away, away) + rise * rise + (is_bad ? 1e6 : 0.0);
+					const double low = 1.0 - here.clearance / LOW_CLEARANCE;
+					const double cost = glm::dot(away, away) + rise * rise + LOW_TEXEL * low +
+							(is_bad ? 1e6 : 0.0);
 					if (cost < least) {
 						least = cost;
 						chosen = texel;

@@ -1,6 +1,8 @@
 #include "modules/core/text.h"
 #include "modules/shadow_edge_count/view_passes.h"
 
+#include <algorithm>
+
 namespace gnomon {
 
 namespace {
@@ -91,6 +93,16 @@ void add_find_passes(
 				bindings.emplace_back(FIND_BINDING_TOTALS, p_context.get(light.totals));
 				return bindings;
 			});
+	const uint32_t most_records =
+			std::min(p_passes.casters.edge_count, p_passes.capacities.records_per_view);
+	add_part_pass(r_graph, p_device, name("bound edges"), "shadow_edge_count/bound_edges.comp",
+			p_passes,
+			{ PassBinding::constants(FIND_BINDING_VIEW, constants),
+					PassBinding::read(FIND_BINDING_LIST, light.records),
+					PassBinding::read(FIND_BINDING_TOTALS, light.totals),
+					PassBinding::write(
+							FIND_BINDING_BUNDLES, light.bundles, PassBuilder::Content::UPDATE) },
+			(most_records + EDGE_COUNT_BUNDLE_SIZE - 1) / EDGE_COUNT_BUNDLE_SIZE);
 }
 
 } // namespace gnomon

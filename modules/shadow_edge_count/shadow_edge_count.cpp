@@ -195,12 +195,12 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name :
-			{ "face_planes.comp", "mark_edges.comp", "list_edges.comp", "layers.vert",
-					"count_layers.frag", "sum_layers.comp", "place_layers.comp", "fill_layers.frag",
-					"place_nearest.comp", "nearest_layers.frag", "bury_texels.comp",
-					"receiver_boxes.comp", "list_blocks.comp", "resolve_plain.comp", "resolve.comp",
-					"resolve_fine.comp", "filter_map.comp", "filter_blocks.comp", "debug.comp" }) {
+	for (const char *name : { "face_planes.comp", "mark_edges.comp", "list_edges.comp",
+				 "bound_edges.comp", "layers.vert", "count_layers.frag", "sum_layers.comp",
+				 "place_layers.comp", "fill_layers.frag", "place_nearest.comp",
+				 "nearest_layers.frag", "bury_texels.comp", "receiver_boxes.comp",
+				 "list_blocks.comp", "resolve_plain.comp", "resolve.comp", "resolve_fine.comp",
+				 "filter_map.comp", "filter_blocks.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	return files;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/render_graph/compute_pass.h"
 #include "modules/shadow_edge_count/count_buffers.h"
 
 namespace gnomon {
@@ -15,6 +16,11 @@ struct CountViewPasses {
 	CountFrameBuffers light;
 	CountViewBuffers view;
 };
+
+/// A compute pass over the view's part of the light's buffers, see CountPartPush.
+void add_part_pass(RenderGraph &r_graph, RenderingDevice &p_device, const std::string &p_name,
+		const char *p_shader, const CountViewPasses &p_passes, std::vector<PassBinding> p_bindings,
+		uint32_t p_items, const std::vector<SpecializationConstant> &p_constants = {});
 
 /// Passes that find the edges of one view's casters that are silhouettes from a point of the light,
 /// and list them in order. Of casters that did not move, what was found before is listed again.

@@ -32,6 +32,6 @@ void main() {
 	const vec4 shown = (value - push.shown_range.x) / (push.shown_range.y - push.shown_range.x);
 	const vec3 color = push.class_count > 0u
 			? CLASS_COLORS[min(uint(value.r), push.class_count - 1u) % 8u]
-			: clamp(shown.rrr, 0.0, 1.0);
+			: (push.is_color != 0u ? value.rgb : clamp(shown.rrr, 0.0, 1.0));
 	imageStore(output_image, pixel, vec4(color, 1.0));
 }

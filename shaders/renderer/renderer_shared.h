@@ -15,6 +15,7 @@
 #define RENDERER_BINDING_MASK 9
 #define RENDERER_BINDING_RADIANCE 10
 #define RENDERER_BINDING_OUTPUT 11
+#define RENDERER_BINDING_TRUTH 12
 #define RENDERER_GROUP_SIZE 8
 
 /// Push constants of debug_view.comp.
@@ -22,8 +23,12 @@ struct SHARED_ALIGN DebugViewPush {
 	vec2 shown_range; // value shown black, value shown white
 	uint layer;
 	uint class_count; // above 0: values are classes 0 .. class_count - 1, shown in colours
+	uint is_color;	  // 1: values are colours
+	uint padding0;
+	uint padding1;
+	uint padding2;
 };
-SHARED_SIZE(DebugViewPush, 16);
+SHARED_SIZE(DebugViewPush, 32);
 
 #include "shared/shared_end.h"
 #endif

@@ -59,6 +59,29 @@ int find_count_side(CountViewConstants p_view, CountBox p_box, vec4 p_plane) {
 	return side > range ? 1 : (side < -range ? -1 : 0);
 }
 
+CountEdgeBundle make_count_bundle(CountEdgeRecord p_edge) {
+	const vec2 a = p_edge.a_bx.xy;
+	const vec2 b = vec2(p_edge.a_bx.w, p_edge.by_bw_weight_kind.x);
+	return CountEdgeBundle(vec4(min(a, b), max(a, b)),
+			vec4(max(p_edge.a_bx.z, p_edge.by_bw_weight_kind.y), 0.0, 0.0, 0.0));
+}
+
+CountEdgeBundle join_count_bundles(CountEdgeBundle p_one, CountEdgeBundle p_other) {
+	return CountEdgeBundle(vec4(min(p_one.least_greatest_xy.xy, p_other.least_greatest_xy.xy),
+								   max(p_one.least_greatest_xy.zw, p_other.least_greatest_xy.zw)),
+			max(p_one.greatest_w, p_other.greatest_w));
+}
+
+/// False: none of the bundle's edges adds anything to any receiver of the box.
+bool may_use_bundle(CountViewConstants p_view, CountBox p_box, CountEdgeBundle p_bundle) {
+	const float above = p_bundle.greatest_w.x - (p_box.center.z - p_box.half_size.z);
+	const vec4 sides = p_bundle.least_greatest_xy;
+	const vec2 gap = max(max(sides.xy - p_box.center.xy, p_box.center.xy - sides.zw) - p_box.half_size.xy,
+			vec2(0.0));
+	const float reach = max(p_box.reach * above, p_box.center_distance);
+	return !p_box.is_bounded || (above > 0.0 && dot(gap, gap) <= reach * reach);
+}
+
 /// COUNT_USE_*; 0: the edge adds nothing to any receiver of the box.
 uint find_count_use(CountViewConstants p_view, CountBox p_box, CountEdgeRecord p_edge) {
 	const vec3 a = p_edge.a_bx.xyz;

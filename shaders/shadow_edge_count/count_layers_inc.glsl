@@ -10,6 +10,8 @@ const float COUNT_TOWARD_TOLERANCE = 3e-4;
 const float COUNT_DOUBLE_SIDED_TOLERANCE = 3e-3;
 const float COUNT_STEEP_SLOPE = 3e-3;
 const float COUNT_BAD_TEXEL = 1e6; // square texels: farther than any good one
+const float COUNT_LOW_CLEARANCE = 0.02; // above which a solid leaves room for the way to a texel
+const float COUNT_LOW_TEXEL = 2.0;		// square texels: where there is none
 
 /// First fragment of a texel, and how many there are, with LAYERS_BURIED and
 /// LAYERS_ONLY_AWAY. Texels of all views stand one
@@ -29,6 +31,7 @@ struct CountTexel {
 	vec2 offset; // of its centre from the receiver, x', y'
 	float rise;	 // of the receiver's plane there, not below 0
 	int away_count;
+	float clearance; // below the nearest solid; a share, as the tolerances
 	bool is_bad; // buried, or inside a solid
 };
 
@@ -46,6 +49,7 @@ CountTexel count_texel(CountViewConstants p_view, CountReceiver p_receiver, ivec
 			(p_view.index * p_view.map_size_px.y + uint(p_texel.y)) * p_view.map_size_px.x +
 			uint(p_texel.x));
 	texel.away_count = 0;
+	texel.clearance = COUNT_LOW_CLEARANCE;
 	int toward_count = 0;
 	const uint count = range.y & LAYERS_COUNT_MASK;
 	uint i = 0u;
@@ -55,8 +59,9 @@ CountTexel count_texel(CountViewConstants p_view, CountReceiver p_receiver, ivec
 		const float height = (fragment.x - w) / scale;
 		const float toward_tolerance =
 				fragment.y == 2.0 ? COUNT_DOUBLE_SIDED_TOLERANCE : COUNT_TOWARD_TOLERANCE;
-		texel.away_count +=
-				is_there && fragment.y >= 1.0 && height > COUNT_AWAY_TOLERANCE ? 1 : 0;
+		const bool is_away = is_there && fragment.y >= 1.0 && height > COUNT_AWAY_TOLERANCE;
+		texel.away_count += is_away ? 1 : 0;
+		texel.clearance = is_away ? min(texel.clearance, height) : texel.clearance;
 		toward_count += is_there && fragment.y != 1.0 && height > toward_tolerance ? 1 : 0;
 		++i;
 	} while (i < count);
@@ -84,7 +89,9 @@ CountReference find_count_reference(CountViewConstants p_view, CountReceiver p_r
 		const CountTexel here = count_texel(p_view, p_receiver, inside);
 		const vec2 away = vec2(inside) + 0.5 - place;
 		const float rise = here.rise / steep;
-		const float cost = dot(away, away) + rise * rise + (here.is_bad ? COUNT_BAD_TEXEL : 0.0);
+		const float low = 1.0 - here.clearance / COUNT_LOW_CLEARANCE;
+		const float cost = dot(away, away) + rise * rise + COUNT_LOW_TEXEL * low +
+				(here.is_bad ? COUNT_BAD_TEXEL : 0.0);
 		if (texel == inside && cost < least) {
 			least = cost;
 			chosen = here;

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#include "shadow_edge_count/count_boxes_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
 // The bounds of the receivers of each group of 8 x 8 pixels, in each light view. One subgroup deals with
@@ -12,7 +13,6 @@ layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
 	CountGroupBox boxes[];
 };
 
-const float FAR = 3e38;
 const uint PIXEL_COUNT = uint(EDGE_COUNT_GROUP_PX * EDGE_COUNT_GROUP_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 
@@ -36,43 +36,37 @@ float find_split(uint p_view, float p_least, float p_greatest) {
 	const float apart_m =
 			is_directional ? p_greatest - p_least : 1.0 / p_least - 1.0 / p_greatest;
 	return apart_m > APART_SIZES * light.views[p_view].scene_size_m ? 0.5 * (p_least + p_greatest)
-																	 : -FAR;
+																	 : -COUNT_FAR;
 }
 
 /// Writes both boxes of a view from what each invocation found.
 void write_boxes(uint p_view, vec3 p_warped[PIXELS_PER_INVOCATION], bool p_is_here[PIXELS_PER_INVOCATION]) {
-	float least_w = FAR;
-	float greatest_w = -FAR;
+	float least_w = COUNT_FAR;
+	float greatest_w = -COUNT_FAR;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		least_w = p_is_here[i] ? min(least_w, p_warped[i].z) : least_w;
 		greatest_w = p_is_here[i] ? max(greatest_w, p_warped[i].z) : greatest_w;
 	}
 	least_w = subgroupMin(least_w);
 	greatest_w = subgroupMax(greatest_w);
-	const float split = least_w < greatest_w ? find_split(p_view, least_w, greatest_w) : -FAR;
-	vec3 near_least = vec3(FAR);
-	vec3 near_greatest = vec3(-FAR);
-	vec3 far_least = vec3(FAR);
-	vec3 far_greatest = vec3(-FAR);
+	const float split = least_w < greatest_w ? find_split(p_view, least_w, greatest_w) : -COUNT_FAR;
+	CountBounds near = make_count_bounds();
+	CountBounds far = make_count_bounds();
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const bool is_near = p_is_here[i] && p_warped[i].z >= split;
 		const bool is_far = p_is_here[i] && p_warped[i].z < split;
-		near_least = is_near ? min(near_least, p_warped[i]) : near_least;
-		near_greatest = is_near ? max(near_greatest, p_warped[i]) : near_greatest;
-		far_least = is_far ? min(far_least, p_warped[i]) : far_least;
-		far_greatest = is_far ? max(far_greatest, p_warped[i]) : far_greatest;
+		near.least = is_near ? min(near.least, p_warped[i]) : near.least;
+		near.greatest = is_near ? max(near.greatest, p_warped[i]) : near.greatest;
+		far.least = is_far ? min(far.least, p_warped[i]) : far.least;
+		far.greatest = is_far ? max(far.greatest, p_warped[i]) : far.greatest;
 	}
-	near_least = subgroupMin(near_least);
-	near_greatest = subgroupMax(near_greatest);
-	far_least = subgroupMin(far_least);
-	far_greatest = subgroupMax(far_greatest);
+	near = CountBounds(subgroupMin(near.least), subgroupMax(near.greatest));
+	far = CountBounds(subgroupMin(far.least), subgroupMax(far.greatest));
 	if (subgroupElect()) {
 		const uint group = gl_WorkGroupID.y * light.group_count.x + gl_WorkGroupID.x;
 		const uint first = (group * VIEW_COUNT + p_view) * uint(EDGE_COUNT_BOXES_PER_GROUP);
-		boxes[first + EDGE_COUNT_BOX_NEAR] =
-				CountGroupBox(vec4(near_least, 0.0), vec4(near_greatest, 0.0));
-		boxes[first + EDGE_COUNT_BOX_FAR] =
-				CountGroupBox(vec4(far_least, 0.0), vec4(far_greatest, 0.0));
+		boxes[first + EDGE_COUNT_BOX_NEAR] = pack_count_bounds(light.views[p_view], near);
+		boxes[first + EDGE_COUNT_BOX_FAR] = pack_count_bounds(light.views[p_view], far);
 	}
 }
 

@@ -22,6 +22,14 @@ struct SHARED_ALIGN CountEdgeRecord {
 };
 SHARED_SIZE(CountEdgeRecord, 64);
 
+/// What bounds so many edges that follow one another in a view's list: one test may spare all of them.
+struct SHARED_ALIGN CountEdgeBundle {
+	vec4 least_greatest_xy; // x' and y'
+	vec4 greatest_w;		// w, 0, 0, 0
+};
+SHARED_SIZE(CountEdgeBundle, 32);
+#define EDGE_COUNT_BUNDLE_SIZE 32
+
 // Edges are found 32 to a word, 64 words to a block, so that the list has their own order.
 #define EDGE_COUNT_EDGES_PER_WORD 32
 #define EDGE_COUNT_WORDS_PER_BLOCK 64
@@ -37,6 +45,7 @@ SHARED_SIZE(CountEdgeRecord, 64);
 #define FIND_BINDING_BLOCKS 6
 #define FIND_BINDING_LIST 7
 #define FIND_BINDING_TOTALS 8
+#define FIND_BINDING_BUNDLES 9
 
 /// An edge between welded vertices, a -> b as its first face winds.
 struct SHARED_ALIGN CountMeshEdge {
@@ -99,8 +108,8 @@ struct SHARED_ALIGN CountLightConstants {
 	uint record_capacity;	// edges of one view
 	uint fragment_capacity; // of one view's layer map
 	uint list_capacity;		// edges of one block
-	uint padding0;
-	uint padding1;
+	uint bundle_capacity;	// of one view
+	uint padding;
 };
 SHARED_SIZE(CountLightConstants, 336);
 
@@ -108,10 +117,12 @@ SHARED_SIZE(CountLightConstants, 336);
 /// Where they lie at very different depths, as beside an object's outline, they are two boxes: what is
 /// between them has no receiver.
 struct SHARED_ALIGN CountGroupBox {
-	vec4 least;
-	vec4 greatest;
+	uint least_xy; // 16 bits each, see count_boxes_inc.glsl
+	uint greatest_xy;
+	float least_w;
+	float greatest_w;
 };
-SHARED_SIZE(CountGroupBox, 32);
+SHARED_SIZE(CountGroupBox, 16);
 #define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them, where there is one box
 #define EDGE_COUNT_BOX_FAR 1
 #define EDGE_COUNT_BOXES_PER_GROUP 2 // and view
@@ -135,6 +146,7 @@ SHARED_SIZE(CountGroupBox, 32);
 #define COUNT_BINDING_BLOCKS (MAP_RESOLVE_OWN_BINDING + 10)
 #define COUNT_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 11)
 #define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_OWN_BINDING + 12)
+#define COUNT_BINDING_BUNDLES (MAP_RESOLVE_OWN_BINDING + 13)
 
 // Blocks are dealt with by what they have: no edges, edges, or more than a list holds. For each kind the
 // arguments of a dispatch (blocks, groups of a block, 1) and the blocks; then the arguments of the pass

@@ -33,7 +33,7 @@ EDGE_COUNT = ("edge_count",)
 # Technique and its settings. They are timed in this order.
 CONFIGURATIONS = {
     "edge_count": EDGE_COUNT,
-    "fine": ("edge_count", "edge_count_quality=256"),
+    "coarse": ("edge_count", "edge_count_quality=64"),
     "pcss": ("pcss", "pcss_taps=64"),
     # Counts nothing: its filter of 64 + 64 taps wherever a block of pixels has an edge, one lookup elsewhere.
     "skipping": ("edge_count", "edge_count_budget=0"),
@@ -249,11 +249,11 @@ def build_rows(rows):
     return format_table((*header, "longest passes, ms"), lines)
 
 
-def describe_fine(rows):
-    mae, p99 = (statistics.fmean(row.errors["fine"][name] for row in rows) for name in ("mae", "p99"))
-    ratio = statistics.geometric_mean(row.compute_ratio("fine", "pcss") for row in rows)
+def describe_coarse(rows):
+    mae, p99 = (statistics.fmean(row.errors["coarse"][name] for row in rows) for name in ("mae", "p99"))
+    ratio = statistics.geometric_mean(row.compute_ratio("coarse", "pcss") for row in rows)
     return "With `%s`: mean MAE %.4f, mean p99 %.4f, time over `pcss` %.2f (geometric mean)." % (
-        CONFIGURATIONS["fine"][1], mae, p99, ratio)  # fmt: skip
+        CONFIGURATIONS["coarse"][1], mae, p99, ratio)  # fmt: skip
 
 
 def describe_memory(memory):
@@ -288,7 +288,7 @@ def main():
     measured = "%s Pictures of %s, rounds: %d." % (describe_machine(load), arguments.size.replace("x", " x "), arguments.rounds)
     tables = {
         "edge_count_goals": build_goals(rows, memory),
-        "edge_count_rows": build_rows(rows) + ["", describe_fine(rows), describe_memory(memory)],
+        "edge_count_rows": build_rows(rows) + ["", describe_coarse(rows), describe_memory(memory)],
     }
     for name, lines in tables.items():
         lines += ["", measured]

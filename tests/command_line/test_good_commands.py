@@ -109,6 +109,17 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(read_png_size(path), (32, 32))
 
+    def test_the_error_against_a_truth_is_shown(self):
+        self.assert_mask(self.compute_mask(CONTACT_BOX))
+        pictures = {}
+        for name, more in (("error", ("--debug-view", "error")), ("picture", ())):
+            path = self.path(name + ".png")
+            result = run("run", CONTACT_BOX, "--headless", *SMALL, "--truth", self.path("mask.exr"), "--capture", path, *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(path, "rb") as file:
+                pictures[name] = file.read()
+        self.assertNotEqual(pictures["error"], pictures["picture"])
+
     def test_switching_a_shadow_off_changes_the_picture(self):
         pictures = []
         for number, settings in enumerate(((), ("--set", "light.Light.shadow_enabled=false"))):

@@ -1,9 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/count_boxes_inc.glsl"
 #include "shadow_edge_count/count_cull_inc.glsl"
 
-// Input 2 i: least x', y', w of a box of receivers; 2 i + 1: greatest. Output per box and edge: what
-// find_count_use gives, is the box bounded.
+// Input 2 i: least x', y', w of a box of receivers; 2 i + 1: greatest. Each is packed and unpacked first.
+// Output per box and edge: what find_count_use gives, or 0 where a bundle of this edge alone is not asked;
+// is the box bounded; is a bundle of all edges asked.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -25,8 +27,18 @@ void main() {
 	if (2u * box_index >= uint(items.length())) {
 		return;
 	}
-	const CountBox box =
-			make_count_box(view, items[2u * box_index].xyz, items[2u * box_index + 1u].xyz);
-	const uint use = find_count_use(view, box, edges[item % edge_count]);
-	results[item] = vec4(float(use), box.is_bounded ? 1.0 : 0.0, 0.0, 0.0);
+	const CountBounds bounds = unpack_count_bounds(view,
+			pack_count_bounds(view,
+					CountBounds(items[2u * box_index].xyz, items[2u * box_index + 1u].xyz)));
+	const CountBox box = make_count_box(view, bounds.least, bounds.greatest);
+	const CountEdgeRecord edge = edges[item % edge_count];
+	const uint use = may_use_bundle(view, box, make_count_bundle(edge))
+			? find_count_use(view, box, edge)
+			: 0u;
+	CountEdgeBundle all = make_count_bundle(edges[0]);
+	for (uint i = 1u; i < edge_count; ++i) {
+		all = join_count_bundles(all, make_count_bundle(edges[i]));
+	}
+	results[item] = vec4(float(use), box.is_bounded ? 1.0 : 0.0,
+			may_use_bundle(view, box, all) ? 1.0 : 0.0, 0.0);
 }

@@ -85,8 +85,9 @@ CountEdge keep_use(const CountEdge &p_edge, uint32_t p_use) {
 }
 
 struct CullResult {
-	std::vector<uint32_t> uses; // one per edge, of each box
-	size_t bounded_count = 0;	// boxes
+	std::vector<uint32_t> uses;	   // one per edge, of each box
+	size_t bounded_count = 0;	   // boxes
+	size_t wrong_bundle_count = 0; // that leave out an edge which is used alone
 };
 
 CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
@@ -110,6 +111,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	for (size_t index = 0; index < results.size(); ++index) {
 		result.uses.push_back(uint32_t(results[index].x));
 		result.bounded_count += index % records.size() == 0 && results[index].y > 0.5f ? 1 : 0;
+		result.wrong_bundle_count += results[index].x > 0.0f && results[index].z == 0.0f ? 1 : 0;
 	}
 	return result;
 }
@@ -173,6 +175,7 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 	}
 	const CullResult result = find_uses(r_fixture, p_scene, boxes);
 	r_check.bounded_count += result.bounded_count;
+	CHECK(result.wrong_bundle_count == 0);
 	const std::vector<CountEdge> &edges = p_scene.get_edges();
 	for (size_t box = 0; box < box_count; ++box) {
 		std::vector<CountReceiver> receivers;

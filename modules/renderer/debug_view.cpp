@@ -1,0 +1,94 @@
+#include "modules/renderer/debug_view.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/render_graph/compute_pass.h"
+#include "modules/renderer/lighting.h"
+
+#include "renderer/renderer_shared.h"
+
+namespace gnomon {
+
+namespace {
+
+const char ERROR_VIEW[] = "error";
+const float NO_RECEIVER = -1.0f; // as error_view.comp
+
+} // namespace
+
+ShadowTechnique::DebugView add_error_view(RenderGraph &r_graph, RenderingDevice &p_device,
+		RGTexture p_receivers, RGTexture p_mask, const TruthMask &p_truth, glm::uvec2 p_size_px) {
+	if (p_truth.size_px != p_size_px) {
+		fail("The truth has ", p_truth.size_px.x, " x ", p_truth.size_px.y, " pixels, the frame ",
+				p_size_px.x, " x ", p_size_px.y, ". Make both with the same --size.");
+	}
+	std::vector<float> truth = p_truth.visibility;
+	for (size_t pixel = 0; pixel < truth.size(); ++pixel) {
+		truth[pixel] = p_truth.receiver[pixel] >= 0.5f ? truth[pixel] : NO_RECEIVER;
+	}
+	const RGBuffer buffer =
+			r_graph.upload("truth", BufferUsage::STORAGE, bytes_of(std::span<const float>(truth)));
+	const RGTexture error = r_graph.create_texture({ "mask error", Format::RGBA8_UNORM, p_size_px,
+			1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
+	add_compute_pass(r_graph, "mask error",
+			p_device.get_compute_pipeline({ "mask error", "renderer/error_view.comp", {} }),
+			{
+					PassBinding::read(RENDERER_BINDING_TRUTH, buffer),
+					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),
+					PassBinding::read(RENDERER_BINDING_MASK, p_mask),
+					PassBinding::write(RENDERER_BINDING_OUTPUT, error),
+			},
+			glm::uvec3(p_size_px, 1u));
+	ShadowTechnique::DebugView view = { ERROR_VIEW, error };
+	view.is_color = true;
+	return view;
+}
+
+const ShadowTechnique::DebugView *choose_debug_view(
+		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish) {
+	if (p_wish.id.empty()) {
+		return nullptr;
+	}
+	std::string ids;
+	for (const ShadowTechnique::DebugView &view : p_views) {
+		if (view.id == p_wish.id) {
+			return &view;
+		}
+		ids += (ids.empty() ? "\"" : ", \"") + view.id + "\"";
+	}
+	if (!p_wish.is_needed) {
+		return nullptr;
+	}
+	if (ids.empty()) {
+		fail("Debug view \"", p_wish.id,
+				"\": no light in view has a shadow. `gnomon run --plan` says why; see "
+				"shadow_enabled, "
+				"intensity and range of the lights.");
+	}
+	if (p_wish.id == ERROR_VIEW && !p_wish.has_truth) {
+		fail("Debug view \"error\": no truth is loaded. Make one with `gnomon visibility SCENE "
+			 "--out truth.exr` and the reference as its --technique, and give it with --truth "
+			 "truth.exr.");
+	}
+	fail("Debug view \"", p_wish.id,
+			"\" does not exist for this light's technique, must be one of ", ids, ".");
+}
+
+RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px) {
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
+	const RGTexture output = create_picture(r_graph, p_size_px);
+	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, p_view.class_count,
+		p_view.is_color ? 1u : 0u, 0, 0, 0 };
+	add_compute_pass(r_graph, "debug view " + p_view.id, pipeline,
+			{
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::read(RENDERER_BINDING_MASK, p_view.texture),
+					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
+			},
+			p_size_px, push);
+	return output;
+}
+
+} // namespace gnomon

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+// Intermediate images in place of the picture: a technique's own, the mask, and its error.
+
+namespace gnomon {
+
+/// The true mask of a light, one value per pixel, rows from the top.
+struct TruthMask {
+	glm::uvec2 size_px = glm::uvec2(0);
+	std::vector<float> visibility; // 0..1
+	std::vector<float> receiver;   // 1, or 0 where the light does not reach
+};
+
+/// "error": the mask less the truth in the colours of shared/heat_map_shared.h. A truth of another
+/// size than the frame's is an Error.
+ShadowTechnique::DebugView add_error_view(RenderGraph &r_graph, RenderingDevice &p_device,
+		RGTexture p_receivers, RGTexture p_mask, const TruthMask &p_truth, glm::uvec2 p_size_px);
+
+/// Which view is wanted, see RenderRequest.
+struct DebugViewWish {
+	const std::string &id;
+	bool is_needed = true;
+	bool has_truth = false;
+};
+
+/// The one that is wanted; an unknown one is an Error that lists those there are. Null: the picture
+/// is shown.
+const ShadowTechnique::DebugView *choose_debug_view(
+		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
+
+/// RGBA8_UNORM: the texture of a debug view in place of the picture.
+RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
+		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px);
+
+} // namespace gnomon

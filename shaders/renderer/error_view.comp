@@ -1,0 +1,30 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "renderer/renderer_shared.h"
+#include "shared/heat_map_shared.h"
+
+// A mask less the truth, in colours.
+layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
+layout(std430, set = 0, binding = RENDERER_BINDING_TRUTH) readonly buffer Truth {
+	float truth[]; // below 0: no receiver
+};
+layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
+layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
+layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba8) uniform writeonly image2D output_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	const ivec2 size = imageSize(output_image);
+	if (any(greaterThanEqual(pixel, size))) {
+		return;
+	}
+	const float true_visibility = truth[pixel.y * size.x + pixel.x];
+	const float error = (texelFetch(mask_texture, pixel, 0).r - true_visibility) / HEAT_MAP_RANGE;
+	const float rest = clamp(1.0 - abs(error), 0.0, 1.0);
+	const bool is_receiver =
+			true_visibility >= 0.0 && texelFetch(receivers_texture, pixel, 0).r > 0.0;
+	const vec3 color = error > 0.0 ? vec3(1.0, rest, rest) : vec3(rest, rest, 1.0);
+	imageStore(output_image, pixel,
+			vec4(is_receiver ? color : vec3(float(HEAT_MAP_NO_RECEIVER) / 255.0), 1.0));
+}

@@ -1,0 +1,74 @@
+// The renderer's error view against the error picture of the same masks.
+
+#include "modules/core/error.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+using namespace gnomon;
+
+namespace {
+
+/// The mask of a scene, every third column of it wrong by up to half, and some pixels no receivers.
+MaskImage make_wrong_truth(const RenderResult &p_frame, glm::uvec2 p_size_px) {
+	MaskImage truth = { p_size_px, p_frame.visibility, p_frame.receiver };
+	for (size_t pixel = 0; pixel < truth.get_pixel_count(); ++pixel) {
+		if (pixel % 3 == 0 && truth.is_receiver(pixel)) {
+			const float change = 0.5f * float(pixel % 64) / 64.0f;
+			const float visibility = truth.visibility[pixel];
+			truth.visibility[pixel] = visibility > 0.5f ? visibility - change : visibility + change;
+		}
+	}
+	return truth;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error picture") {
+	RenderFixture fixture;
+	const SmallScene scene;
+	const std::string id = ShadowRegistry::get_techniques().front().id;
+	const glm::uvec2 size_px(48, 40);
+	const RenderResult frame = fixture.render_mask(scene, id, size_px);
+	const MaskImage mask = { size_px, frame.visibility, frame.receiver };
+	const MaskImage truth = make_wrong_truth(frame, size_px);
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = size_px;
+	request.technique_override = id;
+	request.wants_image = true;
+	request.debug_view = "error";
+	request.truth = std::make_shared<TruthMask>(truth.size_px, truth.visibility, truth.receiver);
+	const std::vector<uint8_t> shown = fixture.renderer->render(request).image;
+	const std::vector<uint8_t> expected = compute_error_pixels(truth, mask);
+	REQUIRE(shown.size() == 4 * truth.get_pixel_count());
+	int greatest = 0;
+	size_t colored_count = 0;
+	for (size_t pixel = 0; pixel < truth.get_pixel_count(); ++pixel) {
+		for (size_t channel = 0; channel < 3; ++channel) {
+			greatest = std::max(greatest,
+					std::abs(int(shown[4 * pixel + channel]) - int(expected[3 * pixel + channel])));
+		}
+		colored_count += shown[4 * pixel] != shown[4 * pixel + 2] ? 1 : 0;
+	}
+	CHECK(greatest <= 1);
+	CHECK(colored_count > truth.get_pixel_count() / 5);
+}
+
+TEST_CASE("[GPU][ErrorView] an error view without a truth, or with one of another size, is "
+		  "refused") {
+	RenderFixture fixture;
+	const SmallScene scene;
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(16);
+	request.debug_view = "error";
+	CHECK_THROWS_WITH_AS(fixture.renderer->render(request), doctest::Contains("--truth"), Error);
+	const std::vector<float> values(12, 1.0f);
+	request.truth = std::make_shared<TruthMask>(glm::uvec2(4, 3), values, values);
+	CHECK_THROWS_WITH_AS(fixture.renderer->render(request),
+			doctest::Contains("4 x 3 pixels, the frame 16 x 16"), Error);
+}
