@@ -14,7 +14,7 @@ namespace {
 // Shares of w (directional: of a length, see get_depth_scale). Measured:
 // doc/techniques/edge_count.md.
 const double AWAY_TOLERANCE = 5e-5;			// of faces turned away from the light, and of crossings
-const double TOWARD_TOLERANCE = 3e-4;		// of faces turned towards it
+const double TOWARD_TOLERANCE = 3e-4;		// of faces turned towards it; crossings of sheets
 const double DOUBLE_SIDED_TOLERANCE = 3e-3; // likewise, of sheets
 const double STEEP_SLOPE = 3e-3;			// rise of the receiver to a texel that is too steep
 const double LOW_CLEARANCE = 0.02;			// below a solid, where the way to a texel has room
@@ -154,7 +154,9 @@ private:
 		const double edge_w = glm::mix(p_edge.a.z, p_edge.b.z, at_a / (at_a - at_b));
 		const double plane_w =
 				glm::mix(reference_w, wp, reference_side / (reference_side - p_side));
-		if (edge_w - plane_w > AWAY_TOLERANCE * space.get_depth_scale(plane_w)) {
+		// A sheet bends up and down: its own rim may lie a little above its receiver's plane.
+		const double tolerance = p_edge.is_double_sided ? TOWARD_TOLERANCE : AWAY_TOLERANCE;
+		if (edge_w - plane_w > tolerance * space.get_depth_scale(plane_w)) {
 			const bool is_reversed = p_edge.center_weight < 0;
 			solid_count += std::abs(p_edge.center_weight) * ((p_side > 0) == is_reversed ? 1 : -1);
 		}

@@ -61,7 +61,10 @@ void count_correct_reference(CountViewConstants p_view, CountReceiver p_receiver
 	const float edge_w = mix(p_edge.a.z, p_edge.b.z, at_a / (at_a - at_b));
 	const float plane_w = mix(r_reference.w, p_receiver.warped.z,
 			reference_side / (reference_side - p_side));
-	if (edge_w - plane_w > COUNT_AWAY_TOLERANCE * count_depth_scale(p_view, plane_w)) {
+	// A sheet bends up and down: its own rim may lie a little above its receiver's plane.
+	const float tolerance = (p_edge.kind & EDGE_COUNT_DOUBLE_SIDED) != 0 ? COUNT_TOWARD_TOLERANCE
+																		  : COUNT_AWAY_TOLERANCE;
+	if (edge_w - plane_w > tolerance * count_depth_scale(p_view, plane_w)) {
 		const int weight = p_edge.center_weight;
 		r_reference.solid_count += abs(weight) * ((p_side > 0.0) == (weight < 0) ? 1 : -1);
 	}

@@ -11,6 +11,9 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace gnomon;
 
 namespace {
@@ -68,8 +71,20 @@ MaskImage render_reference(RenderFixture &r_fixture, const nlohmann::json &p_lim
 		const nlohmann::json &p_case, nlohmann::json p_more_settings = nlohmann::json::object()) {
 	p_more_settings.update(p_limits.at("reference_settings"));
 	AccuracyScene scene(p_case, p_more_settings);
-	return scene.render(r_fixture, ShadowRegistry::find_reference()->id,
-			read_size_px(p_limits, p_case));
+	return scene.render(
+			r_fixture, ShadowRegistry::find_reference()->id, read_size_px(p_limits, p_case));
+}
+
+/// Of all receivers: even one wrong pixel is seen in a picture.
+double find_greatest_error(const MaskImage &p_truth, const MaskImage &p_mask) {
+	double greatest = 0;
+	for (size_t pixel = 0; pixel < p_truth.get_pixel_count(); ++pixel) {
+		if (p_truth.is_receiver(pixel)) {
+			greatest = std::max(greatest,
+					double(std::abs(p_mask.visibility[pixel] - p_truth.visibility[pixel])));
+		}
+	}
+	return greatest;
 }
 
 /// A build without the reference has nothing to measure against.
@@ -104,12 +119,13 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it w
 				continue;
 			}
 			AccuracyScene scene(accuracy_case, entry.at("settings"));
-			const MaskMetrics metrics =
-					compute_mask_metrics(truth, scene.render(fixture, id, size_px));
+			const MaskImage mask = scene.render(fixture, id, size_px);
+			const MaskMetrics metrics = compute_mask_metrics(truth, mask);
 			CHECK(metrics.penumbra.pixel_count > 200);
 			CHECK(metrics.receiver.mae <= entry.at("receiver_mae").get<double>());
 			CHECK(metrics.penumbra.mae <= entry.at("penumbra_mae").get<double>());
 			CHECK(metrics.umbra_over <= entry.value("umbra_over", 1.0));
+			CHECK(find_greatest_error(truth, mask) <= entry.value("greatest", 1.0));
 			CHECK(metrics.penumbra.mae > previous_mae);
 			previous_mae = metrics.penumbra.mae;
 		}
