@@ -8,6 +8,7 @@ A module is a folder with register_types.h, SCsub and config.py. config.py says:
     get_source() -> str, get_doc() -> str              (optional; where it comes from, its doc page)
     can_disable() -> bool                              (optional; default: layer 4 and up)
     is_enabled() -> bool                               (optional; built unless told otherwise)
+    get_optional_dependencies() -> list of module names (optional; used only where they are built)
     is_program() -> bool                               (optional; main: linked into bin/gnomon only)
 """
 
@@ -30,6 +31,7 @@ class Module:
         self.folder = folder
         self.config = config
         self.dependencies = list(config.get_dependencies())
+        self.optional_dependencies = list(getattr(config, "get_optional_dependencies", lambda: [])())
         self.layer = config.get_layer()
         self.description = config.get_description()
         self.enabled_by_default = getattr(config, "is_enabled", lambda: True)()
@@ -47,7 +49,7 @@ def find_modules(modules_folder):
         if all(os.path.isfile(os.path.join(folder, file)) for file in REQUIRED_FILES):
             found[name] = Module(name, folder)
     for module in found.values():
-        for dependency in module.dependencies:
+        for dependency in module.dependencies + module.optional_dependencies:
             if dependency not in found:
                 continue  # reported by select_modules, where it may turn out not to matter
             if found[dependency].layer >= module.layer:

@@ -177,7 +177,7 @@ fi
 if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_window.py tests/command_line/test_report.py \
-        tests/command_line/test_stopped_report.py
+        tests/command_line/test_stopped_report.py tests/command_line/test_editor.py
 fi
 if is_wanted demo; then
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --no-window --out "$work/demo"

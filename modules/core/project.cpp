@@ -96,6 +96,43 @@ Project Project::load(const fs::path &p_path) {
 	return project;
 }
 
+void Project::save_disabled_modules() const {
+	const fs::path path = folder / "project.cfg";
+	if (!fs::exists(path)) {
+		return;
+	}
+	std::string list;
+	for (const std::string &module : disabled_modules) {
+		list += (list.empty() ? "\"" : ", \"") + module + "\"";
+	}
+	const std::string wanted = "disabled=[" + list + "]\n";
+	std::stringstream stream(load_text_file(path, MAX_PROJECT_BYTES));
+	std::string lines;
+	std::string section;
+	bool is_written = false;
+	for (std::string line; std::getline(stream, line);) {
+		const std::string words = trim(line);
+		if (words.size() > 1 && words.front() == '[' && words.back() == ']' &&
+				words.find('=') == std::string::npos) {
+			section = words.substr(1, words.size() - 2);
+			lines += line + "\n" + (section == "modules" && !is_written ? wanted : std::string());
+			is_written |= section == "modules";
+			continue;
+		}
+		const size_t equals = words.find('=');
+		if (section == "modules" && equals != std::string::npos &&
+				trim(words.substr(0, equals)) == "disabled") {
+			for (std::string end = words; end.back() != ']' && std::getline(stream, line);) {
+				end += trim(line); // the rest of the list that is replaced
+			}
+			continue;
+		}
+		lines += line + "\n";
+	}
+	save_file_atomically(
+			path, std::string_view(is_written ? lines : lines + "\n[modules]\n" + wanted));
+}
+
 fs::path Project::find_folder(const fs::path &p_scene_path) {
 	const fs::path scene_folder = fs::absolute(p_scene_path).parent_path();
 	for (fs::path folder = scene_folder; !folder.empty(); folder = folder.parent_path()) {

@@ -22,6 +22,9 @@ public:
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
 	/// line.
 	static Project load(const std::filesystem::path &p_path);
+	/// Writes disabled_modules into project.cfg and leaves all else in it as it is. Without a
+	/// project.cfg nothing is stored.
+	void save_disabled_modules() const;
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
 	static std::filesystem::path find_folder(const std::filesystem::path &p_scene_path);
 };

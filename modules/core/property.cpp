@@ -2,10 +2,12 @@
 
 #include "modules/core/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 
 namespace gnomon {
 
@@ -53,6 +55,27 @@ std::optional<double> get_number(const PropertyValue &p_value) {
 	return std::nullopt;
 }
 
+/// Why a number is refused, in the type's range; not for the special value.
+bool is_in_range(const PropertyInfo &p_info, double p_number) {
+	const std::optional<Range> range = find_range(p_info);
+	return std::isfinite(p_number) &&
+			(!range || (p_number >= range->minimum && p_number <= range->maximum));
+}
+
+std::optional<glm::dvec3> parse_vector(std::string_view p_text) {
+	const std::vector<std::string> parts = split(std::string(p_text));
+	glm::dvec3 vector(0.0);
+	for (size_t axis = 0; axis < 3; ++axis) {
+		const std::optional<double> number =
+				parts.size() == 3 ? parse_number(parts[axis]) : std::nullopt;
+		if (!number) {
+			return std::nullopt;
+		}
+		vector[int(axis)] = *number;
+	}
+	return vector;
+}
+
 std::string refuse(const PropertyInfo &p_info, const PropertyValue &p_value) {
 	return text("is ", format_property(p_value), ", must be ", describe_range(p_info));
 }
@@ -61,14 +84,26 @@ std::string refuse(const PropertyInfo &p_info, const PropertyValue &p_value) {
 
 void PropertyList::add(PropertyInfo p_info) {
 	GNOMON_ASSERT(!find(p_info.name), "property ", p_info.name, " is declared twice");
-	if (p_info.type == PropertyType::ENUM && p_info.default_value.index() != 3) {
-		p_info.default_value = split(p_info.hint).at(0);
+	prepare(p_info);
+	properties.push_back(std::move(p_info));
+}
+
+void PropertyList::replace(PropertyInfo p_info) {
+	const auto found = std::find_if(properties.begin(), properties.end(),
+			[&](const PropertyInfo &p_one) { return p_one.name == p_info.name; });
+	GNOMON_ASSERT(found != properties.end(), "property ", p_info.name, " is not declared");
+	prepare(p_info);
+	*found = std::move(p_info);
+}
+
+void PropertyList::prepare(PropertyInfo &r_info) {
+	if (r_info.type == PropertyType::ENUM && r_info.default_value.index() != 3) {
+		r_info.default_value = split(r_info.hint).at(0);
 	}
 	// So that { ..., 3, ... } declares a FLOAT as well: the literal's type is not the property's.
-	const std::string refusal = check_property(p_info, p_info.default_value);
-	GNOMON_ASSERT(refusal.empty(), "default of property ", p_info.name, " ", refusal);
-	p_info.default_value = convert_property(p_info, p_info.default_value);
-	properties.push_back(std::move(p_info));
+	const std::string refusal = check_property(r_info, r_info.default_value);
+	GNOMON_ASSERT(refusal.empty(), "default of property ", r_info.name, " ", refusal);
+	r_info.default_value = convert_property(r_info, r_info.default_value);
 }
 
 const PropertyInfo *PropertyList::find(std::string_view p_name) const {
@@ -107,11 +142,13 @@ std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_va
 			if (!p_info.special.empty() && *number == *parse_number(p_info.special)) {
 				return "";
 			}
-			const std::optional<Range> range = find_range(p_info);
-			if (range && (*number < range->minimum || *number > range->maximum)) {
-				return refuse(p_info, p_value);
-			}
-			return "";
+			return is_in_range(p_info, *number) ? "" : refuse(p_info, p_value);
+		}
+		case PropertyType::VECTOR3: {
+			const glm::dvec3 *vector = std::get_if<glm::dvec3>(&p_value);
+			const bool is_allowed = vector && is_in_range(p_info, vector->x) &&
+					is_in_range(p_info, vector->y) && is_in_range(p_info, vector->z);
+			return is_allowed ? "" : refuse(p_info, p_value);
 		}
 	}
 	return "has an unknown type";
@@ -137,6 +174,10 @@ PropertyValue parse_property(
 		if (const std::optional<double> number = parse_number(p_text)) {
 			value = *number;
 		}
+	} else if (p_info.type == PropertyType::VECTOR3) {
+		if (const std::optional<glm::dvec3> vector = parse_vector(p_text)) {
+			value = *vector;
+		}
 	}
 	const std::string refusal = check_property(p_info, value);
 	if (!refusal.empty()) {
@@ -149,7 +190,18 @@ std::string format_property(const PropertyValue &p_value) {
 	if (const bool *flag = std::get_if<bool>(&p_value)) {
 		return *flag ? "true" : "false";
 	}
-	return std::visit([](const auto &p_held) { return text(p_held); }, p_value);
+	if (const glm::dvec3 *vector = std::get_if<glm::dvec3>(&p_value)) {
+		return text(vector->x, ",", vector->y, ",", vector->z);
+	}
+	return std::visit(
+			[](const auto &p_held) -> std::string {
+				if constexpr (std::is_same_v<std::decay_t<decltype(p_held)>, glm::dvec3>) {
+					return {}; // above
+				} else {
+					return text(p_held);
+				}
+			},
+			p_value);
 }
 
 std::string describe_range(const PropertyInfo &p_info) {
@@ -170,6 +222,9 @@ std::string describe_range(const PropertyInfo &p_info) {
 	words = p_info.type == PropertyType::INT ? "a whole number" : "a finite number";
 	if (parts.size() >= 2) {
 		words = parts[0] + ".." + parts[1];
+	}
+	if (p_info.type == PropertyType::VECTOR3) {
+		words = "three numbers x,y,z" + (parts.size() >= 2 ? " of " + words : std::string());
 	}
 	if (!p_info.special.empty()) {
 		words = p_info.special + " or " + words;

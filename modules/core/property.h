@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -9,10 +11,10 @@
 
 namespace gnomon {
 
-enum class PropertyType { BOOL, INT, FLOAT, ENUM, STRING };
+enum class PropertyType { BOOL, INT, FLOAT, ENUM, STRING, VECTOR3 };
 
-/// BOOL: bool. INT: int64_t. FLOAT: double. ENUM and STRING: std::string.
-using PropertyValue = std::variant<bool, int64_t, double, std::string>;
+/// BOOL: bool. INT: int64_t. FLOAT: double. ENUM and STRING: std::string. VECTOR3: glm::dvec3.
+using PropertyValue = std::variant<bool, int64_t, double, std::string, glm::dvec3>;
 /// Name to value. Holds only what was set; what is absent has its PropertyInfo's default.
 using PropertyValues = std::map<std::string, PropertyValue, std::less<>>;
 
@@ -22,13 +24,17 @@ struct PropertyInfo {
 	std::string name; // snake_case; a technique's properties begin with its id
 	PropertyType type = PropertyType::FLOAT;
 	PropertyValue default_value;
-	/// INT and FLOAT: "minimum,maximum,step". ENUM: "first,second,...". Otherwise empty.
+	/// INT, FLOAT and each component of VECTOR3: "minimum,maximum,step". ENUM: "first,second,...".
+	/// Otherwise empty.
 	std::string hint;
 	std::string tooltip; // one sentence or two: meaning, and what happens at the edges
 	std::string unit;	 // "m", "px", "deg", or empty
 	std::string group;	 // heading in the inspector
 	/// A value outside the range that is allowed too and means something else: "-1" for "derived".
 	std::string special;
+	/// ENUM: what each choice is, in the order of the hint; may be empty.
+	std::vector<std::string> choice_tooltips;
+	bool is_color = false; // VECTOR3: linear red, green, blue
 };
 
 /// One step of a technique's ladder from cheap to good, which the error report measures.
@@ -45,10 +51,15 @@ class PropertyList {
 public:
 	/// A name that is present already, or a default that its own range refuses, is our mistake.
 	void add(PropertyInfo p_info);
+	/// Declares a property anew, at its place. A name that the list lacks is our mistake.
+	void replace(PropertyInfo p_info);
 	const PropertyInfo *find(std::string_view p_name) const;
 	const std::vector<PropertyInfo> &get_properties() const { return properties; }
 
 private:
+	/// Checks a declaration and converts its default.
+	static void prepare(PropertyInfo &r_info);
+
 	std::vector<PropertyInfo> properties;
 };
 
@@ -58,8 +69,8 @@ private:
 std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value);
 /// The value converted to the property's type. Only for values that check_property allows.
 PropertyValue convert_property(const PropertyInfo &p_info, const PropertyValue &p_value);
-/// Reads "0.4", "true", "hard". Text that is no such value, or is refused by check_property, is an
-/// Error that begins with p_object and names the value and the range.
+/// Reads "0.4", "true", "hard", "1,2,3". Text that is no such value, or is refused by
+/// check_property, is an Error that begins with p_object and names the value and the range.
 PropertyValue parse_property(
 		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object);
 /// As parse_property reads it.

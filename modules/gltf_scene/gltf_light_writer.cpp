@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_light_writer.h"
 
 #include "modules/core/error.h"
+#include "modules/core/property_json.h"
 #include "modules/gltf_scene/gltf_lights.h"
 
 #include <charconv>
@@ -9,10 +10,6 @@
 namespace gnomon {
 
 namespace {
-
-Json to_json(const PropertyValue &p_value) {
-	return std::visit([](const auto &p_held) { return Json(p_held); }, p_value);
-}
 
 void check_finite(const Light3D &p_light, const char *p_what, double p_value) {
 	if (!std::isfinite(p_value)) {
@@ -80,7 +77,7 @@ void erase_property(Json &r_object, const std::string &p_name) {
 
 void set_property(Json &r_light, const std::string &p_name, const PropertyValue &p_value) {
 	Json &extras = require_extras(r_light);
-	extras[p_name] = to_json(p_value);
+	extras[p_name] = property_to_json<Json>(p_value);
 	// Programs that know only the other name must not read the old value.
 	for (const GltfPropertyAlias &alias : get_gltf_property_aliases()) {
 		const double *number = std::get_if<double>(&p_value);

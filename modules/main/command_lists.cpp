@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/module_registry.h"
+#include "modules/core/property_json.h"
 #include "modules/main/commands.h"
 #include "modules/renderer/shadow_registry.h"
 
@@ -19,15 +20,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char *get_type_name(PropertyType p_type) {
-	static const char *const NAMES[] = { "bool", "int", "float", "enum", "string" };
+	static const char *const NAMES[] = { "bool", "int", "float", "enum", "string", "vector3" };
 	return NAMES[static_cast<int>(p_type)];
 }
 
 Json describe_properties(const PropertyList &p_list) {
 	Json properties = Json::array();
 	for (const PropertyInfo &info : p_list.get_properties()) {
-		Json value;
-		std::visit([&](const auto &p_held) { value = p_held; }, info.default_value);
+		Json value = property_to_json<Json>(info.default_value);
 		properties.push_back({ { "name", info.name }, { "type", get_type_name(info.type) },
 				{ "default", value }, { "range", describe_range(info) }, { "unit", info.unit },
 				{ "tooltip", info.tooltip } });

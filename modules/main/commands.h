@@ -24,6 +24,18 @@ struct CommonOptions {
 	bool validation = false;
 };
 
+/// A command of a module that a build may lack: its file makes one of these, and main adds it where
+/// the file is there.
+class OptionalCommand {
+public:
+	using Add = void (*)(CLI::App &r_app, CommonOptions &r_common);
+	explicit OptionalCommand(Add p_add) { get_all().push_back(p_add); }
+	static std::vector<Add> &get_all() {
+		static std::vector<Add> all;
+		return all;
+	}
+};
+
 // Each adds its command to the command line; when it is chosen, it runs inside CLI11's parse.
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);

@@ -1,8 +1,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
-#include "modules/core/module_registry.h"
 #include "modules/core/project.h"
 #include "modules/gltf_scene/gltf_scene.h"
+#include "modules/gltf_scene/project_scene.h"
 #include "modules/main/commands.h"
 #include "modules/renderer/shadow_registry.h"
 
@@ -24,28 +24,6 @@ const PropertyInfo *find_property(const std::string &p_name) {
 		return info;
 	}
 	return ShadowRegistry::find_light_property(p_name);
-}
-
-/// A name of another build only warns: the project must open everywhere.
-void disable_modules(const Project &p_project) {
-	for (const std::string &name : p_project.disabled_modules) {
-		try {
-			ModuleRegistry::set_enabled(name, false);
-		} catch (const Error &error) {
-			log_warning((p_project.folder / "project.cfg").string(), ": ", error.what());
-		}
-	}
-}
-
-fs::path choose_start_scene(const Project &p_project) {
-	if (!p_project.start_scene.empty()) {
-		return p_project.start_scene;
-	}
-	if (p_project.scenes.empty()) {
-		fail("Project ", p_project.folder,
-				" names no scene that exists. Set start_scene in its project.cfg.");
-	}
-	return p_project.scenes.front();
 }
 
 std::string list_properties() {
@@ -102,24 +80,15 @@ glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path 
 }
 
 std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
-	fs::path path = p_path;
-	fs::path project_folder = Project::find_folder(path);
-	std::error_code code;
-	const bool is_project = fs::is_directory(path, code) || path.extension() == ".cfg";
-	if (is_project || fs::exists(project_folder / "project.cfg", code)) {
-		const Project project = Project::load(is_project ? path : project_folder);
-		disable_modules(project);
-		if (is_project) {
-			project_folder = project.folder;
-			path = choose_start_scene(project);
-		}
-	}
+	const ProjectScene place = find_project_scene(p_path);
+	disable_modules(place.project);
 	GltfLoadOptions options;
-	options.project_folder = project_folder;
+	options.project_folder = place.project.folder;
 	options.find_technique_property = &ShadowRegistry::find_light_property;
-	std::unique_ptr<Scene> scene = load_gltf(path, options);
+	std::unique_ptr<Scene> scene = load_gltf(place.scene_path, options);
 	if (scene->find_nodes<MeshInstance3D>().empty()) {
-		fail("Scene ", path, " has no mesh. Add one in the program that wrote the file.");
+		fail("Scene ", place.scene_path,
+				" has no mesh. Add one in the program that wrote the file.");
 	}
 	return scene;
 }

@@ -1,5 +1,9 @@
 def get_dependencies():
-    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene", "error_report"]
+    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene", "error_report", "desktop"]
+
+
+def get_optional_dependencies():
+    return ["editor"]  # without it there is no command `edit`
 
 
 def get_layer():

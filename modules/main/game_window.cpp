@@ -1,9 +1,9 @@
 #include "modules/main/game_window.h"
 
 #include "modules/core/log.h"
+#include "modules/desktop/window.h"
 #include "modules/main/fly_camera.h"
 #include "modules/main/overlay_text.h"
-#include "modules/main/window.h"
 #include "modules/renderer/shadow_registry.h"
 
 #include <GLFW/glfw3.h>
@@ -123,7 +123,7 @@ std::vector<std::string> describe_frame(const RenderRequest &p_request, const De
 RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
 		const CommonOptions &p_common) {
 	const Camera3D &start = choose_camera(r_scene, p_options.camera);
-	Window window("Gnomon", r_size_px);
+	Window window("Gnomon", r_size_px, "Use --headless (with --capture FILE), or set DISPLAY.");
 	DeviceOptions device_options;
 	device_options.device = p_common.device;
 	device_options.validation = p_common.validation;
@@ -151,8 +151,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		const Clock::time_point now = Clock::now();
 		const double seconds = std::chrono::duration<double>(now - last).count();
 		last = now;
-		for (int key : window.get_pressed_keys()) {
-			state.press(key, window);
+		for (const Window::KeyPress &press : window.get_key_presses()) {
+			state.press(press.key, window);
 		}
 		fly(fly_camera, window, seconds);
 		fly_camera.apply(camera);

@@ -26,6 +26,9 @@ int run_program(int p_argument_count, char **p_arguments) {
 	add_compare_command(app);
 	add_report_command(app, common);
 	add_list_commands(app, common);
+	for (const OptionalCommand::Add add : OptionalCommand::get_all()) {
+		add(app, common);
+	}
 	try {
 		app.parse(p_argument_count, p_arguments);
 	} catch (const CLI::ParseError &error) {

@@ -1,9 +1,21 @@
 #include "modules/renderer/register_types.h"
 
+#include "modules/renderer/light_properties.h"
+#include "modules/scene/node_properties.h"
+
 namespace gnomon {
 
-// Nothing to register: techniques and filters register themselves in this module's registries.
-void initialize_renderer_module(ModuleLevel) {}
-void uninitialize_renderer_module(ModuleLevel) {}
+// Techniques and filters register themselves in this module's registries.
+void initialize_renderer_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::SERVERS) {
+		add_node_property_source(&add_light_properties);
+	}
+}
+
+void uninitialize_renderer_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::SERVERS) {
+		remove_node_property_source(&add_light_properties);
+	}
+}
 
 } // namespace gnomon

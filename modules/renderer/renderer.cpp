@@ -216,9 +216,19 @@ void Renderer::add_picture(Frame &r_frame) {
 					p_context.commands.blit_texture(p_context.get(picture), p_context.get(shown));
 				});
 	}
+	if (request.picture_target) {
+		const RGTexture target =
+				graph.import_texture(request.picture_target, RenderGraph::ImportedContent::NONE);
+		graph.add_pass("copy picture to target")
+				.reads(picture, Access::COPY_READ)
+				.writes(target, Access::COPY_WRITE)
+				.execute([=](PassContext &p_context) {
+					p_context.commands.copy_texture(p_context.get(picture), p_context.get(target));
+				});
+	}
 	if (request.wants_image) {
 		add_readback(r_frame, picture, r_frame.result.image);
-	} else if (!request.acquire_window_image) {
+	} else if (!request.acquire_window_image && !request.picture_target) {
 		graph.add_pass("picture").reads(picture, Access::COPY_READ).keep();
 	}
 }

@@ -43,6 +43,8 @@ struct RenderRequest {
 	/// technique or the lights while looking at one.
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
+	/// Gets the picture too, when it is there: RGBA8_UNORM, of the frame's size, COPY_TARGET.
+	TextureRID picture_target;
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
 	std::string mask_light;
 	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver

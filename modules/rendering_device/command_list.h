@@ -29,6 +29,8 @@ public:
 	void begin_rendering_without_targets(glm::uvec2 p_size_px);
 	void end_rendering();
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
+	/// Nothing outside is drawn; the next set_viewport covers all of it again.
+	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
 	void set_cull_mode(CullMode p_mode);
 	/// Mirrored transforms wind their front faces the other way.
 	enum class Winding { NORMAL, MIRRORED };

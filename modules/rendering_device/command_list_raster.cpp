@@ -134,6 +134,14 @@ void CommandList::set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
 	vkCmdSetScissor(impl.commands, 0, 1, &scissor);
 }
 
+void CommandList::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
+	impl.check_recording("set_scissor");
+	const VkRect2D scissor = { { static_cast<int32_t>(p_offset_px.x),
+									   static_cast<int32_t>(p_offset_px.y) },
+		{ p_size_px.x, p_size_px.y } };
+	vkCmdSetScissor(impl.commands, 0, 1, &scissor);
+}
+
 void CommandList::set_cull_mode(CullMode p_mode) {
 	impl.check_recording("set_cull_mode");
 	static const VkCullModeFlags MODES[] = { VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,

@@ -2,14 +2,30 @@
 
 #include "modules/core/error.h"
 
+#include <algorithm>
+
 namespace gnomon {
 
 Node3D *Node3D::add_child(std::unique_ptr<Node3D> p_child) {
+	return insert_child(std::move(p_child), children.size());
+}
+
+Node3D *Node3D::insert_child(std::unique_ptr<Node3D> p_child, size_t p_index) {
 	GNOMON_ASSERT(p_child, "node ", name, " was given no child");
 	GNOMON_ASSERT(!p_child->parent, "node ", p_child->name, " has a parent already");
 	p_child->parent = this;
-	children.push_back(std::move(p_child));
-	return children.back().get();
+	const size_t index = std::min(p_index, children.size());
+	return children.insert(children.begin() + ptrdiff_t(index), std::move(p_child))->get();
+}
+
+std::unique_ptr<Node3D> Node3D::remove_child(const Node3D &p_child) {
+	const auto found = std::find_if(children.begin(), children.end(),
+			[&](const auto &p_one) { return p_one.get() == &p_child; });
+	GNOMON_ASSERT(found != children.end(), "node ", name, " has no child ", p_child.name);
+	std::unique_ptr<Node3D> child = std::move(*found);
+	children.erase(found);
+	child->parent = nullptr;
+	return child;
 }
 
 glm::dmat4 Node3D::compute_world_from_node() const {

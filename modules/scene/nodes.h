@@ -11,6 +11,21 @@
 
 namespace gnomon {
 
+struct NodeField;
+
+/// A ring or disc that a viewport draws for a node, in its space without its scale, and what a
+/// handle on it changes.
+struct NodeGizmo {
+	glm::dvec3 center = glm::dvec3(0.0);	 // in the node's own space
+	glm::dvec3 axis_x = glm::dvec3(1, 0, 0); // of its plane
+	glm::dvec3 axis_y = glm::dvec3(0, 1, 0);
+	double radius_m = 0;
+	bool is_filled = false;
+	std::string property; // that the handle changes; empty: it has none
+	double value = 0;	  // of that property now
+	double value_per_m = 1;
+};
+
 /// A place in the scene tree. Transforms are double, so that a scene far from the origin loses
 /// nothing before it is made relative to the camera.
 class Node3D {
@@ -24,8 +39,26 @@ public:
 	int file_index = -1;
 
 	virtual ~Node3D() = default;
+	/// "Light3D", for the editor's tree.
+	virtual const char *get_class_name() const { return "Node3D"; }
+	/// Members that can be read and set by name, those of the base class first.
+	virtual const std::vector<NodeField> &get_fields() const;
+	/// Values that the class keeps by name beside its members; null: none.
+	virtual PropertyValues *get_stored_properties() { return nullptr; }
+	/// Declares those of them that every node of the class has and that matter to this one.
+	virtual void add_stored_properties(PropertyList & /*r_list*/) const {}
+	/// What a viewport draws while the node is selected.
+	virtual void add_gizmos(std::vector<NodeGizmo> & /*r_gizmos*/) const {}
+	/// Another node of the same class and state, without parent and children.
+	virtual std::unique_ptr<Node3D> copy() const;
+	/// Takes over the state of a node of the same class; parent and children stay.
+	virtual void assign(const Node3D &p_other);
 	/// Takes the child and sets its parent. Returns it.
 	Node3D *add_child(std::unique_ptr<Node3D> p_child);
+	/// As add_child, before the child that stands at the index; at the end where there is none.
+	Node3D *insert_child(std::unique_ptr<Node3D> p_child, size_t p_index);
+	/// Takes a child out of the tree.
+	std::unique_ptr<Node3D> remove_child(const Node3D &p_child);
 	glm::dmat4 compute_world_from_node() const;
 };
 
@@ -39,6 +72,11 @@ public:
 	std::vector<Surface> surfaces;
 	bool casts_shadow = true;
 	bool is_planar_receiver = false; // extras.shadow_planar_receiver
+
+	const char *get_class_name() const override { return "MeshInstance3D"; }
+	const std::vector<NodeField> &get_fields() const override;
+	std::unique_ptr<Node3D> copy() const override;
+	void assign(const Node3D &p_other) override;
 };
 
 enum class LightType { OMNI, SPOT, DIRECTIONAL };
@@ -59,6 +97,14 @@ public:
 	/// none.
 	std::string file_path;
 
+	const char *get_class_name() const override { return "Light3D"; }
+	const std::vector<NodeField> &get_fields() const override;
+	PropertyValues *get_stored_properties() override { return &properties; }
+	void add_stored_properties(PropertyList &r_list) const override;
+	/// Its true size: of a directional light, as a cone that a metre of distance opens.
+	void add_gizmos(std::vector<NodeGizmo> &r_gizmos) const override;
+	std::unique_ptr<Node3D> copy() const override;
+	void assign(const Node3D &p_other) override;
 	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
 	/// penumbra_inner_width: what every technique must answer for (DESIGN, scene files).
 	static const PropertyList &get_property_list();
@@ -69,6 +115,11 @@ class Camera3D : public Node3D {
 public:
 	float vertical_fov_rad = 0.785398163f; // above 0, below pi
 	float near_m = 0.05f;				   // above 0. The far plane is at infinity (reversed depth)
+
+	const char *get_class_name() const override { return "Camera3D"; }
+	const std::vector<NodeField> &get_fields() const override;
+	std::unique_ptr<Node3D> copy() const override;
+	void assign(const Node3D &p_other) override;
 };
 
 class SceneDocument; // what a file format keeps for saving; see gltf_scene

@@ -7,53 +7,16 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import GNOMON, THREE_LIGHTS, CommandLineTest, read_png_size, run  # noqa: E402
+from command_line_case import THREE_LIGHTS, read_png_size, run  # noqa: E402
+from display_case import DisplayTest  # noqa: E402
 
 FRAMES = "12"
 WINDOW_NAME = "Gnomon"
-TIMEOUT_S = 120
 
 
-class WindowTest(CommandLineTest):
-    @classmethod
-    def setUpClass(cls):
-        read_end, write_end = os.pipe()
-        cls.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
-            pass_fds=[write_end],
-            stderr=subprocess.DEVNULL,
-        )
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            cls.display = ":" + pipe.readline().strip()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.server.terminate()
-        cls.server.wait(TIMEOUT_S)
-
+class WindowTest(DisplayTest):
     def inputs(self):
         return super().inputs() + ("window.png", "headless.png")
-
-    def start(self, *arguments):
-        environment = {**os.environ, "DISPLAY": self.display}
-        process = subprocess.Popen(
-            [GNOMON, "run", THREE_LIGHTS, *arguments],
-            env=environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        self.addCleanup(process.kill)
-        return process
-
-    def press(self, *command):
-        environment = {**os.environ, "DISPLAY": self.display}
-        subprocess.run(["xdotool", *command], env=environment, check=True, timeout=TIMEOUT_S)
-
-    def finish(self, process):
-        _, errors = process.communicate(timeout=TIMEOUT_S)
-        self.assertEqual(process.returncode, 0, errors)
 
     def crop(self, name):
         """The part of a picture that the text does not cover, as raw bytes."""
@@ -62,7 +25,7 @@ class WindowTest(CommandLineTest):
 
     def test_the_window_shows_what_a_headless_run_draws(self):
         size = ("--size", "400x260")
-        process = self.start(*size, "--frames", FRAMES, "--capture", self.path("window.png"), "--validation")
+        process = self.start("run", THREE_LIGHTS, *size, "--frames", FRAMES, "--capture", self.path("window.png"), "--validation")
         time.sleep(0.5)
         self.press("search", "--sync", "--name", WINDOW_NAME, "key", "F1")  # text off
         self.finish(process)
@@ -77,7 +40,7 @@ class WindowTest(CommandLineTest):
         self.assertGreater(len(set(drawn)), 30)
 
     def test_keys_change_technique_and_view_and_escape_ends(self):
-        process = self.start("--size", "320x240", "--validation")
+        process = self.start("run", THREE_LIGHTS, "--size", "320x240", "--validation")
         self.press("search", "--sync", "--name", WINDOW_NAME)
         for key in ("t", "t", "v", "plus", "minus", "w", "F1", "F1"):
             self.press("search", "--name", WINDOW_NAME, "key", key)

@@ -24,7 +24,7 @@ SOURCES = CPP + SHADERS + (".py", ".sh")
 PROJECT_FOLDERS = ("modules/", "shaders/", "tests/", "demo_project/", "doc/")
 # Where a technique may be named, beside its own module and shader folder.
 TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "demo_project/", "doc/")
-WINDOW_OWNERS = ("modules/main/", "modules/editor/")
+WINDOW_OWNERS = ("modules/desktop/", "modules/main/", "modules/editor/")
 WITHOUT_DEVICE = ("scene", "mesh_tools")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
@@ -71,7 +71,8 @@ class Tree:
         spec = importlib.util.spec_from_file_location("config_" + name, path)
         config = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(config)
-        return {"dependencies": list(config.get_dependencies()), "layer": config.get_layer()}
+        optional = getattr(config, "get_optional_dependencies", lambda: [])
+        return {"dependencies": list(config.get_dependencies()) + list(optional()), "layer": config.get_layer()}
 
     def get_text(self, path):
         if path not in self.texts:
@@ -150,7 +151,7 @@ def check_layers(tree):
 def check_vulkan(tree):
     """Vulkan's headers are included by rendering_device alone.
 
-    The owner of a window needs the handle types, so main and editor may include vulkan_handles.h.
+    The owner of a window needs the handle types, so desktop may include vulkan_handles.h.
     """
     pattern = re.compile(r"(^|/)vulkan[^/]*\.hp*$|^vulkan/")
     for path in tree.find_sources(CPP):
@@ -162,11 +163,11 @@ def check_vulkan(tree):
 
 
 def check_window_library(tree):
-    """GLFW is included by main and editor alone."""
+    """GLFW is included by desktop, main and editor alone: the window, and the names of its keys."""
     for path in tree.find_sources(CPP):
         for line, _, name in tree.get_includes(path):
             if re.search(r"GLFW|glfw", name) and not path.startswith(WINDOW_OWNERS):
-                yield "%s:%d: includes %s; only main and editor may" % (path, line, name)
+                yield "%s:%d: includes %s; only desktop, main and editor may" % (path, line, name)
 
 
 def check_modules_without_device(tree):

@@ -47,6 +47,29 @@ TEST_CASE("[Project] a line that is nothing and a list without end are errors wi
 	CHECK(Project::load(empty_value.path).name.empty());
 }
 
+TEST_CASE("[Project] the disabled modules are stored, and all else stays") {
+	const std::string before = "; a comment\n[project]\nname=\"Demo\"\n\n[modules]\n"
+							   "; disabled=[\"none\"]\ndisabled=[\"one\",\n  \"two\"]\n"
+							   "[defaults]\nsize=\"64x64\"\n";
+	const ProjectFolder folder(before);
+	Project project = Project::load(folder.path);
+	for (const std::vector<std::string> &names :
+			{ std::vector<std::string>{ "three" }, {}, { "a", "b" } }) {
+		project.disabled_modules = names;
+		project.save_disabled_modules();
+		CHECK(Project::load(folder.path).disabled_modules == names);
+	}
+	const std::string after = load_text_file(folder.path / "project.cfg", 1 << 20);
+	CHECK(after ==
+			"; a comment\n[project]\nname=\"Demo\"\n\n[modules]\n"
+			"disabled=[\"a\", \"b\"]\n; disabled=[\"none\"]\n[defaults]\nsize=\"64x64\"\n");
+	const ProjectFolder none("[project]\nname=\"Demo\"\n");
+	project.folder = none.path;
+	project.save_disabled_modules();
+	CHECK(Project::load(none.path).disabled_modules.size() == 2);
+	CHECK(Project::load(none.path).name == "Demo");
+}
+
 TEST_CASE("[Project] a folder without project.cfg is an error that names it") {
 	const ProjectFolder folder("");
 	CHECK_THROWS_AS(Project::load(folder.path / "scenes"), Error);

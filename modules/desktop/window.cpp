@@ -1,4 +1,4 @@
-#include "modules/main/window.h"
+#include "modules/desktop/window.h"
 
 #include "modules/core/error.h"
 #include "modules/rendering_device/vulkan_handles.h" // before GLFW: turns on its Vulkan functions
@@ -7,16 +7,15 @@
 
 namespace gnomon {
 
-Window::Window(const std::string &p_title, glm::uvec2 p_size_px) {
+Window::Window(const std::string &p_title, glm::uvec2 p_size_px, const std::string &p_advice) {
 	glfwSetErrorCallback([](int, const char *) {}); // errors are reported below, once
 	if (!glfwInit()) {
-		fail("There is no display to open a window on. Use --headless (with --capture FILE), or ",
-				"set DISPLAY.");
+		fail("There is no display to open a window on. ", p_advice);
 	}
 	if (!glfwVulkanSupported()) {
 		glfwTerminate();
 		fail("The window system has no Vulkan. Install a driver, for example the package ",
-				"mesa-vulkan-drivers, or use --headless.");
+				"mesa-vulkan-drivers. ", p_advice);
 	}
 	glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
 	window = glfwCreateWindow(static_cast<int>(p_size_px.x), static_cast<int>(p_size_px.y),
@@ -26,16 +25,17 @@ Window::Window(const std::string &p_title, glm::uvec2 p_size_px) {
 		glfwGetError(&reason);
 		const std::string message = reason ? reason : "unknown";
 		glfwTerminate();
-		fail("Cannot open a window of ", p_size_px.x, "x", p_size_px.y, ": ", message,
-				". Use --headless.");
+		fail("Cannot open a window of ", p_size_px.x, "x", p_size_px.y, ": ", message, ". ",
+				p_advice);
 	}
 	glfwSetWindowUserPointer(window, this);
-	glfwSetKeyCallback(window, [](GLFWwindow *p_window, int p_key, int, int p_action, int) {
-		if (p_action == GLFW_PRESS) {
-			static_cast<Window *>(glfwGetWindowUserPointer(p_window))
-					->pressed_keys.push_back(p_key);
-		}
-	});
+	glfwSetKeyCallback(
+			window, [](GLFWwindow *p_window, int p_key, int, int p_action, int p_modifiers) {
+				if (p_action == GLFW_PRESS) {
+					static_cast<Window *>(glfwGetWindowUserPointer(p_window))
+							->key_presses.push_back({ p_key, p_modifiers });
+				}
+			});
 	glfwGetCursorPos(window, &cursor_px.x, &cursor_px.y);
 }
 
@@ -56,14 +56,14 @@ Swapchain::CreateSurface Window::get_create_surface() {
 		const VkResult result = glfwCreateWindowSurface(p_instance, window, nullptr, &surface);
 		if (result != VK_SUCCESS) {
 			fail("Cannot draw in the window (VkResult ", static_cast<int>(result),
-					"). Use --headless.");
+					"). Check the driver.");
 		}
 		return surface;
 	};
 }
 
 bool Window::poll() {
-	pressed_keys.clear();
+	key_presses.clear();
 	glfwPollEvents();
 	const glm::dvec2 before_px = cursor_px;
 	glfwGetCursorPos(window, &cursor_px.x, &cursor_px.y);
@@ -74,6 +74,10 @@ bool Window::poll() {
 
 void Window::close() {
 	glfwSetWindowShouldClose(window, GLFW_TRUE);
+}
+
+void Window::keep_open() {
+	glfwSetWindowShouldClose(window, GLFW_FALSE);
 }
 
 glm::uvec2 Window::get_size_px() const {

@@ -1,0 +1,18 @@
+def get_dependencies():
+    return ["core", "rendering_device"]
+
+
+def get_layer():
+    return 2
+
+
+def get_description():
+    return "A window of the desktop, its keys and its mouse"
+
+
+def can_disable():
+    return False
+
+
+def configure(env):
+    env.Append(LIBS=["glfw"])

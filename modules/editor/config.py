@@ -1,0 +1,22 @@
+def get_dependencies():
+    return ["core", "rendering_device", "scene", "render_graph", "renderer", "gltf_scene", "desktop"]
+
+
+def get_layer():
+    return 5
+
+
+def get_description():
+    return "Scene tree, viewport and inspector, made from property lists"
+
+
+def can_disable():
+    return False  # it runs only when it is asked for, and then it cannot end itself
+
+
+def get_doc():
+    return "doc/editor.md"
+
+
+def configure(env):
+    env.Append(LIBS=["imgui", "stb", "glfw"], CCFLAGS=["-isystem/usr/include/imgui"])

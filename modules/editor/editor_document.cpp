@@ -1,0 +1,219 @@
+#include "modules/editor/editor_document.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/gltf_scene/gltf_scene.h"
+#include "modules/gltf_scene/project_scene.h"
+#include "modules/renderer/shadow_registry.h"
+#include "modules/scene/node_properties.h"
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has_node(const Node3D &p_root, const std::string &p_name) {
+	if (p_root.name == p_name) {
+		return true;
+	}
+	for (const std::unique_ptr<Node3D> &child : p_root.children) {
+		if (has_node(*child, p_name)) {
+			return true;
+		}
+	}
+	return false;
+}
+
+std::string make_free_name(const Node3D &p_root, const std::string &p_name) {
+	for (int number = 2;; ++number) {
+		const std::string name = text(p_name, " ", number);
+		if (!has_node(p_root, name)) {
+			return name;
+		}
+	}
+}
+
+/// With all below it, each with a name of its own.
+std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, const Node3D &p_root) {
+	std::unique_ptr<Node3D> copy = p_node.copy();
+	copy->file_index = -1;
+	copy->name = make_free_name(p_root, p_node.name);
+	for (const std::unique_ptr<Node3D> &child : p_node.children) {
+		copy->add_child(copy_tree(*child, p_root));
+	}
+	return copy;
+}
+
+} // namespace
+
+EditorDocument::EditorDocument(const fs::path &p_path) {
+	const ProjectScene place = find_project_scene(p_path);
+	project = place.project;
+	path = fs::absolute(place.scene_path);
+	open(path);
+	note_file_time();
+}
+
+EditorDocument::~EditorDocument() {
+	if (!is_changed()) {
+		discard_recovery();
+	}
+}
+
+void EditorDocument::open(const fs::path &p_file) {
+	GltfLoadOptions options;
+	options.project_folder = project.folder;
+	options.find_technique_property = &ShadowRegistry::find_light_property;
+	std::unique_ptr<Scene> loaded = load_gltf(p_file, options);
+	selected = nullptr;
+	history = UndoHistory();
+	scene = std::move(loaded);
+	autosaved_serial = 0;
+	changed_since.reset();
+}
+
+void EditorDocument::note_file_time() {
+	std::error_code code;
+	file_time = fs::last_write_time(path, code);
+}
+
+void EditorDocument::set_property(Node3D &r_node, const std::string &p_name,
+		const std::optional<PropertyValue> &p_value, bool p_is_drag) {
+	history.change(r_node, text(p_value ? "Set " : "Reset ", p_name, " of ", r_node.name),
+			p_is_drag ? p_name : std::string(),
+			[&] { set_node_property(r_node, p_name, p_value); });
+}
+
+void EditorDocument::rename(Node3D &r_node, const std::string &p_name) {
+	if (p_name.empty()) {
+		fail(r_node.get_class_name(), " \"", r_node.name,
+				"\": its name cannot be empty. Type at least one letter.");
+	}
+	if (p_name != r_node.name && has_node(*scene->root, p_name)) {
+		fail(r_node.get_class_name(), " \"", r_node.name, "\": another node is named \"", p_name,
+				"\" already. Choose another name.");
+	}
+	history.change(r_node, text("Rename ", r_node.name), {}, [&] { r_node.name = p_name; });
+}
+
+void EditorDocument::remove(Node3D &r_node) {
+	if (&r_node == scene->root.get()) {
+		fail("The scene's root cannot be deleted. Select one of its children.");
+	}
+	history.remove(r_node, text("Delete ", r_node.name));
+	selected = nullptr;
+}
+
+void EditorDocument::duplicate(Node3D &r_node) {
+	if (&r_node == scene->root.get()) {
+		fail("The scene's root cannot be duplicated. Select one of its children.");
+	}
+	std::unique_ptr<Node3D> copy = copy_tree(r_node, *scene->root);
+	Node3D *made = copy.get();
+	history.add(*r_node.parent, std::move(copy), text("Duplicate ", r_node.name));
+	selected = made;
+}
+
+std::string EditorDocument::undo() {
+	if (!history.can_undo()) {
+		return {};
+	}
+	const std::string name = history.get_undo_name();
+	Node3D *node = history.undo();
+	selected = node->parent != nullptr ? node : nullptr; // it may just have left the tree
+	return name;
+}
+
+std::string EditorDocument::redo() {
+	if (!history.can_redo()) {
+		return {};
+	}
+	const std::string name = history.get_redo_name();
+	Node3D *node = history.redo();
+	selected = node->parent != nullptr ? node : nullptr;
+	return name;
+}
+
+void EditorDocument::set_module_enabled(const std::string &p_name, bool p_is_enabled) {
+	ModuleRegistry::set_enabled(p_name, p_is_enabled);
+	project.disabled_modules.clear();
+	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		if (!module.is_enabled) {
+			project.disabled_modules.push_back(module.name);
+		}
+	}
+	project.save_disabled_modules();
+}
+
+void EditorDocument::save() {
+	save_as(path);
+}
+
+void EditorDocument::save_as(const fs::path &p_path) {
+	save_gltf(*scene, p_path);
+	discard_recovery();
+	path = fs::absolute(p_path);
+	history.set_saved();
+	is_recovered = false;
+	changed_since.reset();
+	note_file_time();
+}
+
+fs::path EditorDocument::get_recovery_path() const {
+	return path.parent_path() /
+			("." + path.stem().string() + ".recovery" + path.extension().string());
+}
+
+bool EditorDocument::autosave(Clock::time_point p_now) {
+	if (!is_changed() || history.get_serial() == autosaved_serial) {
+		changed_since.reset();
+		return true;
+	}
+	if (!changed_since) {
+		changed_since = p_now;
+	}
+	if (p_now - *changed_since < AUTOSAVE_INTERVAL) {
+		return true;
+	}
+	changed_since = p_now;
+	try {
+		save_gltf(*scene, get_recovery_path());
+		autosaved_serial = history.get_serial();
+		changed_since.reset();
+	} catch (const Error &error) {
+		log_error("Changes cannot be saved aside: ", error.what());
+		return false;
+	}
+	return true;
+}
+
+bool EditorDocument::has_recovery() const {
+	std::error_code code;
+	return fs::exists(get_recovery_path(), code);
+}
+
+void EditorDocument::recover() {
+	open(get_recovery_path());
+	is_recovered = true;
+}
+
+void EditorDocument::discard_recovery() {
+	std::error_code code;
+	fs::remove(get_recovery_path(), code);
+}
+
+bool EditorDocument::is_file_newer() const {
+	std::error_code code;
+	const fs::file_time_type now = fs::last_write_time(path, code);
+	return !code && now != file_time;
+}
+
+void EditorDocument::reload() {
+	note_file_time(); // also when it cannot be read: once is enough
+	open(path);
+	is_recovered = false;
+}
+
+} // namespace gnomon

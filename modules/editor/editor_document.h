@@ -1,0 +1,91 @@
+#pragma once
+
+#include "modules/core/project.h"
+#include "modules/editor/undo_history.h"
+#include "modules/scene/nodes.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace gnomon {
+
+/// The scene that is edited: its file, its changes, what is selected. Nothing here draws.
+class EditorDocument {
+public:
+	using Clock = std::chrono::steady_clock;
+	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 };
+
+	/// p_path: as find_project_scene. A file that cannot be read is an Error.
+	explicit EditorDocument(const std::filesystem::path &p_path);
+	/// What was saved aside is removed when nothing of it would be lost.
+	~EditorDocument();
+	EditorDocument(const EditorDocument &) = delete;
+	EditorDocument &operator=(const EditorDocument &) = delete;
+
+	Scene &get_scene() { return *scene; }
+	const Project &get_project() const { return project; }
+	const std::filesystem::path &get_path() const { return path; }
+	UndoHistory &get_history() { return history; }
+	bool is_changed() const { return is_recovered || !history.is_saved(); }
+
+	/// Null: nothing.
+	Node3D *get_selected() const { return selected; }
+	void select(Node3D *p_node) { selected = p_node; }
+
+	/// One step that can be undone. A refused value is an Error, and nothing changes. p_is_drag:
+	/// steps of the same property are joined until end_drag().
+	void set_property(Node3D &r_node, const std::string &p_name,
+			const std::optional<PropertyValue> &p_value, bool p_is_drag = false);
+	void end_drag() { history.close(); }
+	/// An empty name, or one that another node has, is an Error.
+	void rename(Node3D &r_node, const std::string &p_name);
+	void remove(Node3D &r_node);
+	/// Beside the node, with a name of its own; it is selected then.
+	void duplicate(Node3D &r_node);
+	/// Selects what changed, and says what it was; empty: nothing to undo.
+	std::string undo();
+	std::string redo();
+
+	/// Of this program and of the project, whose project.cfg is written. Not a step to undo.
+	void set_module_enabled(const std::string &p_name, bool p_is_enabled);
+
+	/// The file is the old one or the new one. An Error loses nothing.
+	void save();
+	void save_as(const std::filesystem::path &p_path);
+	/// Where the changes go from time to time, beside the file.
+	std::filesystem::path get_recovery_path() const;
+	/// Writes the changes aside when they have waited long enough. False: that failed; once a while
+	/// it is tried again.
+	bool autosave(Clock::time_point p_now);
+	/// True when an earlier program ended without saving what is there.
+	bool has_recovery() const;
+	/// Takes over what was saved aside; it counts as changed.
+	void recover();
+	void discard_recovery();
+
+	/// True when another program has written the file since it was read or saved.
+	bool is_file_newer() const;
+	/// The file's newer state is not wanted: the next save writes over it.
+	void keep_over_file() { note_file_time(); }
+	/// Reads the file anew. Changes and history are lost. An Error leaves everything as it is.
+	void reload();
+
+private:
+	void open(const std::filesystem::path &p_file);
+	void note_file_time();
+
+	Project project;
+	std::filesystem::path path;
+	std::unique_ptr<Scene> scene;
+	UndoHistory history;
+	Node3D *selected = nullptr;
+	bool is_recovered = false;
+	std::filesystem::file_time_type file_time;
+	uint64_t autosaved_serial = 0;
+	std::optional<Clock::time_point> changed_since;
+};
+
+} // namespace gnomon

@@ -1,0 +1,83 @@
+#include "modules/editor/editor_layout.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const float LEAST_SHARE = 0.08f;
+const float GREATEST_SHARE = 0.45f;
+
+void place_next(ImVec2 p_position, ImVec2 p_size) {
+	ImGui::SetNextWindowPos(p_position);
+	ImGui::SetNextWindowSize(p_size);
+}
+
+/// A line that can be dragged; changes a share of the window.
+void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is_vertical,
+		float p_window, float p_sign, float &r_share) {
+	place_next(p_position, p_size);
+	ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+	ImGui::Begin(p_id, nullptr,
+			ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
+					ImGuiWindowFlags_NoMove);
+	ImGui::InvisibleButton("line", p_size);
+	if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+		ImGui::SetMouseCursor(
+				p_is_vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+	}
+	if (ImGui::IsItemActive()) {
+		const ImVec2 drag = ImGui::GetIO().MouseDelta;
+		r_share = std::clamp(
+				r_share + p_sign * (p_is_vertical ? drag.x : drag.y) / std::max(p_window, 1.0f),
+				LEAST_SHARE, GREATEST_SHARE);
+	}
+	ImGui::End();
+	ImGui::PopStyleVar(2);
+}
+
+} // namespace
+
+void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
+	const ImVec2 window = ImGui::GetIO().DisplaySize;
+	const float bar = ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().WindowPadding.y;
+	const float line = ImGui::GetFontSize() * 0.3f;
+	const float left = std::floor(window.x * r_layout.left);
+	const float right = std::floor(window.x * r_layout.right);
+	const float middle = std::max(window.x - left - right - 2.0f * line, 32.0f);
+	const float height = std::max(window.y - 2.0f * bar, 64.0f);
+	const float bottom = std::floor(height * r_layout.bottom);
+	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(16, 16));
+	place_next(ImVec2(0, 0), ImVec2(window.x, bar));
+	draw_toolbar(r_context);
+	place_next(ImVec2(0, bar), ImVec2(left, height));
+	draw_scene_tree(r_context);
+	draw_splitter(
+			"##left", ImVec2(left, bar), ImVec2(line, height), true, window.x, 1.0f, r_layout.left);
+	place_next(ImVec2(left + line, bar), ImVec2(middle, height - bottom - line));
+	draw_viewport(r_context);
+	draw_splitter("##bottom", ImVec2(left + line, bar + height - bottom - line),
+			ImVec2(middle, line), false, height, -1.0f, r_layout.bottom);
+	place_next(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));
+	if (ImGui::Begin("Frame", nullptr, ImGuiWindowFlags_NoTitleBar) &&
+			ImGui::BeginTabBar("bottom")) {
+		draw_plan(r_context);
+		draw_modules(r_context);
+		ImGui::EndTabBar();
+	}
+	ImGui::End();
+	draw_splitter("##right", ImVec2(left + line + middle, bar), ImVec2(line, height), true,
+			window.x, -1.0f, r_layout.right);
+	place_next(ImVec2(window.x - right, bar), ImVec2(right, height));
+	draw_inspector(r_context);
+	place_next(ImVec2(0, window.y - bar), ImVec2(window.x, bar));
+	draw_status(r_context);
+	ImGui::PopStyleVar();
+}
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace gnomon {
+
+struct EditorOptions {
+	std::filesystem::path path; // a project, or a scene
+	std::string device;
+	bool validation = false;
+	std::string program; // this program's file, for the play button
+	/// Where widgets are, written as JSON whenever that changes; empty: nowhere. For tests.
+	std::filesystem::path items;
+	uint32_t frame_count = 0; // ends after so many; 0: when the window is closed
+};
+
+/// Shows the editor until its window is closed. No display, or a scene that cannot be read: an
+/// Error.
+void run_editor(const EditorOptions &p_options);
+
+} // namespace gnomon

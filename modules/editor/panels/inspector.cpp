@@ -1,0 +1,296 @@
+#include "modules/core/error.h"
+#include "modules/editor/editor_context.h"
+#include "modules/scene/node_properties.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace gnomon {
+
+namespace {
+
+std::vector<std::string> split_hint(const std::string &p_hint) {
+	std::vector<std::string> parts;
+	std::string part;
+	for (const char letter : p_hint + ",") {
+		if (letter == ',') {
+			parts.push_back(part);
+			part.clear();
+		} else {
+			part += letter;
+		}
+	}
+	return parts;
+}
+
+struct NumberRange {
+	double least = -1e30;
+	double greatest = 1e30;
+	double step = 0.01;
+
+	explicit NumberRange(const PropertyInfo &p_info) {
+		const std::vector<std::string> parts = split_hint(p_info.hint);
+		const auto read = [&](size_t p_index, double &r_value) {
+			if (p_index < parts.size()) {
+				std::from_chars(parts[p_index].data(),
+						parts[p_index].data() + parts[p_index].size(), r_value);
+			}
+		};
+		read(0, least);
+		read(1, greatest);
+		read(2, step);
+	}
+};
+
+/// One property of the selected node. Widgets give a new value, or none while nothing happens.
+class PropertyEditor {
+public:
+	PropertyEditor(EditorContext &r_context, const PropertyInfo &p_info, PropertyValue p_value) :
+			context(r_context), info(p_info), value(std::move(p_value)) {}
+
+	std::optional<PropertyValue> draw() {
+		ImGui::SetNextItemWidth(-1.0f);
+		switch (info.type) {
+			case PropertyType::BOOL:
+				return draw_flag();
+			case PropertyType::ENUM:
+				return draw_choice();
+			case PropertyType::INT:
+				return draw_whole_number();
+			case PropertyType::FLOAT:
+				return draw_number();
+			case PropertyType::VECTOR3:
+				return draw_vector();
+			case PropertyType::STRING:
+				return draw_text();
+		}
+		return std::nullopt;
+	}
+
+private:
+	std::optional<PropertyValue> draw_flag() {
+		bool flag = std::get<bool>(value);
+		return ImGui::Checkbox("##value", &flag) ? std::optional<PropertyValue>(flag)
+												 : std::nullopt;
+	}
+
+	std::optional<PropertyValue> draw_choice() {
+		const std::string &chosen = std::get<std::string>(value);
+		std::optional<PropertyValue> result;
+		if (ImGui::BeginCombo("##value", chosen.empty() ? "(default)" : chosen.c_str())) {
+			const std::vector<std::string> choices = split_hint(info.hint);
+			for (size_t index = 0; index < choices.size(); ++index) {
+				const char *label = choices[index].empty() ? "(default)" : choices[index].c_str();
+				if (ImGui::Selectable(label, choices[index] == chosen)) {
+					result = choices[index];
+				}
+				context.note_item("choice " + choices[index]);
+				if (ImGui::IsItemHovered() && index < info.choice_tooltips.size()) {
+					ImGui::SetTooltip("%s", info.choice_tooltips[index].c_str());
+				}
+			}
+			ImGui::EndCombo();
+		}
+		return result;
+	}
+
+	std::optional<PropertyValue> draw_whole_number() {
+		const NumberRange range(info);
+		int64_t number = std::get<int64_t>(value);
+		const int64_t least = static_cast<int64_t>(std::max(range.least, -1e15));
+		const int64_t greatest = static_cast<int64_t>(std::min(range.greatest, 1e15));
+		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &number,
+				std::max(float(range.step), 0.2f), &least, &greatest, nullptr,
+				ImGuiSliderFlags_AlwaysClamp);
+		return is_changed ? std::optional<PropertyValue>(number) : std::nullopt;
+	}
+
+	/// Dragged below the range, a value becomes the special one, such as -1 for "derived".
+	std::optional<PropertyValue> draw_number() {
+		const NumberRange range(info);
+		double number = std::get<double>(value);
+		double least = range.least;
+		double special = 0;
+		const bool has_special = !info.special.empty();
+		if (has_special) {
+			std::from_chars(
+					info.special.data(), info.special.data() + info.special.size(), special);
+			least = std::min(least, special);
+		}
+		const bool is_special = has_special && number == special;
+		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number,
+				float(range.step), &least, &range.greatest,
+				is_special ? (info.special + " (derived)").c_str() : "%.4g",
+				ImGuiSliderFlags_AlwaysClamp);
+		if (!is_changed) {
+			return std::nullopt;
+		}
+		if (has_special && number < range.least) {
+			number = is_special && number > special ? range.least : special;
+		}
+		return number;
+	}
+
+	std::optional<PropertyValue> draw_vector() {
+		const NumberRange range(info);
+		glm::dvec3 vector = std::get<glm::dvec3>(value);
+		if (info.is_color) {
+			glm::vec3 color(vector);
+			const bool is_changed =
+					ImGui::ColorEdit3("##value", &color.x, ImGuiColorEditFlags_Float);
+			return is_changed ? std::optional<PropertyValue>(glm::dvec3(
+										glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f))))
+							  : std::nullopt;
+		}
+		const bool is_changed =
+				ImGui::DragScalarN("##value", ImGuiDataType_Double, &vector.x, 3, float(range.step),
+						&range.least, &range.greatest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+		return is_changed ? std::optional<PropertyValue>(vector) : std::nullopt;
+	}
+
+	std::optional<PropertyValue> draw_text() {
+		char text[512] = {};
+		std::strncpy(text, std::get<std::string>(value).c_str(), sizeof(text) - 1);
+		const bool is_done = ImGui::InputText(
+				"##value", text, sizeof(text), ImGuiInputTextFlags_EnterReturnsTrue);
+		return is_done ? std::optional<PropertyValue>(std::string(text)) : std::nullopt;
+	}
+
+	EditorContext &context;
+	const PropertyInfo &info;
+	PropertyValue value;
+};
+
+void draw_label(const PropertyInfo &p_info) {
+	ImGui::AlignTextToFramePadding();
+	ImGui::TextUnformatted(p_info.name.c_str());
+	if (ImGui::IsItemHovered()) {
+		ImGui::BeginTooltip();
+		ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
+		ImGui::TextUnformatted(p_info.tooltip.c_str());
+		ImGui::TextDisabled("%s", describe_range(p_info).c_str());
+		ImGui::PopTextWrapPos();
+		ImGui::EndTooltip();
+	}
+}
+
+/// What the widgets of one frame ask for; done after all are drawn, since a change may declare
+/// other properties.
+struct PropertyEdit {
+	bool is_wanted = false;
+	std::string name;
+	std::optional<PropertyValue> value;
+	bool is_drag = false;
+	bool ends_drag = false;
+
+	void apply(EditorContext &r_context, Node3D &r_node) const {
+		if (is_wanted) {
+			r_context.attempt(
+					[&] { r_context.document.set_property(r_node, name, value, is_drag); });
+			r_context.viewport.is_moving = is_drag;
+		}
+		if (ends_drag) {
+			r_context.document.end_drag();
+			r_context.viewport.needs_picture = true;
+		}
+	}
+};
+
+void draw_property(EditorContext &r_context, const Node3D &p_node, const PropertyInfo &p_info,
+		PropertyEdit &r_edit) {
+	ImGui::PushID(p_info.name.c_str());
+	ImGui::TableNextRow();
+	ImGui::TableNextColumn();
+	draw_label(p_info);
+	ImGui::TableNextColumn();
+	const std::optional<PropertyValue> changed =
+			PropertyEditor(r_context, p_info, get_node_property(p_node, p_info.name)).draw();
+	r_context.note_item("property " + p_info.name);
+	if (changed) {
+		r_edit = { true, p_info.name, changed, ImGui::IsItemActive() };
+	}
+	r_edit.ends_drag |= ImGui::IsItemDeactivated();
+	ImGui::TableNextColumn();
+	ImGui::TextDisabled("%s", p_info.unit.c_str());
+	ImGui::TableNextColumn();
+	if (is_node_property_set(p_node, p_info.name)) {
+		if (ImGui::SmallButton("x")) {
+			r_edit = { true, p_info.name, std::nullopt };
+		}
+		if (ImGui::IsItemHovered()) {
+			ImGui::SetTooltip(
+					"Back to the default, %s", format_property(p_info.default_value).c_str());
+		}
+	}
+	ImGui::PopID();
+}
+
+bool is_wanted(const EditorContext &p_context, const PropertyInfo &p_info) {
+	return p_info.name.find(p_context.inspector_filter) != std::string::npos ||
+			p_info.group.find(p_context.inspector_filter) != std::string::npos;
+}
+
+/// All properties under one heading, as they follow each other in the list.
+void draw_group(EditorContext &r_context, const Node3D &p_node, const std::string &p_group,
+		const std::vector<PropertyInfo> &p_properties, PropertyEdit &r_edit) {
+	const char *heading = p_group.empty() ? "Other" : p_group.c_str();
+	if (!ImGui::CollapsingHeader(heading, ImGuiTreeNodeFlags_DefaultOpen) ||
+			!ImGui::BeginTable(heading, 4)) {
+		return;
+	}
+	ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+	ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.4f);
+	ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 2.0f * ImGui::GetFontSize());
+	ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.5f * ImGui::GetFontSize());
+	for (const PropertyInfo &info : p_properties) {
+		if (info.group == p_group && is_wanted(r_context, info)) {
+			draw_property(r_context, p_node, info, r_edit);
+		}
+	}
+	ImGui::EndTable();
+}
+
+} // namespace
+
+void draw_inspector(EditorContext &r_context) {
+	if (!ImGui::Begin("Inspector")) {
+		ImGui::End();
+		return;
+	}
+	Node3D *node = r_context.document.get_selected();
+	if (node == nullptr) {
+		ImGui::TextDisabled("Select a node in the scene.");
+		ImGui::End();
+		return;
+	}
+	ImGui::TextUnformatted(node->name.c_str());
+	ImGui::SameLine();
+	ImGui::TextDisabled("%s", node->get_class_name());
+	char filter[128] = {};
+	std::strncpy(filter, r_context.inspector_filter.c_str(), sizeof(filter) - 1);
+	ImGui::SetNextItemWidth(-1.0f);
+	if (ImGui::InputTextWithHint("##filter", "Search properties", filter, sizeof(filter))) {
+		r_context.inspector_filter = filter;
+	}
+	const std::vector<PropertyInfo> properties = list_node_properties(*node).get_properties();
+	std::vector<std::string> groups;
+	for (const PropertyInfo &info : properties) {
+		if (is_wanted(r_context, info) &&
+				std::find(groups.begin(), groups.end(), info.group) == groups.end()) {
+			groups.push_back(info.group);
+		}
+	}
+	PropertyEdit edit;
+	for (const std::string &group : groups) {
+		draw_group(r_context, *node, group, properties, edit);
+	}
+	edit.apply(r_context, *node);
+	ImGui::End();
+}
+
+} // namespace gnomon

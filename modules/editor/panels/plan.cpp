@@ -1,0 +1,62 @@
+#include "modules/editor/editor_context.h"
+
+#include <imgui.h>
+
+namespace gnomon {
+
+namespace {
+
+void draw_timings(const RenderResult &p_result) {
+	if (!ImGui::BeginTable("timings", 2, ImGuiTableFlags_RowBg)) {
+		return;
+	}
+	ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
+	ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 5.0f * ImGui::GetFontSize());
+	for (const PassTiming &timing : p_result.timings) {
+		ImGui::TableNextRow();
+		ImGui::TableNextColumn();
+		ImGui::TextUnformatted(timing.name.c_str());
+		ImGui::TableNextColumn();
+		ImGui::Text("%.2f", timing.gpu_ms);
+	}
+	ImGui::EndTable();
+}
+
+void draw_entries(const FramePlan &p_plan) {
+	if (!ImGui::BeginTable("plan", 3, ImGuiTableFlags_RowBg)) {
+		return;
+	}
+	ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthStretch, 0.5f);
+	ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+	ImGui::TableSetupColumn("left out", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+	ImGui::TableHeadersRow();
+	for (const FramePlanEntry &entry : p_plan.get_entries()) {
+		ImGui::TableNextRow();
+		ImGui::TableNextColumn();
+		ImGui::TextUnformatted(entry.light.c_str());
+		ImGui::TableNextColumn();
+		ImGui::TextUnformatted(entry.pass.c_str());
+		ImGui::TableNextColumn();
+		ImGui::TextDisabled("%s", entry.runs ? "" : entry.reason.c_str());
+	}
+	ImGui::EndTable();
+}
+
+} // namespace
+
+void draw_plan(EditorContext &r_context) {
+	if (ImGui::BeginTabItem("Frame plan")) {
+		ImGui::BeginChild("entries");
+		draw_entries(r_context.shown.plan);
+		ImGui::EndChild();
+		ImGui::EndTabItem();
+	}
+	if (ImGui::BeginTabItem("Passes")) {
+		ImGui::BeginChild("timings");
+		draw_timings(r_context.shown);
+		ImGui::EndChild();
+		ImGui::EndTabItem();
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,134 @@
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/editor/editor_document.h"
+#include "modules/scene/node_properties.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A project with one scene of the demo.
+struct EditedProject : TemporaryFolder {
+	fs::path scene = path / "contact_box.gltf";
+
+	EditedProject() {
+		for (const char *name : { "contact_box.gltf", "contact_box.bin" }) {
+			fs::copy_file(fs::path("demo_project/scenes") / name, path / name);
+		}
+		save_file_atomically(path / "project.cfg",
+				std::string_view("[project]\nstart_scene=\"contact_box.gltf\"\n"));
+	}
+};
+
+Light3D &find_light(EditorDocument &r_document) {
+	return *r_document.get_scene().find_nodes<Light3D>().at(0);
+}
+
+double get_size(EditorDocument &r_document) {
+	return std::get<double>(get_node_property(find_light(r_document), "light_size"));
+}
+
+const EditorDocument::Clock::time_point START{};
+const auto LATER = START + 2 * EditorDocument::AUTOSAVE_INTERVAL;
+
+} // namespace
+
+TEST_CASE("[EditorDocument] a change is saved, and nothing else of the file changes") {
+	const EditedProject project;
+	const std::string before = load_text_file(project.scene);
+	EditorDocument document(project.path);
+	CHECK_FALSE(document.is_changed());
+	document.set_property(find_light(document), "light_size", 0.75);
+	CHECK(document.is_changed());
+	document.save();
+	CHECK_FALSE(document.is_changed());
+	CHECK(get_size(document) == 0.75);
+	EditorDocument again(project.scene);
+	CHECK(get_size(again) == 0.75);
+	again.set_property(find_light(again), "light_size", 0.4);
+	again.save();
+	CHECK(load_text_file(project.scene) == before);
+}
+
+TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
+	const EditedProject project;
+	{
+		EditorDocument document(project.path);
+		CHECK(document.autosave(START));
+		CHECK_FALSE(document.has_recovery());
+		document.set_property(find_light(document), "light_size", 0.75);
+		CHECK(document.autosave(START)); // begins to wait
+		CHECK_FALSE(document.has_recovery());
+		CHECK(document.autosave(LATER));
+		CHECK(document.has_recovery());
+	} // as if the program had ended
+	EditorDocument document(project.path);
+	REQUIRE(document.has_recovery());
+	CHECK(get_size(document) == 0.4);
+	document.recover();
+	CHECK(get_size(document) == 0.75);
+	CHECK(document.is_changed());
+	document.save();
+	CHECK_FALSE(document.has_recovery());
+	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+}
+
+TEST_CASE("[EditorDocument] a file that cannot be written or read loses nothing") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	document.set_property(find_light(document), "light_size", 0.75);
+	CHECK_THROWS_AS(document.save_as(project.path / "missing" / "a.gltf"), Error);
+	CHECK(document.is_changed());
+	CHECK(document.get_path().filename() == "contact_box.gltf");
+	CHECK(get_size(document) == 0.75);
+	save_file_atomically(project.scene, std::string_view("{ broken"));
+	CHECK_THROWS_AS(document.reload(), Error);
+	CHECK(get_size(document) == 0.75);
+	CHECK(document.get_history().can_undo());
+	document.save(); // writes over what is broken
+	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+}
+
+TEST_CASE("[EditorDocument] names stay unique, and copies are saved with all below them") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	Light3D &light = find_light(document);
+	CHECK_THROWS_AS(document.rename(light, ""), Error);
+	const std::string other = document.get_scene().find_nodes<Camera3D>().at(0)->name;
+	CHECK_THROWS_WITH_AS(document.rename(light, other), doctest::Contains("already"), Error);
+	document.duplicate(light);
+	REQUIRE(document.get_selected() != nullptr);
+	CHECK(document.get_selected()->name == light.name + " 2");
+	document.set_property(*document.get_selected(), "light_size", 0.1);
+	document.save();
+	EditorDocument again(project.path);
+	REQUIRE(again.get_scene().find_nodes<Light3D>().size() == 2);
+	CHECK(get_size(again) == 0.4);
+	document.undo();
+	document.undo();
+	CHECK(document.get_scene().find_nodes<Light3D>().size() == 1);
+	CHECK(document.get_selected() == nullptr);
+	document.remove(light);
+	CHECK(document.get_scene().find_nodes<Light3D>().empty());
+	document.undo();
+	CHECK(document.get_selected() == &light);
+	CHECK_THROWS_AS(document.remove(*document.get_scene().root), Error);
+}
+
+TEST_CASE("[EditorDocument] another program's change to the file is noticed once") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	CHECK_FALSE(document.is_file_newer());
+	fs::last_write_time(project.scene, fs::file_time_type::clock::now() + std::chrono::hours(1));
+	CHECK(document.is_file_newer());
+	document.reload();
+	CHECK_FALSE(document.is_file_newer());
+	document.save();
+	CHECK_FALSE(document.is_file_newer());
+}

@@ -1,0 +1,114 @@
+#include "modules/core/error.h"
+#include "modules/editor/undo_history.h"
+#include "modules/scene/node_properties.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+struct SmallTree {
+	Node3D root;
+	Light3D *light = nullptr;
+	Node3D *child = nullptr;
+	UndoHistory history;
+
+	SmallTree() {
+		light = static_cast<Light3D *>(root.add_child(std::make_unique<Light3D>()));
+		light->name = "Lamp";
+		child = light->add_child(std::make_unique<Node3D>());
+		child->name = "Shade";
+		root.add_child(std::make_unique<Camera3D>())->name = "Camera";
+	}
+	void set(double p_intensity, const char *p_key = "") {
+		history.change(*light, "Set intensity", p_key,
+				[&] { set_node_property(*light, "intensity", p_intensity); });
+	}
+};
+
+} // namespace
+
+TEST_CASE("[UndoHistory] changes are taken back and done again, one by one") {
+	SmallTree tree;
+	tree.set(2);
+	tree.set(3);
+	CHECK(tree.history.get_undo_name() == "Set intensity");
+	CHECK(tree.history.undo() == tree.light);
+	CHECK(tree.light->intensity == 2);
+	tree.history.undo();
+	CHECK(tree.light->intensity == 1);
+	CHECK_FALSE(tree.history.can_undo());
+	tree.history.redo();
+	tree.history.redo();
+	CHECK(tree.light->intensity == 3);
+	CHECK_FALSE(tree.history.can_redo());
+	tree.history.undo();
+	tree.set(5); // what was taken back is gone
+	CHECK_FALSE(tree.history.can_redo());
+	CHECK(tree.light->children.size() == 1); // a state is restored without its children
+}
+
+TEST_CASE("[UndoHistory] a drag is one step until it ends") {
+	SmallTree tree;
+	for (int value = 2; value < 40; ++value) {
+		tree.set(value, "intensity");
+	}
+	tree.history.close();
+	tree.set(50, "intensity");
+	tree.history.undo();
+	CHECK(tree.light->intensity == 39);
+	tree.history.undo();
+	CHECK(tree.light->intensity == 1);
+	CHECK_FALSE(tree.history.can_undo());
+}
+
+TEST_CASE("[UndoHistory] what changes nothing or is refused leaves no step") {
+	SmallTree tree;
+	tree.set(1);
+	CHECK_FALSE(tree.history.can_undo());
+	CHECK_THROWS_AS(tree.history.change(*tree.light, "Two", "",
+							[&] {
+								tree.light->name = "Half done";
+								set_node_property(*tree.light, "intensity", -1.0);
+							}),
+			Error);
+	CHECK(tree.light->name == "Lamp");
+	CHECK_FALSE(tree.history.can_undo());
+}
+
+TEST_CASE("[UndoHistory] removed and added nodes come back at their place, with all below them") {
+	SmallTree tree;
+	tree.history.remove(*tree.light, "Delete Lamp");
+	CHECK(tree.root.children.size() == 1);
+	tree.history.undo();
+	REQUIRE(tree.root.children.size() == 2);
+	CHECK(tree.root.children[0].get() == tree.light);
+	CHECK(tree.light->children.at(0).get() == tree.child);
+	auto made = std::make_unique<Light3D>();
+	made->name = "Other";
+	tree.history.add(tree.root, std::move(made), "Add Other");
+	CHECK(tree.root.children.size() == 3);
+	tree.history.undo();
+	CHECK(tree.root.children.size() == 2);
+	tree.history.redo();
+	CHECK(tree.root.children[2]->name == "Other");
+}
+
+TEST_CASE("[UndoHistory] it knows when the scene is as it was saved") {
+	SmallTree tree;
+	CHECK(tree.history.is_saved());
+	tree.set(2, "intensity");
+	CHECK_FALSE(tree.history.is_saved());
+	tree.history.set_saved();
+	tree.set(3, "intensity"); // the same drag goes on after the save
+	CHECK_FALSE(tree.history.is_saved());
+	tree.history.undo();
+	CHECK_FALSE(tree.history.is_saved()); // the drag was one step
+	tree.set(4);
+	tree.history.set_saved();
+	tree.history.undo();
+	CHECK_FALSE(tree.history.is_saved());
+	tree.history.redo();
+	CHECK(tree.history.is_saved());
+}

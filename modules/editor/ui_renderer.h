@@ -1,0 +1,30 @@
+#pragma once
+
+#include "modules/render_graph/render_graph.h"
+
+#include <vector>
+
+struct ImDrawData;
+
+namespace gnomon {
+
+/// Draws what Dear ImGui describes, with the engine's own device.
+class UiRenderer {
+public:
+	/// Takes the fonts of the current ImGui context, which must be there.
+	explicit UiRenderer(RenderingDevice &p_device);
+
+	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. The number is its
+	/// ImTextureID.
+	void *add_texture(TextureRID p_texture);
+	/// Draws into a target of the display's size, over what is there. Ends this frame's textures.
+	void add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDrawData &p_data);
+
+private:
+	RenderingDevice &device;
+	OwnedTexture font;
+	OwnedSampler sampler;
+	std::vector<TextureRID> textures; // by ImTextureID - 1; the font's first
+};
+
+} // namespace gnomon

@@ -1,0 +1,128 @@
+#include "modules/editor/undo_history.h"
+
+#include "modules/core/error.h"
+#include "modules/scene/node_properties.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
+	if (p_left.name != p_right.name || p_left.parent_from_node != p_right.parent_from_node) {
+		return false;
+	}
+	for (const NodeField &field : p_left.get_fields()) {
+		if (field.read(p_left) != field.read(p_right)) {
+			return false;
+		}
+	}
+	const PropertyValues *left = const_cast<Node3D &>(p_left).get_stored_properties();
+	const PropertyValues *right = const_cast<Node3D &>(p_right).get_stored_properties();
+	return left == nullptr || right == nullptr || *left == *right;
+}
+
+} // namespace
+
+void UndoHistory::push(Step p_step) {
+	steps.resize(place);
+	p_step.serial = next_serial++;
+	steps.push_back(std::move(p_step));
+	place = steps.size();
+}
+
+void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::string &p_key,
+		const std::function<void()> &p_change) {
+	std::unique_ptr<Node3D> before = r_node.copy();
+	try {
+		p_change();
+	} catch (...) {
+		r_node.assign(*before);
+		throw;
+	}
+	if (is_same_state(*before, r_node)) {
+		return;
+	}
+	const bool joins = !p_key.empty() && p_key == open_key && place == steps.size() && place > 0 &&
+			steps.back().node == &r_node && steps.back().key == p_key;
+	open_key = p_key;
+	if (joins) {
+		steps.back().after = r_node.copy();
+		steps.back().serial = next_serial++;
+		return;
+	}
+	Step step;
+	step.name = p_name;
+	step.key = p_key;
+	step.node = &r_node;
+	step.before = std::move(before);
+	step.after = r_node.copy();
+	push(std::move(step));
+}
+
+void UndoHistory::add(Node3D &r_parent, std::unique_ptr<Node3D> p_node, const std::string &p_name) {
+	close();
+	Step step;
+	step.name = p_name;
+	step.node = p_node.get();
+	step.parent = &r_parent;
+	step.index = r_parent.children.size();
+	step.held = std::move(p_node);
+	put_in(step);
+	push(std::move(step));
+}
+
+void UndoHistory::remove(Node3D &r_node, const std::string &p_name) {
+	GNOMON_ASSERT(r_node.parent, "the root cannot be removed");
+	close();
+	const auto &siblings = r_node.parent->children;
+	Step step;
+	step.name = p_name;
+	step.node = &r_node;
+	step.parent = r_node.parent;
+	step.index = size_t(std::find_if(siblings.begin(), siblings.end(), [&](const auto &p_one) {
+		return p_one.get() == &r_node;
+	}) - siblings.begin());
+	step.is_removal = true;
+	take_out(step);
+	push(std::move(step));
+}
+
+void UndoHistory::take_out(Step &r_step) {
+	r_step.held = r_step.parent->remove_child(*r_step.node);
+}
+
+void UndoHistory::put_in(Step &r_step) {
+	r_step.parent->insert_child(std::move(r_step.held), r_step.index);
+}
+
+Node3D *UndoHistory::undo() {
+	GNOMON_ASSERT(can_undo(), "nothing to undo");
+	close();
+	Step &step = steps[--place];
+	if (step.before) {
+		step.node->assign(*step.before);
+	} else if (step.is_removal) {
+		put_in(step);
+	} else {
+		take_out(step);
+	}
+	return step.node;
+}
+
+Node3D *UndoHistory::redo() {
+	GNOMON_ASSERT(can_redo(), "nothing to redo");
+	close();
+	Step &step = steps[place++];
+	if (step.after) {
+		step.node->assign(*step.after);
+	} else if (step.is_removal) {
+		take_out(step);
+	} else {
+		put_in(step);
+	}
+	return step.node;
+}
+
+} // namespace gnomon

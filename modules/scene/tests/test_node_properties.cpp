@@ -1,0 +1,122 @@
+#include "modules/core/error.h"
+#include "modules/scene/node_properties.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+using namespace gnomon;
+
+namespace {
+
+bool has(const Node3D &p_node, const char *p_name) {
+	return list_node_properties(p_node).find(p_name) != nullptr;
+}
+
+void add_note(const Node3D &p_node, PropertyList &r_list) {
+	if (dynamic_cast<const Light3D *>(&p_node) != nullptr) {
+		r_list.add({ "note_size", PropertyType::FLOAT, 2.0, "0,4,1", "Only of this test." });
+	}
+}
+
+} // namespace
+
+TEST_CASE("[NodeProperties] every property of every class can be read, set and put back") {
+	const std::unique_ptr<Node3D> nodes[] = { std::make_unique<Node3D>(),
+		std::make_unique<MeshInstance3D>(), std::make_unique<Light3D>(),
+		std::make_unique<Camera3D>() };
+	for (const std::unique_ptr<Node3D> &node : nodes) {
+		CAPTURE(node->get_class_name());
+		const PropertyList list = list_node_properties(*node);
+		CHECK(list.get_properties().size() >= 3);
+		for (const PropertyInfo &info : list.get_properties()) {
+			CAPTURE(info.name);
+			CHECK(info.tooltip.size() > 10);
+			CHECK_FALSE(info.group.empty());
+			CHECK_FALSE(is_node_property_set(*node, info.name));
+			const PropertyValue value = get_node_property(*node, info.name);
+			CHECK(check_property(info, value).empty());
+			set_node_property(*node, info.name, value);
+			set_node_property(*node, info.name, std::nullopt);
+			CHECK_FALSE(is_node_property_set(*node, info.name));
+		}
+	}
+}
+
+TEST_CASE("[NodeProperties] a transform is set in parts, mirrored ones too") {
+	for (const double mirror : { 1.0, -1.0 }) {
+		Node3D node;
+		set_node_property(node, "position", glm::dvec3(1, 2, 3));
+		set_node_property(node, "rotation", glm::dvec3(20, -130, 45));
+		set_node_property(node, "scale", glm::dvec3(mirror * 2, 3, 4));
+		const auto check = [&](const char *p_name, const glm::dvec3 &p_expected) {
+			const auto value = std::get<glm::dvec3>(get_node_property(node, p_name));
+			CAPTURE(p_name);
+			CHECK(glm::length(value - p_expected) < 1e-9);
+		};
+		check("position", { 1, 2, 3 });
+		check("rotation", { 20, -130, 45 });
+		check("scale", { mirror * 2, 3, 4 });
+		CHECK((glm::determinant(glm::dmat3(node.parent_from_node)) > 0) == (mirror > 0));
+	}
+}
+
+TEST_CASE("[NodeProperties] what means nothing to a light is not there") {
+	Light3D light;
+	set_node_property(light, "type", std::string("directional"));
+	CHECK(light.type == LightType::DIRECTIONAL);
+	CHECK(has(light, "light_angular_distance"));
+	CHECK_FALSE(has(light, "light_size"));
+	CHECK_FALSE(has(light, "range"));
+	set_node_property(light, "type", std::string("spot"));
+	CHECK(has(light, "light_size"));
+	CHECK(has(light, "outer_cone"));
+	CHECK_FALSE(has(light, "light_angular_distance"));
+	set_node_property(light, "inner_cone", 40.0);
+	set_node_property(light, "outer_cone", 30.0);
+	CHECK(light.inner_cone_rad < light.outer_cone_rad);
+	set_node_property(light, "inner_cone", 50.0);
+	CHECK(light.inner_cone_rad < light.outer_cone_rad);
+}
+
+TEST_CASE("[NodeProperties] a refused value and an unknown name are errors that say what is "
+		  "allowed") {
+	Light3D light;
+	light.name = "Lamp";
+	CHECK_THROWS_WITH_AS(set_node_property(light, "intensity", -1.0),
+			doctest::Contains("Light3D \"Lamp\": intensity is -1, must be 0..1000000"), Error);
+	CHECK(light.intensity == 1.0f);
+	CHECK_THROWS_WITH_AS(
+			set_node_property(light, "colour", 1.0), doctest::Contains("intensity"), Error);
+	CHECK_THROWS_AS(set_node_property(light, "position", glm::dvec3(NAN, 0, 0)), Error);
+}
+
+TEST_CASE("[NodeProperties] other modules add properties, which the node keeps by name") {
+	Light3D light;
+	CHECK_FALSE(has(light, "note_size"));
+	add_node_property_source(&add_note);
+	CHECK(has(light, "note_size"));
+	CHECK_FALSE(has(Camera3D(), "note_size"));
+	CHECK(std::get<double>(get_node_property(light, "note_size")) == 2.0);
+	set_node_property(light, "note_size", 3.0);
+	CHECK(is_node_property_set(light, "note_size"));
+	remove_node_property_source(&add_note);
+	CHECK(light.properties.contains("note_size"));
+}
+
+TEST_CASE("[NodeProperties] a copy has the whole state, and no children") {
+	Light3D light;
+	light.name = "Lamp";
+	light.type = LightType::SPOT;
+	light.color = { 0.5f, 0.25f, 1.0f };
+	light.properties["unknown_to_all"] = std::string("kept");
+	light.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(1, 2, 0));
+	light.add_child(std::make_unique<Node3D>());
+	const std::unique_ptr<Node3D> copy = light.copy();
+	const Light3D &same = dynamic_cast<const Light3D &>(*copy);
+	CHECK(same.name == "Lamp");
+	CHECK(same.type == LightType::SPOT);
+	CHECK(same.color == light.color);
+	CHECK(same.properties == light.properties);
+	CHECK(same.parent_from_node == light.parent_from_node);
+	CHECK(same.children.empty());
+}
