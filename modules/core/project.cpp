@@ -122,8 +122,10 @@ void Project::save_disabled_modules() const {
 		const size_t equals = words.find('=');
 		if (section == "modules" && equals != std::string::npos &&
 				trim(words.substr(0, equals)) == "disabled") {
-			for (std::string end = words; end.back() != ']' && std::getline(stream, line);) {
-				end += trim(line); // the rest of the list that is replaced
+			std::string list_end = trim(words.substr(equals + 1));
+			const bool is_list = !list_end.empty() && list_end.front() == '[';
+			while (is_list && list_end.back() != ']' && std::getline(stream, line)) {
+				list_end += trim(line); // the rest of the list that is replaced
 			}
 			continue;
 		}

@@ -36,8 +36,10 @@ struct EditorContext {
 	/// What went wrong or was done last, for the status bar.
 	std::string status;
 	bool is_status_error = false;
+	std::vector<std::string> messages; // errors and warnings, the newest last
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
+	uint32_t dragged_handle = 0; // ImGuiID of a gizmo's handle; 0: none
 	/// Where widgets are in the window, by name: left, top, right, bottom in pixels. For tests.
 	std::map<std::string, glm::vec4> items;
 
@@ -46,6 +48,11 @@ struct EditorContext {
 		is_status_error = false;
 	}
 	void complain(std::string p_text) {
+		const size_t MOST_MESSAGES = 500;
+		if (messages.size() >= MOST_MESSAGES) {
+			messages.erase(messages.begin());
+		}
+		messages.push_back(p_text);
 		status = std::move(p_text);
 		is_status_error = true;
 	}
@@ -67,8 +74,9 @@ void draw_toolbar(EditorContext &r_context);
 void draw_scene_tree(EditorContext &r_context);
 void draw_inspector(EditorContext &r_context);
 void draw_viewport(EditorContext &r_context);
-void draw_plan(EditorContext &r_context);	 // within a tab bar
-void draw_modules(EditorContext &r_context); // likewise
+void draw_plan(EditorContext &r_context);	  // within a tab bar
+void draw_modules(EditorContext &r_context);  // likewise
+void draw_messages(EditorContext &r_context); // likewise
 void draw_status(EditorContext &r_context);
 
 } // namespace gnomon

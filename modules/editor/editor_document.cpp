@@ -52,12 +52,13 @@ EditorDocument::EditorDocument(const fs::path &p_path) {
 	const ProjectScene place = find_project_scene(p_path);
 	project = place.project;
 	path = fs::absolute(place.scene_path);
+	disable_modules(project);
 	open(path);
 	note_file_time();
 }
 
 EditorDocument::~EditorDocument() {
-	if (!is_changed()) {
+	if (owns_recovery && !is_changed()) {
 		discard_recovery();
 	}
 }
@@ -138,8 +139,8 @@ std::string EditorDocument::redo() {
 
 void EditorDocument::set_module_enabled(const std::string &p_name, bool p_is_enabled) {
 	ModuleRegistry::set_enabled(p_name, p_is_enabled);
-	project.disabled_modules.clear();
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		std::erase(project.disabled_modules, module.name); // names of other builds stay
 		if (!module.is_enabled) {
 			project.disabled_modules.push_back(module.name);
 		}
@@ -156,6 +157,7 @@ void EditorDocument::save_as(const fs::path &p_path) {
 	discard_recovery();
 	path = fs::absolute(p_path);
 	history.set_saved();
+	autosaved_serial = history.get_serial();
 	is_recovered = false;
 	changed_since.reset();
 	note_file_time();
@@ -179,14 +181,22 @@ bool EditorDocument::autosave(Clock::time_point p_now) {
 	}
 	changed_since = p_now;
 	try {
-		save_gltf(*scene, get_recovery_path());
-		autosaved_serial = history.get_serial();
-		changed_since.reset();
+		save_aside();
 	} catch (const Error &error) {
 		log_error("Changes cannot be saved aside: ", error.what());
 		return false;
 	}
 	return true;
+}
+
+void EditorDocument::save_aside() {
+	if (!is_changed()) {
+		return;
+	}
+	save_gltf(*scene, get_recovery_path());
+	owns_recovery = true;
+	autosaved_serial = history.get_serial();
+	changed_since.reset();
 }
 
 bool EditorDocument::has_recovery() const {
@@ -197,11 +207,13 @@ bool EditorDocument::has_recovery() const {
 void EditorDocument::recover() {
 	open(get_recovery_path());
 	is_recovered = true;
+	owns_recovery = true;
 }
 
 void EditorDocument::discard_recovery() {
 	std::error_code code;
 	fs::remove(get_recovery_path(), code);
+	owns_recovery = false;
 }
 
 bool EditorDocument::is_file_newer() const {

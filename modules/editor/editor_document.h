@@ -20,7 +20,7 @@ public:
 
 	/// p_path: as find_project_scene. A file that cannot be read is an Error.
 	explicit EditorDocument(const std::filesystem::path &p_path);
-	/// What was saved aside is removed when nothing of it would be lost.
+	/// What this document put aside is removed when nothing of it would be lost.
 	~EditorDocument();
 	EditorDocument(const EditorDocument &) = delete;
 	EditorDocument &operator=(const EditorDocument &) = delete;
@@ -60,6 +60,8 @@ public:
 	/// Writes the changes aside when they have waited long enough. False: that failed; once a while
 	/// it is tried again.
 	bool autosave(Clock::time_point p_now);
+	/// Writes changes aside now; for when the program is about to end.
+	void save_aside();
 	/// True when an earlier program ended without saving what is there.
 	bool has_recovery() const;
 	/// Takes over what was saved aside; it counts as changed.
@@ -83,6 +85,7 @@ private:
 	UndoHistory history;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;
+	bool owns_recovery = false; // what lies aside is this document's, not an earlier one's
 	std::filesystem::file_time_type file_time;
 	uint64_t autosaved_serial = 0;
 	std::optional<Clock::time_point> changed_since;

@@ -68,6 +68,7 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 			ImGui::BeginTabBar("bottom")) {
 		draw_plan(r_context);
 		draw_modules(r_context);
+		draw_messages(r_context);
 		ImGui::EndTabBar();
 	}
 	ImGui::End();

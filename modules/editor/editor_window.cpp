@@ -17,6 +17,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <mutex>
 #include <thread>
 
 namespace gnomon {
@@ -55,23 +56,33 @@ public:
 	UiContext &operator=(const UiContext &) = delete;
 };
 
-/// Errors and warnings of all modules stand in the status bar too.
+/// Errors and warnings of all modules, for the status bar; they may come from any thread.
 class StatusSink {
 public:
-	explicit StatusSink(EditorContext &r_context) {
-		before = set_log_sink([this, &r_context](LogLevel p_level, const std::string &p_line) {
+	StatusSink() {
+		before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
+			std::fprintf(
+					stderr, "%s%s\n", p_level == LogLevel::ERROR ? "ERROR: " : "", p_line.c_str());
 			if (p_level != LogLevel::INFO) {
-				r_context.complain(p_line);
+				const std::lock_guard lock(mutex);
+				lines.push_back(p_line);
 			}
-			std::fprintf(stderr, "%s\n", p_line.c_str());
 		});
 	}
 	~StatusSink() { set_log_sink(before); }
 	StatusSink(const StatusSink &) = delete;
 	StatusSink &operator=(const StatusSink &) = delete;
 
+	/// Those since the last call.
+	std::vector<std::string> take() {
+		const std::lock_guard lock(mutex);
+		return std::exchange(lines, {});
+	}
+
 private:
 	LogSink before;
+	std::mutex mutex;
+	std::vector<std::string> lines;
 };
 
 class Editor {
@@ -82,16 +93,36 @@ public:
 			device(RenderingDevice::create(make_device_options())),
 			swapchain(*device, window.get_create_surface()), renderer(*device), transients(*device),
 			ui_context(window), ui(*device),
-			pictures(*device, renderer), context{ document, device->get_info() }, sink(context) {
+			pictures(*device, renderer), context{ document, device->get_info() } {
 		look_as_scene();
 		asks_to_recover = document.has_recovery();
 		context.say(text("Opened ", document.get_path().string()));
 	}
-	~Editor() { device->wait_idle(); }
+	~Editor() {
+		try {
+			device->wait_idle();
+		} catch (const std::exception &) {
+			// The device is lost, which was told when it happened.
+		}
+	}
 	Editor(const Editor &) = delete;
 	Editor &operator=(const Editor &) = delete;
 
 	void run() {
+		try {
+			loop();
+		} catch (...) {
+			try {
+				document.save_aside();
+			} catch (const std::exception &error) {
+				log_error("Changes cannot be saved aside: ", error.what());
+			}
+			throw;
+		}
+	}
+
+private:
+	void loop() {
 		uint32_t drawn_count = 0;
 		while (!is_done) {
 			const Clock::time_point start = Clock::now();
@@ -100,11 +131,16 @@ public:
 				is_closing = true;
 			}
 			if (window.get_size_px().x == 0 || window.get_size_px().y == 0) {
+				document.autosave(Clock::now());
+				is_done |= is_closing && !document.is_changed();
 				std::this_thread::sleep_for(FRAME);
 				continue;
 			}
 			follow_file(start);
 			pictures.update(context);
+			for (const std::string &line : sink.take()) {
+				context.complain(line);
+			}
 			draw_frame();
 			run_command();
 			write_items();
@@ -115,7 +151,6 @@ public:
 		}
 	}
 
-private:
 	DeviceOptions make_device_options() const {
 		DeviceOptions device_options;
 		device_options.device = options.device;
@@ -128,9 +163,11 @@ private:
 	/// From the scene's first camera, or so that all of it is seen.
 	void look_as_scene() {
 		const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
-		Camera3D start;
-		const auto snapshot = build_snapshot(document.get_scene(), start);
-		const Bounds bounds = snapshot->compute_caster_bounds();
+		Bounds bounds;
+		context.attempt([&] {
+			Camera3D start;
+			bounds = build_snapshot(document.get_scene(), start)->compute_caster_bounds();
+		});
 		if (cameras.empty()) {
 			context.viewport.camera.frame(bounds);
 			return;
@@ -210,7 +247,7 @@ private:
 	}
 
 	void read_shortcuts() {
-		if (ImGui::GetIO().WantTextInput) {
+		if (ImGui::GetIO().WantTextInput || is_asking()) {
 			return;
 		}
 		for (const Window::KeyPress &press : window.get_key_presses()) {
@@ -218,6 +255,8 @@ private:
 			context.command = command != EditorCommand::NONE ? command : context.command;
 		}
 	}
+
+	bool is_asking() const { return is_closing || asks_to_recover || asks_to_reload; }
 
 	static EditorCommand find_command(const Window::KeyPress &p_press) {
 		const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
@@ -255,6 +294,12 @@ private:
 	}
 
 	void run(EditorCommand p_command) {
+		const bool saves = p_command == EditorCommand::SAVE ||
+				(p_command == EditorCommand::PLAY && document.is_changed());
+		if (saves && document.is_file_newer()) {
+			asks_to_reload = true;
+			return;
+		}
 		Node3D *selected = document.get_selected();
 		switch (p_command) {
 			case EditorCommand::NONE:
@@ -368,7 +413,8 @@ private:
 		}
 	}
 
-	/// A question with two answers and "Cancel"; r_asks becomes false with an answer.
+	/// A question with two answers, and "Cancel" where the window is to close; r_asks becomes false
+	/// with an answer.
 	void ask(const char *p_title, const std::string &p_text, const char *p_yes, const char *p_no,
 			const std::function<void()> &p_on_yes, const std::function<void()> &p_on_no,
 			bool &r_asks) {
@@ -388,7 +434,8 @@ private:
 			is_answered = true;
 		}
 		ImGui::SameLine();
-		if (ImGui::Button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
+		if (&r_asks == &is_closing &&
+				(ImGui::Button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))) {
 			is_answered = true;
 		}
 		if (is_answered) {
@@ -399,6 +446,7 @@ private:
 	}
 
 	const EditorOptions &options;
+	StatusSink sink; // first: what cannot be read when the scene is opened is told too
 	EditorDocument document;
 	Window window;
 	std::unique_ptr<RenderingDevice> device;
@@ -409,7 +457,6 @@ private:
 	UiRenderer ui;
 	PictureMaker pictures;
 	EditorContext context;
-	StatusSink sink;
 	EditorLayout layout;
 	Clock::time_point next_file_check;
 	std::string written_items;

@@ -1,8 +1,7 @@
 #include "modules/editor/picture_maker.h"
 
-#include "modules/core/error.h"
-
 #include <algorithm>
+#include <exception>
 
 namespace gnomon {
 
@@ -31,7 +30,7 @@ void PictureMaker::update(EditorContext &r_context) {
 		draw(r_context,
 				glm::max(viewport.size_px / (is_coarse ? COARSE_DIVISOR : 1u), glm::uvec2(1)));
 		sharp_count += is_coarse ? 0 : 1;
-	} catch (const Error &error) {
+	} catch (const std::exception &error) {
 		r_context.complain(error.what());
 		is_coarse = false;
 	}

@@ -14,6 +14,9 @@ const char TECHNIQUE[] = "shadow_technique";
 /// The techniques to choose from, the default first.
 PropertyInfo make_choice(const PropertyInfo &p_info) {
 	PropertyInfo info = p_info;
+	if (ShadowRegistry::get_techniques().empty()) {
+		return info; // nothing to choose from
+	}
 	info.type = PropertyType::ENUM;
 	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
 	info.choice_tooltips = { text(
@@ -35,8 +38,13 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (const PropertyInfo *info = r_list.find(TECHNIQUE)) {
 		r_list.replace(make_choice(*info));
 	}
-	if (const ShadowTechniqueInfo *technique =
-					choose_technique(build_light_snapshot(*light), {}).info) {
+	LightSnapshot chosen; // of which the id alone is asked for: the light's place may be singular
+	chosen.name = light->name;
+	const auto stored = light->properties.find(TECHNIQUE);
+	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {
+		chosen.technique_id = std::get<std::string>(stored->second);
+	}
+	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, {}).info) {
 		for (const PropertyInfo &info :
 				ShadowRegistry::get_light_properties(technique->id).get_properties()) {
 			r_list.add(info);

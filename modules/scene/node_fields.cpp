@@ -43,6 +43,14 @@ struct TransformParts {
 				axes[axis] /= scale[axis];
 			}
 		}
+		for (int axis = 0; axis < 3; ++axis) {
+			if (scale[axis] == 0) { // flat: the other two still tell how it is turned
+				axes[axis] = glm::cross(axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
+			}
+		}
+		if (!(std::abs(glm::determinant(axes) - 1.0) < 0.5)) {
+			axes = glm::dmat3(1.0); // a line or a point
+		}
 		double y = 0;
 		double x = 0;
 		double z = 0;
@@ -145,11 +153,18 @@ PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyValue p_
 	return { p_name, p_type, std::move(p_default), p_hint, p_tooltip, p_unit, p_group };
 }
 
+PropertyValue read_position(const Node3D &p_node) {
+	return glm::dvec3(p_node.parent_from_node[3]);
+}
+
+void write_position(Node3D &r_node, const PropertyValue &p_value) {
+	r_node.parent_from_node[3] = glm::dvec4(std::get<glm::dvec3>(p_value), 1.0);
+}
+
 std::vector<NodeField> make_node_fields() {
 	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), LENGTHS,
 					   "Place of the node in its parent.", "m", "Transform"),
-					 &read_part<&TransformParts::position>,
-					 &write_part<&TransformParts::position> },
+					 &read_position, &write_position },
 		{ make_info("rotation", PropertyType::VECTOR3, glm::dvec3(0.0), "-360,360,1",
 				  "Turn about y, then x, then z.", "deg", "Transform"),
 				&read_part<&TransformParts::rotation_deg>,

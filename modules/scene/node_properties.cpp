@@ -93,10 +93,15 @@ PropertyValue get_node_property(const Node3D &p_node, std::string_view p_name) {
 		return field->read(p_node);
 	}
 	const PropertyList list = list_stored_properties(p_node);
-	if (!list.find(p_name)) {
+	const PropertyInfo *info = list.find(p_name);
+	if (!info) {
 		fail_unknown(p_node, p_name);
 	}
-	return get_property(list, get_stored(p_node), p_name);
+	// A file may hold anything under a name that nobody declared when it was read.
+	const auto stored = get_stored(p_node).find(p_name);
+	const bool is_used =
+			stored != get_stored(p_node).end() && check_property(*info, stored->second).empty();
+	return is_used ? convert_property(*info, stored->second) : info->default_value;
 }
 
 bool is_node_property_set(const Node3D &p_node, std::string_view p_name) {

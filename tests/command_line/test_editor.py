@@ -56,15 +56,16 @@ class EditorTest(DisplayTest):
         self.fail("the editor did not get there: %s" % json.dumps(self.get_state()))
 
     def find_middle(self, name):
-        place = None
-        while place != self.get_state()["items"].get(name):  # what opens finds its place first
-            place = self.wait_for(lambda state: name in state["items"])["items"][name]
-            time.sleep(0.2)
+        place, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
+        while place != before:  # what opens finds its place first
+            time.sleep(0.3)
+            before, place = place, self.wait_for(lambda state: name in state["items"])["items"][name]
         left, top, right, bottom = place
         return str(int((left + right) / 2)), str(int((top + bottom) / 2))
 
     def click(self, name):
-        self.press("mousemove", *self.find_middle(name), "sleep", "0.1", "click", "1")
+        # As long as a hand takes: what is under the mouse is known a frame later.
+        self.press("mousemove", *self.find_middle(name), "sleep", "0.3", "mousedown", "1", "sleep", "0.2", "mouseup", "1")
 
     def drag(self, name, step_px):
         self.press("mousemove", *self.find_middle(name), "sleep", "0.1", "mousedown", "1")

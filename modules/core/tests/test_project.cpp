@@ -63,6 +63,10 @@ TEST_CASE("[Project] the disabled modules are stored, and all else stays") {
 	CHECK(after ==
 			"; a comment\n[project]\nname=\"Demo\"\n\n[modules]\n"
 			"disabled=[\"a\", \"b\"]\n; disabled=[\"none\"]\n[defaults]\nsize=\"64x64\"\n");
+	const ProjectFolder odd("[modules]\ndisabled=\"x\"\n[defaults]\nsize=\"64x64\"\n");
+	project.folder = odd.path;
+	project.save_disabled_modules();
+	CHECK(Project::load(odd.path).defaults.at("size") == "64x64");
 	const ProjectFolder none("[project]\nname=\"Demo\"\n");
 	project.folder = none.path;
 	project.save_disabled_modules();

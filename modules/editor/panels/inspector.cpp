@@ -138,7 +138,11 @@ private:
 
 	std::optional<PropertyValue> draw_vector() {
 		const NumberRange range(info);
-		glm::dvec3 vector = std::get<glm::dvec3>(value);
+		// While it is dragged it goes on from what was shown: a node may give the same turn back in
+		// other angles.
+		static std::string dragged_name;
+		static glm::dvec3 dragged;
+		glm::dvec3 vector = dragged_name == info.name ? dragged : std::get<glm::dvec3>(value);
 		if (info.is_color) {
 			glm::vec3 color(vector);
 			const bool is_changed =
@@ -150,6 +154,12 @@ private:
 		const bool is_changed =
 				ImGui::DragScalarN("##value", ImGuiDataType_Double, &vector.x, 3, float(range.step),
 						&range.least, &range.greatest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+		if (ImGui::IsItemActive()) {
+			dragged_name = info.name;
+			dragged = vector;
+		} else if (dragged_name == info.name) {
+			dragged_name.clear();
+		}
 		return is_changed ? std::optional<PropertyValue>(vector) : std::nullopt;
 	}
 
@@ -196,7 +206,6 @@ struct PropertyEdit {
 		}
 		if (ends_drag) {
 			r_context.document.end_drag();
-			r_context.viewport.needs_picture = true;
 		}
 	}
 };
@@ -214,7 +223,7 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	if (changed) {
 		r_edit = { true, p_info.name, changed, ImGui::IsItemActive() };
 	}
-	r_edit.ends_drag |= ImGui::IsItemDeactivated();
+	r_edit.ends_drag |= ImGui::IsItemDeactivated() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
 	ImGui::TableNextColumn();
 	ImGui::TextDisabled("%s", p_info.unit.c_str());
 	ImGui::TableNextColumn();

@@ -35,6 +35,10 @@ public:
 				least + 0.5 * size + glm::dvec2(place.x, -place.y) * (focal_px / -place.z);
 		return ImVec2(float(px.x), float(px.y));
 	}
+	bool is_inside(const ImVec2 &p_point) const {
+		return p_point.x >= least.x && p_point.y >= least.y && p_point.x < least.x + size.x &&
+				p_point.y < least.y + size.y;
+	}
 	/// Metres at that place across the view for each pixel.
 	double compute_metres_per_px(const glm::dvec3 &p_world) const {
 		const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
@@ -118,6 +122,11 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 	ImDrawList &list = *ImGui::GetWindowDrawList();
 	const ImU32 color = IM_COL32(255, 200, 60, 255);
 	const glm::dmat4 world_from_node = node->compute_world_from_node();
+	for (int axis = 0; axis < 3; ++axis) {
+		if (!(glm::length(glm::dvec3(world_from_node[axis])) > 0.0)) {
+			return; // flat: it has no direction
+		}
+	}
 	std::vector<NodeGizmo> gizmos;
 	node->add_gizmos(gizmos);
 	for (const NodeGizmo &gizmo : gizmos) {
@@ -148,12 +157,19 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 			continue;
 		}
 		const float half = 7.0f;
+		const ImGuiID id = ImGui::GetID(gizmo.property.c_str());
+		if (id != r_context.dragged_handle && !p_projection.is_inside(*handle)) {
+			continue;
+		}
 		list.AddCircleFilled(*handle, half, color);
 		ImGui::SetCursorScreenPos(ImVec2(handle->x - half, handle->y - half));
 		ImGui::PushID(gizmo.property.c_str());
 		ImGui::InvisibleButton("handle", ImVec2(2 * half, 2 * half));
 		r_context.note_item("handle " + gizmo.property);
 		ImGui::SetItemAllowOverlap();
+		r_context.dragged_handle = ImGui::IsItemActive() ? id
+				: r_context.dragged_handle == id		 ? 0
+														 : r_context.dragged_handle;
 		if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
 			ImGui::SetTooltip("%s: %.4g", gizmo.property.c_str(), gizmo.value);
 		}
@@ -170,7 +186,6 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 		}
 		if (ImGui::IsItemDeactivated()) {
 			r_context.document.end_drag();
-			r_context.viewport.needs_picture = true;
 		}
 		ImGui::PopID();
 	}
@@ -203,7 +218,8 @@ void draw_view_choice(EditorContext &r_context) {
 } // namespace
 
 void draw_viewport(EditorContext &r_context) {
-	if (ImGui::Begin("Viewport")) {
+	if (ImGui::Begin("Viewport", nullptr,
+				ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
 		draw_view_choice(r_context);
 		const ImVec2 least = ImGui::GetCursorScreenPos();
 		ImVec2 size = ImGui::GetContentRegionAvail();

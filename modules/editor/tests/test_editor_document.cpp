@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/module_registry.h"
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/editor/editor_document.h"
 #include "modules/scene/node_properties.h"
@@ -77,6 +78,49 @@ TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
 	document.save();
 	CHECK_FALSE(document.has_recovery());
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+}
+
+TEST_CASE("[EditorDocument] what an earlier program kept aside stays until it is answered for") {
+	const EditedProject project;
+	{
+		EditorDocument document(project.path);
+		document.set_property(find_light(document), "light_size", 0.75);
+		document.save_aside();
+	}
+	{
+		EditorDocument document(project.path); // opened, and closed without an answer
+		REQUIRE(document.has_recovery());
+	}
+	EditorDocument document(project.path);
+	REQUIRE(document.has_recovery());
+	document.discard_recovery();
+	document.set_property(find_light(document), "light_size", 0.5);
+	document.save();
+	document.undo(); // a change again, against what the file has
+	document.autosave(START);
+	document.autosave(LATER);
+	CHECK(document.has_recovery());
+}
+
+TEST_CASE("[EditorDocument] the project's modules are switched as it says, and other names stay") {
+	const EditedProject project;
+	save_file_atomically(project.path / "project.cfg",
+			std::string_view("[project]\nstart_scene=\"contact_box.gltf\"\n[modules]\n"
+							 "disabled=[\"of_another_build\"]\n"));
+	EditorDocument document(project.path);
+	std::string name;
+	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+		name = module.can_disable ? module.name : name;
+	}
+	if (name.empty()) {
+		return;
+	}
+	document.set_module_enabled(name, false);
+	CHECK(Project::load(project.path).disabled_modules ==
+			std::vector<std::string>{ "of_another_build", name });
+	document.set_module_enabled(name, true);
+	CHECK(Project::load(project.path).disabled_modules ==
+			std::vector<std::string>{ "of_another_build" });
 }
 
 TEST_CASE("[EditorDocument] a file that cannot be written or read loses nothing") {

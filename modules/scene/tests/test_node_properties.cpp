@@ -60,6 +60,34 @@ TEST_CASE("[NodeProperties] a transform is set in parts, mirrored ones too") {
 	}
 }
 
+TEST_CASE("[NodeProperties] a flat transform keeps its turn, and a moved one its shear") {
+	Node3D node;
+	set_node_property(node, "rotation", glm::dvec3(20, -130, 45));
+	for (const glm::dvec3 &flat :
+			{ glm::dvec3(0, 3, 4), glm::dvec3(2, 0, 4), glm::dvec3(2, 3, 0) }) {
+		set_node_property(node, "scale", flat);
+		set_node_property(node, "scale", glm::dvec3(2, 3, 4));
+		const auto turned = std::get<glm::dvec3>(get_node_property(node, "rotation"));
+		CHECK(glm::length(turned - glm::dvec3(20, -130, 45)) < 1e-8);
+	}
+	set_node_property(node, "scale", glm::dvec3(0.0));
+	CHECK(std::isfinite(std::get<glm::dvec3>(get_node_property(node, "rotation")).x));
+	glm::dmat4 sheared(1.0);
+	sheared[1] = glm::dvec4(0.5, 1, 0, 0);
+	node.parent_from_node = sheared;
+	set_node_property(node, "position", glm::dvec3(1, 2, 3));
+	CHECK(node.parent_from_node[1] == sheared[1]);
+}
+
+TEST_CASE(
+		"[NodeProperties] a stored value of another type reads as what it means, or the default") {
+	Light3D light;
+	light.properties["light_size"] = int64_t(2);
+	CHECK(std::get<double>(get_node_property(light, "light_size")) == 2.0);
+	light.properties["light_size"] = std::string("large");
+	CHECK(std::get<double>(get_node_property(light, "light_size")) == 0.1);
+}
+
 TEST_CASE("[NodeProperties] what means nothing to a light is not there") {
 	Light3D light;
 	set_node_property(light, "type", std::string("directional"));
