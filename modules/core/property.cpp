@@ -13,11 +13,6 @@ namespace gnomon {
 
 namespace {
 
-struct Range {
-	double minimum = 0;
-	double maximum = 0;
-};
-
 std::vector<std::string> split(const std::string &p_text) {
 	std::vector<std::string> parts;
 	std::stringstream stream(p_text);
@@ -37,14 +32,6 @@ std::optional<double> parse_number(std::string_view p_text) {
 	return number;
 }
 
-std::optional<Range> find_range(const PropertyInfo &p_info) {
-	const std::vector<std::string> parts = split(p_info.hint);
-	if (parts.size() < 2) {
-		return std::nullopt;
-	}
-	return Range{ *parse_number(parts[0]), *parse_number(parts[1]) };
-}
-
 std::optional<double> get_number(const PropertyValue &p_value) {
 	if (const double *number = std::get_if<double>(&p_value)) {
 		return *number;
@@ -55,11 +42,12 @@ std::optional<double> get_number(const PropertyValue &p_value) {
 	return std::nullopt;
 }
 
-/// Why a number is refused, in the type's range; not for the special value.
+/// Of the declared range; the special value aside.
 bool is_in_range(const PropertyInfo &p_info, double p_number) {
-	const std::optional<Range> range = find_range(p_info);
+	const PropertyRange range = get_range(p_info);
+	const bool has_range = !p_info.hint.empty();
 	return std::isfinite(p_number) &&
-			(!range || (p_number >= range->minimum && p_number <= range->maximum));
+			(!has_range || (p_number >= range.minimum && p_number <= range.maximum));
 }
 
 std::optional<glm::dvec3> parse_vector(std::string_view p_text) {
@@ -190,18 +178,29 @@ std::string format_property(const PropertyValue &p_value) {
 	if (const bool *flag = std::get_if<bool>(&p_value)) {
 		return *flag ? "true" : "false";
 	}
-	if (const glm::dvec3 *vector = std::get_if<glm::dvec3>(&p_value)) {
-		return text(vector->x, ",", vector->y, ",", vector->z);
-	}
 	return std::visit(
 			[](const auto &p_held) -> std::string {
 				if constexpr (std::is_same_v<std::decay_t<decltype(p_held)>, glm::dvec3>) {
-					return {}; // above
+					return text(p_held.x, ",", p_held.y, ",", p_held.z);
 				} else {
 					return text(p_held);
 				}
 			},
 			p_value);
+}
+
+std::vector<std::string> get_choices(const PropertyInfo &p_info) {
+	return split(p_info.hint);
+}
+
+PropertyRange get_range(const PropertyInfo &p_info) {
+	const std::vector<std::string> parts = split(p_info.hint);
+	PropertyRange range;
+	double *const values[] = { &range.minimum, &range.maximum, &range.step };
+	for (size_t index = 0; index < std::size(values) && index < parts.size(); ++index) {
+		*values[index] = parse_number(parts[index]).value_or(*values[index]);
+	}
+	return range;
 }
 
 std::string describe_range(const PropertyInfo &p_info) {

@@ -78,6 +78,16 @@ std::string format_property(const PropertyValue &p_value);
 /// The allowed values in words: "1..3", "-1 or 0..10000 m", "hard, 2x2 or 3x3", "true or false".
 std::string describe_range(const PropertyInfo &p_info);
 
+/// The names of an ENUM, in order.
+std::vector<std::string> get_choices(const PropertyInfo &p_info);
+/// What a number may be, beside its special value. Without a hint there are no limits.
+struct PropertyRange {
+	double minimum = -1e30;
+	double maximum = 1e30;
+	double step = 0.01; // of a slider
+};
+PropertyRange get_range(const PropertyInfo &p_info);
+
 /// The value that is set, else the declared default. A name that the list lacks is our mistake.
 const PropertyValue &get_property(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);

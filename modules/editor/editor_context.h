@@ -58,6 +58,9 @@ struct EditorContext {
 	}
 	/// Notes where the widget is that was drawn last.
 	void note_item(const std::string &p_name);
+	/// These places, and what a test waits for, as JSON. p_picture_count: sharp ones that were
+	/// drawn.
+	std::string describe_items(uint32_t p_picture_count) const;
 	/// Runs what a user asked for; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
 		try {
@@ -68,6 +71,9 @@ struct EditorContext {
 		}
 	}
 };
+
+/// ImGuiWindowFlags of every panel: the layout gives it its place.
+extern const int PANEL_FLAGS;
 
 // The panels; each draws its window with Dear ImGui.
 void draw_toolbar(EditorContext &r_context);

@@ -3,10 +3,11 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
+#include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/gltf_scene/project_scene.h"
 #include "modules/renderer/shadow_registry.h"
 #include "modules/scene/node_properties.h"
+#include "modules/scene/scene_snapshot.h"
 
 namespace gnomon {
 
@@ -78,6 +79,19 @@ void EditorDocument::open(const fs::path &p_file) {
 void EditorDocument::note_file_time() {
 	std::error_code code;
 	file_time = fs::last_write_time(path, code);
+}
+
+Bounds EditorDocument::compute_selected_bounds() const {
+	const double SPACE_SIZES = 0.05; // of S
+	const auto snapshot = build_snapshot(*scene, Camera3D());
+	if (selected == nullptr) {
+		return snapshot->compute_caster_bounds();
+	}
+	const glm::dvec3 place(selected->compute_world_from_node()[3]);
+	Bounds bounds = selected->compute_bounds();
+	bounds.add(place - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
+	bounds.add(place + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
+	return bounds;
 }
 
 void EditorDocument::set_property(Node3D &r_node, const std::string &p_name,

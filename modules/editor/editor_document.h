@@ -34,6 +34,9 @@ public:
 	/// Null: nothing.
 	Node3D *get_selected() const { return selected; }
 	void select(Node3D *p_node) { selected = p_node; }
+	/// What the selected node shows, or a little space about it; of the scene's casters when
+	/// nothing is selected.
+	Bounds compute_selected_bounds() const;
 
 	/// One step that can be undone. A refused value is an Error, and nothing changes. p_is_drag:
 	/// steps of the same property are joined until end_drag().

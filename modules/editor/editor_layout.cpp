@@ -7,6 +7,9 @@
 
 namespace gnomon {
 
+const int PANEL_FLAGS = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+		ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 namespace {
 
 const float LEAST_SHARE = 0.08f;
@@ -64,7 +67,7 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	draw_splitter("##bottom", ImVec2(left + line, bar + height - bottom - line),
 			ImVec2(middle, line), false, height, -1.0f, r_layout.bottom);
 	place_next(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));
-	if (ImGui::Begin("Frame", nullptr, ImGuiWindowFlags_NoTitleBar) &&
+	if (ImGui::Begin("Frame", nullptr, PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar) &&
 			ImGui::BeginTabBar("bottom")) {
 		draw_plan(r_context);
 		draw_modules(r_context);

@@ -5,19 +5,19 @@
 #include "modules/core/log.h"
 #include "modules/desktop/window.h"
 #include "modules/editor/editor_context.h"
+#include "modules/editor/editor_keys.h"
 #include "modules/editor/editor_layout.h"
+#include "modules/editor/editor_question.h"
+#include "modules/editor/game_process.h"
 #include "modules/editor/picture_maker.h"
+#include "modules/editor/status_sink.h"
+#include "modules/editor/ui_context.h"
 #include "modules/editor/ui_renderer.h"
 #include "modules/render_graph/transient_pool.h"
 
-#include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
-#include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <cstdlib>
-#include <mutex>
 #include <thread>
 
 namespace gnomon {
@@ -29,61 +29,6 @@ using Clock = EditorDocument::Clock;
 const glm::uvec2 START_SIZE_PX(1280, 720);
 const std::chrono::milliseconds FRAME{ 16 };
 const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
-
-/// Dear ImGui for one window.
-class UiContext {
-public:
-	explicit UiContext(Window &p_window) {
-		IMGUI_CHECKVERSION();
-		ImGui::CreateContext();
-		ImGuiIO &io = ImGui::GetIO();
-		io.IniFilename = nullptr; // the panels have fixed places
-		io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-		const float scale = p_window.get_scale();
-		ImFontConfig font;
-		font.SizePixels = std::round(13.0f * scale);
-		io.Fonts->AddFontDefault(&font);
-		ImGui::StyleColorsDark();
-		ImGui::GetStyle().ScaleAllSizes(scale);
-		ImGui::GetStyle().WindowRounding = 0.0f;
-		ImGui_ImplGlfw_InitForOther(p_window.get_handle(), true);
-	}
-	~UiContext() {
-		ImGui_ImplGlfw_Shutdown();
-		ImGui::DestroyContext();
-	}
-	UiContext(const UiContext &) = delete;
-	UiContext &operator=(const UiContext &) = delete;
-};
-
-/// Errors and warnings of all modules, for the status bar; they may come from any thread.
-class StatusSink {
-public:
-	StatusSink() {
-		before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
-			std::fprintf(
-					stderr, "%s%s\n", p_level == LogLevel::ERROR ? "ERROR: " : "", p_line.c_str());
-			if (p_level != LogLevel::INFO) {
-				const std::lock_guard lock(mutex);
-				lines.push_back(p_line);
-			}
-		});
-	}
-	~StatusSink() { set_log_sink(before); }
-	StatusSink(const StatusSink &) = delete;
-	StatusSink &operator=(const StatusSink &) = delete;
-
-	/// Those since the last call.
-	std::vector<std::string> take() {
-		const std::lock_guard lock(mutex);
-		return std::exchange(lines, {});
-	}
-
-private:
-	LogSink before;
-	std::mutex mutex;
-	std::vector<std::string> lines;
-};
 
 class Editor {
 public:
@@ -164,10 +109,7 @@ private:
 	void look_as_scene() {
 		const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
 		Bounds bounds;
-		context.attempt([&] {
-			Camera3D start;
-			bounds = build_snapshot(document.get_scene(), start)->compute_caster_bounds();
-		});
+		context.attempt([&] { bounds = document.compute_selected_bounds(); });
 		if (cameras.empty()) {
 			context.viewport.camera.frame(bounds);
 			return;
@@ -197,8 +139,7 @@ private:
 
 	void draw_frame() {
 		context.picture = pictures.get_picture() ? ui.add_texture(pictures.get_picture()) : nullptr;
-		ImGui_ImplGlfw_NewFrame();
-		ImGui::NewFrame();
+		ui_context.begin_frame();
 		read_shortcuts();
 		draw_layout(context, layout);
 		draw_questions();
@@ -229,16 +170,7 @@ private:
 		if (options.items.empty()) {
 			return;
 		}
-		nlohmann::json places = nlohmann::json::object();
-		for (const auto &[name, rectangle] : context.items) {
-			places[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
-		}
-		const Node3D *selected = document.get_selected();
-		const std::string written = nlohmann::json(
-				{ { "items", places }, { "selected", selected ? selected->name : "" },
-						{ "status", context.status }, { "is_changed", document.is_changed() },
-						{ "pictures", pictures.get_count() } })
-											.dump();
+		const std::string written = context.describe_items(pictures.get_count());
 		if (written != written_items) {
 			save_file_atomically(options.items, std::string_view(written));
 			written_items = written;
@@ -257,33 +189,6 @@ private:
 	}
 
 	bool is_asking() const { return is_closing || asks_to_recover || asks_to_reload; }
-
-	static EditorCommand find_command(const Window::KeyPress &p_press) {
-		const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
-		const bool has_shift = (p_press.modifiers & GLFW_MOD_SHIFT) != 0;
-		switch (p_press.key) {
-			case GLFW_KEY_S:
-				return has_control ? EditorCommand::SAVE : EditorCommand::NONE;
-			case GLFW_KEY_Z:
-				return !has_control ? EditorCommand::NONE
-						: has_shift ? EditorCommand::REDO
-									: EditorCommand::UNDO;
-			case GLFW_KEY_Y:
-				return has_control ? EditorCommand::REDO : EditorCommand::NONE;
-			case GLFW_KEY_D:
-				return has_control ? EditorCommand::DUPLICATE : EditorCommand::NONE;
-			case GLFW_KEY_F:
-				return has_control ? EditorCommand::NONE : EditorCommand::FRAME;
-			case GLFW_KEY_DELETE:
-				return EditorCommand::DELETE;
-			case GLFW_KEY_F5:
-				return EditorCommand::PLAY;
-			case GLFW_KEY_Q:
-				return has_control ? EditorCommand::QUIT : EditorCommand::NONE;
-			default:
-				return EditorCommand::NONE;
-		}
-	}
 
 	void run_command() {
 		const EditorCommand command = std::exchange(context.command, EditorCommand::NONE);
@@ -329,10 +234,14 @@ private:
 				}
 				break;
 			case EditorCommand::FRAME:
-				frame_selected();
+				context.viewport.camera.frame(document.compute_selected_bounds());
 				break;
 			case EditorCommand::PLAY:
-				play();
+				if (document.is_changed()) {
+					document.save();
+				}
+				start_game(options.program, document.get_path());
+				context.say("The game runs in a window of its own.");
 				break;
 			case EditorCommand::QUIT:
 				is_closing = true;
@@ -340,109 +249,43 @@ private:
 		}
 	}
 
-	void frame_selected() {
-		Camera3D camera;
-		const auto snapshot = build_snapshot(document.get_scene(), camera);
-		Bounds bounds = snapshot->compute_caster_bounds();
-		if (const Node3D *selected = document.get_selected()) {
-			const glm::dvec3 place(selected->compute_world_from_node()[3]);
-			bounds = Bounds();
-			bounds.add(place - glm::dvec3(0.05 * snapshot->scene_size_m));
-			bounds.add(place + glm::dvec3(0.05 * snapshot->scene_size_m));
-			if (const auto *instance = dynamic_cast<const MeshInstance3D *>(selected)) {
-				for (const InstanceSnapshot &one : snapshot->instances) {
-					for (const MeshInstance3D::Surface &surface : instance->surfaces) {
-						if (one.mesh == surface.mesh &&
-								one.world_from_node == selected->compute_world_from_node()) {
-							bounds.add(one.bounds_world);
-						}
-					}
-				}
-			}
-		}
-		context.viewport.camera.frame(bounds);
-	}
-
-	void play() {
-		if (document.is_changed()) {
-			document.save();
-		}
-		const std::string command = text("'", options.program, "' run '",
-				document.get_path().string(), "' >/dev/null 2>&1 &");
-		if (options.program.find('\'') != std::string::npos ||
-				document.get_path().string().find('\'') != std::string::npos ||
-				std::system(command.c_str()) != 0) {
-			fail("The game cannot be started. Run: ", options.program, " run ",
-					document.get_path().string());
-		}
-		context.say("The game runs in a window of its own.");
-	}
-
 	void draw_questions() {
 		if (is_closing && !document.is_changed()) {
 			is_done = true;
-			return;
-		}
-		if (is_closing) {
-			ask(
-					"Save the changes?",
-					text(document.get_path().filename().string(),
-							" has changes that are not saved."),
-					"Save and close", "Close without saving",
-					[&] {
-						document.save();
-						is_done = true;
-					},
-					[&] {
-						document.discard_recovery();
-						is_done = true;
-					},
-					is_closing);
+		} else if (is_closing) {
+			is_closing = !draw_question(make_closing_question());
 		} else if (asks_to_recover) {
-			ask(
-					"Recover changes?",
+			asks_to_recover = !draw_question({ "Recover changes?",
 					"The editor ended without saving. What was changed was kept aside.", "Recover",
-					"Discard", [&] { document.recover(); }, [&] { document.discard_recovery(); },
-					asks_to_recover);
+					"Discard", [&] { context.attempt([&] { document.recover(); }); },
+					[&] { document.discard_recovery(); } });
 		} else if (asks_to_reload) {
-			ask(
-					"Read the file anew?",
+			asks_to_reload = !draw_question({ "Read the file anew?",
 					"Another program has written the file, and there are changes here.",
-					"Read it, drop the changes", "Keep the changes", [&] { document.reload(); },
-					[&] { document.keep_over_file(); }, asks_to_reload);
+					"Read it, drop the changes", "Keep the changes",
+					[&] { context.attempt([&] { document.reload(); }); },
+					[&] { document.keep_over_file(); } });
 		}
 	}
 
-	/// A question with two answers, and "Cancel" where the window is to close; r_asks becomes false
-	/// with an answer.
-	void ask(const char *p_title, const std::string &p_text, const char *p_yes, const char *p_no,
-			const std::function<void()> &p_on_yes, const std::function<void()> &p_on_no,
-			bool &r_asks) {
-		ImGui::OpenPopup(p_title);
-		if (!ImGui::BeginPopupModal(p_title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-			return;
-		}
-		ImGui::TextUnformatted(p_text.c_str());
-		bool is_answered = false;
-		if (ImGui::Button(p_yes)) {
-			context.attempt(p_on_yes);
-			is_answered = true;
-		}
-		ImGui::SameLine();
-		if (ImGui::Button(p_no)) {
-			context.attempt(p_on_no);
-			is_answered = true;
-		}
-		ImGui::SameLine();
-		if (&r_asks == &is_closing &&
-				(ImGui::Button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false))) {
-			is_answered = true;
-		}
-		if (is_answered) {
-			r_asks = false;
-			ImGui::CloseCurrentPopup();
-		}
-		ImGui::EndPopup();
+	EditorQuestion make_closing_question() {
+		const auto save = [&] {
+			if (document.is_file_newer()) {
+				asks_to_reload = true; // first: which of both is to be saved
+				return;
+			}
+			context.attempt([&] {
+				document.save();
+				is_done = true;
+			});
+		};
+		const auto drop = [&] {
+			document.discard_recovery();
+			is_done = true;
+		};
+		return { "Save the changes?",
+			text(document.get_path().filename().string(), " has changes that are not saved."),
+			"Save and close", "Close without saving", save, drop, true };
 	}
 
 	const EditorOptions &options;

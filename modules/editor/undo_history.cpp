@@ -18,8 +18,8 @@ bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
 			return false;
 		}
 	}
-	const PropertyValues *left = const_cast<Node3D &>(p_left).get_stored_properties();
-	const PropertyValues *right = const_cast<Node3D &>(p_right).get_stored_properties();
+	const PropertyValues *left = p_left.find_stored_properties();
+	const PropertyValues *right = p_right.find_stored_properties();
 	return left == nullptr || right == nullptr || *left == *right;
 }
 

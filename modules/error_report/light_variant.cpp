@@ -90,11 +90,6 @@ void change_type(Light3D &r_light, const LightSnapshot &p_before, const SceneSna
 
 } // namespace
 
-const char *get_light_type_name(LightType p_type) {
-	static const char *const NAMES[] = { "omni", "spot", "directional" };
-	return NAMES[static_cast<int>(p_type)];
-}
-
 const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name) {
 	for (const LightSnapshot &light : p_scene.lights) {
 		if (light.name == p_name) {

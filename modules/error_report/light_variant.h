@@ -16,9 +16,6 @@ struct LightVariant {
 	double size_m = 0;
 };
 
-/// "spot", "omni", "directional".
-const char *get_light_type_name(LightType p_type);
-
 /// The scene with that one light changed. A light that changes its type stays where it is and looks
 /// at the middle of the casters; one that was directional stands 1.5 S away from it. p_properties
 /// replace those of the light. The scene is as before when the function returns.

@@ -16,6 +16,7 @@ namespace gnomon {
 namespace {
 
 RunOptions options;
+std::string truth_path;
 
 void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	if (!options.capture.empty()) {
@@ -29,18 +30,11 @@ void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	}
 }
 
-} // namespace
-
-std::shared_ptr<const TruthMask> load_truth(const RunOptions &p_options) {
-	if (p_options.truth.empty()) {
-		return nullptr;
-	}
-	MaskImage image = load_mask_exr(p_options.truth);
+std::shared_ptr<const TruthMask> load_truth() {
+	MaskImage image = load_mask_exr(truth_path);
 	return std::make_shared<TruthMask>(
 			image.size_px, std::move(image.visibility), std::move(image.receiver));
 }
-
-namespace {
 
 void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_common) {
 	const Camera3D &camera = choose_camera(r_scene, options.camera);
@@ -51,7 +45,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	request.size_px = p_size_px;
 	request.technique_override = options.technique;
 	request.debug_view = options.debug_view;
-	request.truth = load_truth(options);
+	request.truth = options.truth;
 	RenderResult result;
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
 	for (uint32_t index = 0; index < frame_count; ++index) {
@@ -71,6 +65,9 @@ void run(const CommonOptions &p_common) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
+	}
+	if (!truth_path.empty()) {
+		options.truth = load_truth();
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene);
 	for (const std::string &setting : options.settings) {
@@ -105,7 +102,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");
-	command->add_option("--truth", options.truth,
+	command->add_option("--truth", truth_path,
 			"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
 	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
 			->take_all()

@@ -1,8 +1,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
+#include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/gltf_scene/project_scene.h"
 #include "modules/main/commands.h"
 #include "modules/renderer/shadow_registry.h"
 

@@ -142,7 +142,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	RenderRequest request;
 	request.technique_override = p_options.technique;
 	request.mode = RenderGraph::Mode::QUEUE;
-	const std::shared_ptr<const TruthMask> truth = load_truth(p_options);
+	const std::shared_ptr<const TruthMask> &truth = p_options.truth;
 	GameState state{ r_scene, request, truth != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();

@@ -18,7 +18,7 @@ struct RunOptions {
 	std::string camera;
 	std::string technique;
 	std::string debug_view;
-	std::string truth;
+	std::shared_ptr<const TruthMask> truth; // null: none
 	std::vector<std::string> settings;
 	bool prints_plan = false;
 	std::string dot;
@@ -28,8 +28,5 @@ struct RunOptions {
 /// frame, with its image when options ask for a capture (r_size_px: its size).
 RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
 		const CommonOptions &p_common);
-
-/// What --truth names; null without it.
-std::shared_ptr<const TruthMask> load_truth(const RunOptions &p_options);
 
 } // namespace gnomon

@@ -2,7 +2,6 @@
 
 #include "modules/renderer/shadow_technique.h"
 
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

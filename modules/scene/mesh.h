@@ -27,6 +27,9 @@ struct Bounds {
 	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
 };
 
+/// Of a box's corners after a transform; not for an empty one.
+Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source);
+
 /// Triangles of one material. Immutable once shared; identified by `id`.
 struct Mesh {
 	std::string name;

@@ -35,7 +35,7 @@ PropertyList list_stored_properties(const Node3D &p_node) {
 /// Those of a node that is not changed.
 const PropertyValues &get_stored(const Node3D &p_node) {
 	static const PropertyValues none;
-	const PropertyValues *stored = const_cast<Node3D &>(p_node).get_stored_properties();
+	const PropertyValues *stored = p_node.find_stored_properties();
 	return stored != nullptr ? *stored : none;
 }
 

@@ -54,6 +54,11 @@ void Scene::fail_unknown_node(const char *p_kind, const std::string &p_name,
 	fail(place, " has no ", p_kind, " \"", p_name, "\". Name one of these: ", list, ".");
 }
 
+const char *get_light_type_name(LightType p_type) {
+	static const char *const NAMES[] = { "omni", "spot", "directional" };
+	return NAMES[static_cast<int>(p_type)];
+}
+
 const PropertyList &Light3D::get_property_list() {
 	static const PropertyList list = [] {
 		PropertyList made;

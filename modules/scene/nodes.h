@@ -45,8 +45,13 @@ public:
 	virtual const std::vector<NodeField> &get_fields() const;
 	/// Values that the class keeps by name beside its members; null: none.
 	virtual PropertyValues *get_stored_properties() { return nullptr; }
+	const PropertyValues *find_stored_properties() const {
+		return const_cast<Node3D *>(this)->get_stored_properties();
+	}
 	/// Declares those of them that every node of the class has and that matter to this one.
 	virtual void add_stored_properties(PropertyList & /*r_list*/) const {}
+	/// Of what the node itself shows, in the world; empty: nothing.
+	virtual Bounds compute_bounds() const { return {}; }
 	/// What a viewport draws while the node is selected.
 	virtual void add_gizmos(std::vector<NodeGizmo> & /*r_gizmos*/) const {}
 	/// Another node of the same class and state, without parent and children.
@@ -74,12 +79,15 @@ public:
 	bool is_planar_receiver = false; // extras.shadow_planar_receiver
 
 	const char *get_class_name() const override { return "MeshInstance3D"; }
+	Bounds compute_bounds() const override;
 	const std::vector<NodeField> &get_fields() const override;
 	std::unique_ptr<Node3D> copy() const override;
 	void assign(const Node3D &p_other) override;
 };
 
 enum class LightType { OMNI, SPOT, DIRECTIONAL };
+/// "omni", "spot", "directional".
+const char *get_light_type_name(LightType p_type);
 
 /// A light of KHR_lights_punctual, which shines along -Z of its node, and its shadow.
 class Light3D : public Node3D {

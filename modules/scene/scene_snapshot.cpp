@@ -113,17 +113,6 @@ LightSnapshot build_light_snapshot_at(const Light3D &p_light, const glm::dmat4 &
 	return snapshot;
 }
 
-Bounds compute_bounds_world(const Bounds &p_bounds_node, const glm::dmat4 &p_world_from_node) {
-	Bounds bounds;
-	for (int corner = 0; corner < 8; ++corner) {
-		const glm::dvec3 point((corner & 1) ? p_bounds_node.maximum.x : p_bounds_node.minimum.x,
-				(corner & 2) ? p_bounds_node.maximum.y : p_bounds_node.minimum.y,
-				(corner & 4) ? p_bounds_node.maximum.z : p_bounds_node.minimum.z);
-		bounds.add(glm::dvec3(p_world_from_node * glm::dvec4(point, 1.0)));
-	}
-	return bounds;
-}
-
 /// Fills the snapshot from the tree, with the transform to the world carried along: asking every
 /// node to compute its own would cost the square of the depth.
 struct TreeReader {
@@ -153,8 +142,7 @@ struct TreeReader {
 			instance.mesh = surface.mesh;
 			instance.material = surface.material ? surface.material : default_material;
 			instance.world_from_node = p_world_from_node;
-			instance.bounds_world =
-					compute_bounds_world(surface.mesh->bounds_node, p_world_from_node);
+			instance.bounds_world = transform_bounds(surface.mesh->bounds_node, p_world_from_node);
 			if (!std::isfinite(instance.bounds_world.get_diagonal())) {
 				fail("Node \"", p_node.name, "\": its vertices are not finite in the world. Make ",
 						"its scale smaller.");

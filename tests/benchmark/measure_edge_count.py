@@ -19,7 +19,7 @@ import tempfile
 
 import run_benchmarks
 from measure_techniques import SCENES, SIZES_M, find_reference
-from run_benchmarks import answer, describe_machine, format_table, run, write_table
+from run_benchmarks import answer, describe_machine, format_table, publish_tables, run
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
 
@@ -290,12 +290,7 @@ def main():
         "edge_count_goals": build_goals(rows, memory),
         "edge_count_rows": build_rows(rows) + ["", describe_coarse(rows), describe_memory(memory)],
     }
-    for name, lines in tables.items():
-        lines += ["", measured]
-        print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
-    if arguments.write:
-        for name, lines in tables.items():
-            write_table(name, lines)
+    publish_tables(tables, measured, arguments.write)
     return 0
 
 

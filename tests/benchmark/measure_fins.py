@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 import run_benchmarks
-from run_benchmarks import SCENES, answer, describe_machine, format_table, run, write_table
+from run_benchmarks import SCENES, answer, describe_machine, format_table, publish_tables, run
 
 sys.path.insert(0, SCENES)
 from gltf_writer import save_files  # noqa: E402
@@ -218,12 +218,7 @@ def main():
         "fins_peeling": build_peeling(rounds) + ["", "The fins, over the same shadow map:", ""] + build_methods(rounds),
         "fins_frame": build_frames(rounds),
     }
-    for name, lines in tables.items():
-        lines += ["", machine]
-        print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
-    if arguments.write:
-        for name, lines in tables.items():
-            write_table(name, lines)
+    publish_tables(tables, machine, arguments.write)
     return 0
 
 

@@ -167,6 +167,15 @@ def measure_technique_build(jobs):
     )
 
 
+def publish_tables(tables, measured, writes):
+    """Prints tables, lines by name, each with what was measured below it; writes them into the page if asked to."""
+    for name, lines in tables.items():
+        lines += ["", measured]
+        print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
+        if writes:
+            write_table(name, lines)
+
+
 def write_table(name, lines):
     """Replaces what stands between the page's two markers of that name."""
     with open(PAGE, encoding="utf-8") as file:

@@ -155,6 +155,24 @@ class EditorTest(DisplayTest):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
+    def test_a_module_is_switched_off_and_on_and_the_project_knows(self):
+        self.open_editor()
+        first = self.photograph()
+        self.click("tab Modules")
+        places = self.wait_for(lambda state: any(name.startswith("module shadow_") for name in state["items"]))["items"]
+        name = min((name for name in places if name.startswith("module shadow_")), key=lambda name: places[name][1])
+        module = name.split()[1]
+        for word, listed in (("Disabled", True), ("Enabled", False)):
+            self.click(name)
+            self.wait_for(lambda state: state["status"].startswith(word) or module in state["status"])
+            self.rest()
+            enabled = {item["name"]: item["is_enabled"] for item in load_json("modules", "--json")}
+            self.assertTrue(enabled[module], "only the project's list changes")
+            with open(os.path.join(self.project, "project.cfg"), encoding="utf-8") as file:
+                self.assertEqual(any(line.startswith("disabled=") and module in line for line in file), listed)
+        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.finish()
+
     def test_a_file_that_breaks_on_disk_leaves_the_scene_as_it_is(self):
         self.open_editor()
         first = self.photograph()

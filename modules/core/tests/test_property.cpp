@@ -63,3 +63,31 @@ TEST_CASE("[Property] what was not set has its default") {
 	values["layers"] = int64_t(1);
 	CHECK(get_int(list, values, "layers") == 1);
 }
+
+TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
+	const PropertyInfo info = { "place", PropertyType::VECTOR3, glm::dvec3(0.0), "-2,2,0.5",
+		"Where it is.", "m" };
+	CHECK(check_property(info, glm::dvec3(1, -2, 2)).empty());
+	CHECK(check_property(info, glm::dvec3(0, 0, 2.5)) ==
+			"is 0,0,2.5, must be three numbers x,y,z of -2..2 m");
+	CHECK_FALSE(check_property(info, glm::dvec3(NAN, 0, 0)).empty());
+	CHECK_FALSE(check_property(info, 1.0).empty());
+	CHECK(std::get<glm::dvec3>(parse_property(info, "1,-2,0.25", "Node")) ==
+			glm::dvec3(1, -2, 0.25));
+	for (const char *text : { "1,2", "1,2,x", "1,2,3", "1,2,0,0", "" }) {
+		CHECK_THROWS_AS(parse_property(info, text, "Node"), Error);
+	}
+	CHECK(format_property(glm::dvec3(1, -2, 0.25)) == "1,-2,0.25");
+	CHECK(get_range(info).step == 0.5);
+	CHECK(get_range(info).minimum == -2);
+}
+
+TEST_CASE("[Property] a property that is declared anew stays at its place") {
+	PropertyList list;
+	list.add({ "first", PropertyType::STRING, "", "", "One of several." });
+	list.add({ "second", PropertyType::BOOL, true, "", "Another one." });
+	list.replace({ "first", PropertyType::ENUM, {}, ",a,b", "A choice now." });
+	CHECK(list.get_properties().at(0).type == PropertyType::ENUM);
+	CHECK(get_choices(*list.find("first")) == std::vector<std::string>{ "", "a", "b" });
+	CHECK(std::get<std::string>(list.find("first")->default_value).empty());
+}

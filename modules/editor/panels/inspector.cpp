@@ -8,44 +8,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 
 namespace gnomon {
 
 namespace {
-
-std::vector<std::string> split_hint(const std::string &p_hint) {
-	std::vector<std::string> parts;
-	std::string part;
-	for (const char letter : p_hint + ",") {
-		if (letter == ',') {
-			parts.push_back(part);
-			part.clear();
-		} else {
-			part += letter;
-		}
-	}
-	return parts;
-}
-
-struct NumberRange {
-	double least = -1e30;
-	double greatest = 1e30;
-	double step = 0.01;
-
-	explicit NumberRange(const PropertyInfo &p_info) {
-		const std::vector<std::string> parts = split_hint(p_info.hint);
-		const auto read = [&](size_t p_index, double &r_value) {
-			if (p_index < parts.size()) {
-				std::from_chars(parts[p_index].data(),
-						parts[p_index].data() + parts[p_index].size(), r_value);
-			}
-		};
-		read(0, least);
-		read(1, greatest);
-		read(2, step);
-	}
-};
 
 /// One property of the selected node. Widgets give a new value, or none while nothing happens.
 class PropertyEditor {
@@ -83,7 +49,7 @@ private:
 		const std::string &chosen = std::get<std::string>(value);
 		std::optional<PropertyValue> result;
 		if (ImGui::BeginCombo("##value", chosen.empty() ? "(default)" : chosen.c_str())) {
-			const std::vector<std::string> choices = split_hint(info.hint);
+			const std::vector<std::string> choices = get_choices(info);
 			for (size_t index = 0; index < choices.size(); ++index) {
 				const char *label = choices[index].empty() ? "(default)" : choices[index].c_str();
 				if (ImGui::Selectable(label, choices[index] == chosen)) {
@@ -100,10 +66,10 @@ private:
 	}
 
 	std::optional<PropertyValue> draw_whole_number() {
-		const NumberRange range(info);
+		const PropertyRange range = get_range(info);
 		int64_t number = std::get<int64_t>(value);
-		const int64_t least = static_cast<int64_t>(std::max(range.least, -1e15));
-		const int64_t greatest = static_cast<int64_t>(std::min(range.greatest, 1e15));
+		const int64_t least = static_cast<int64_t>(std::max(range.minimum, -1e15));
+		const int64_t greatest = static_cast<int64_t>(std::min(range.maximum, 1e15));
 		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &number,
 				std::max(float(range.step), 0.2f), &least, &greatest, nullptr,
 				ImGuiSliderFlags_AlwaysClamp);
@@ -112,9 +78,9 @@ private:
 
 	/// Dragged below the range, a value becomes the special one, such as -1 for "derived".
 	std::optional<PropertyValue> draw_number() {
-		const NumberRange range(info);
+		const PropertyRange range = get_range(info);
 		double number = std::get<double>(value);
-		double least = range.least;
+		double least = range.minimum;
 		double special = 0;
 		const bool has_special = !info.special.empty();
 		if (has_special) {
@@ -124,20 +90,20 @@ private:
 		}
 		const bool is_special = has_special && number == special;
 		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_Double, &number,
-				float(range.step), &least, &range.greatest,
+				float(range.step), &least, &range.maximum,
 				is_special ? (info.special + " (derived)").c_str() : "%.4g",
 				ImGuiSliderFlags_AlwaysClamp);
 		if (!is_changed) {
 			return std::nullopt;
 		}
-		if (has_special && number < range.least) {
-			number = is_special && number > special ? range.least : special;
+		if (has_special && number < range.minimum) {
+			number = is_special && number > special ? range.minimum : special;
 		}
 		return number;
 	}
 
 	std::optional<PropertyValue> draw_vector() {
-		const NumberRange range(info);
+		const PropertyRange range = get_range(info);
 		// While it is dragged it goes on from what was shown: a node may give the same turn back in
 		// other angles.
 		static std::string dragged_name;
@@ -153,7 +119,7 @@ private:
 		}
 		const bool is_changed =
 				ImGui::DragScalarN("##value", ImGuiDataType_Double, &vector.x, 3, float(range.step),
-						&range.least, &range.greatest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+						&range.minimum, &range.maximum, "%.4g", ImGuiSliderFlags_AlwaysClamp);
 		if (ImGui::IsItemActive()) {
 			dragged_name = info.name;
 			dragged = vector;
@@ -267,7 +233,7 @@ void draw_group(EditorContext &r_context, const Node3D &p_node, const std::strin
 } // namespace
 
 void draw_inspector(EditorContext &r_context) {
-	if (!ImGui::Begin("Inspector")) {
+	if (!ImGui::Begin("Inspector", nullptr, PANEL_FLAGS)) {
 		ImGui::End();
 		return;
 	}

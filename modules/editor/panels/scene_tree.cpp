@@ -76,7 +76,7 @@ void draw_node(EditorContext &r_context, Node3D &r_node) {
 } // namespace
 
 void draw_scene_tree(EditorContext &r_context) {
-	if (ImGui::Begin("Scene")) {
+	if (ImGui::Begin("Scene", nullptr, PANEL_FLAGS)) {
 		draw_node(r_context, *r_context.document.get_scene().root);
 	}
 	ImGui::End();

@@ -27,8 +27,8 @@ bool draw_button(EditorContext &r_context, const char *p_label, const char *p_to
 
 void draw_toolbar(EditorContext &r_context) {
 	const UndoHistory &history = r_context.document.get_history();
-	if (ImGui::Begin(
-				"Toolbar", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
+	if (ImGui::Begin("Toolbar", nullptr,
+				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
 		if (draw_button(r_context, "Save", "Ctrl+S: write the scene",
 					r_context.document.is_changed())) {
 			r_context.command = EditorCommand::SAVE;
@@ -48,7 +48,7 @@ void draw_toolbar(EditorContext &r_context) {
 		if (draw_button(r_context, "Frame", "F: show all of the selected node, or of the scene")) {
 			r_context.command = EditorCommand::FRAME;
 		}
-		if (draw_button(r_context, "Play", "F5: run the game on this scene, as it is saved")) {
+		if (draw_button(r_context, "Play", "F5: save, and run the game on this scene")) {
 			r_context.command = EditorCommand::PLAY;
 		}
 		ImGui::AlignTextToFramePadding();
@@ -59,8 +59,8 @@ void draw_toolbar(EditorContext &r_context) {
 }
 
 void draw_status(EditorContext &r_context) {
-	if (ImGui::Begin(
-				"Status", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
+	if (ImGui::Begin("Status", nullptr,
+				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
 		char frame[160];
 		std::snprintf(frame, sizeof(frame), "%.1f ms   %u x %u   %.80s", r_context.shown_ms,
 				r_context.picture_size_px.x, r_context.picture_size_px.y,

@@ -219,7 +219,7 @@ void draw_view_choice(EditorContext &r_context) {
 
 void draw_viewport(EditorContext &r_context) {
 	if (ImGui::Begin("Viewport", nullptr,
-				ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
+				PANEL_FLAGS | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
 		draw_view_choice(r_context);
 		const ImVec2 least = ImGui::GetCursorScreenPos();
 		ImVec2 size = ImGui::GetContentRegionAvail();

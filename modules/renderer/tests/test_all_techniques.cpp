@@ -14,7 +14,6 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };
-const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
 
 /// Reference rays are few here: these tests ask for rules, not for precision.
 template <typename Function> void for_each_technique(Function p_function) {
@@ -27,7 +26,7 @@ template <typename Function> void for_each_technique(Function p_function) {
 template <typename Function> void for_each_technique_and_type(Function p_function) {
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
 		for (LightType type : ALL_TYPES) {
-			CAPTURE(TYPE_NAMES[static_cast<int>(type)]);
+			CAPTURE(get_light_type_name(type));
 			p_function(p_info, type);
 		}
 	});

@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/scene/box_mesh.h"
 #include "modules/scene/node_properties.h"
 
 #include <doctest/doctest.h>
@@ -129,6 +130,33 @@ TEST_CASE("[NodeProperties] other modules add properties, which the node keeps b
 	CHECK(is_node_property_set(light, "note_size"));
 	remove_node_property_source(&add_note);
 	CHECK(light.properties.contains("note_size"));
+}
+
+TEST_CASE("[NodeProperties] a mesh tells where it is, and a light how large") {
+	MeshInstance3D instance;
+	CHECK(instance.compute_bounds().is_empty());
+	instance.surfaces.push_back({ make_box_mesh("box", glm::vec3(1, 2, 3)), nullptr });
+	instance.parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(10, 0, 0));
+	CHECK(instance.compute_bounds().minimum == glm::dvec3(9, -2, -3));
+	CHECK(instance.compute_bounds().maximum == glm::dvec3(11, 2, 3));
+	Light3D light;
+	for (const LightType type : { LightType::OMNI, LightType::SPOT, LightType::DIRECTIONAL }) {
+		light.type = type;
+		light.properties = { { "light_size", 0.25 }, { "light_angular_distance", 90.0 } };
+		std::vector<NodeGizmo> gizmos;
+		light.add_gizmos(gizmos);
+		REQUIRE_FALSE(gizmos.empty());
+		CHECK(gizmos[0].radius_m == doctest::Approx(type == LightType::DIRECTIONAL ? 1.0 : 0.25));
+		CHECK(gizmos[0].value == std::get<double>(get_node_property(light, gizmos[0].property)));
+		// A metre more of the gizmo is so much more of the property.
+		const double more = gizmos[0].value + 1e-6 * gizmos[0].value_per_m;
+		set_node_property(light, gizmos[0].property, std::min(more, 90.0));
+		gizmos.clear();
+		light.add_gizmos(gizmos);
+		if (type != LightType::DIRECTIONAL) {
+			CHECK(gizmos[0].radius_m == doctest::Approx(0.25 + 1e-6).epsilon(1e-9));
+		}
+	}
 }
 
 TEST_CASE("[NodeProperties] a copy has the whole state, and no children") {

@@ -10,7 +10,6 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
 const glm::uvec2 SIZE_PX(72);
 
 /// Without a reference all pixels count as right.
@@ -81,7 +80,7 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a flat ca
 TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_globe(scene);
 		scene.light->properties["light_size"] = 0.0;
@@ -105,7 +104,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 TEST_CASE("[GPU][EdgeCount] a light nearly as large as the scene is as exact as a small one") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		scene.light->properties["light_size"] = 3.0;			  // 0.75 S
 		scene.light->properties["light_angular_distance"] = 73.7; // its tangent is 1.5
@@ -118,7 +117,7 @@ TEST_CASE("[GPU][EdgeCount] a light nearly as large as the scene is as exact as 
 TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines nowhere else") {
 	RenderFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		scene.light->properties["light_size"] = 0.1;
 		const glm::dmat4 places[] = { look_at({ 0.1, 1.0, 0.05 }, { 0, 0, 0.01 }),
@@ -142,7 +141,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 			"sheet", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		for (const auto &mesh : { rod, sheet }) {
-			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(mesh->name);
 			SmallScene scene(type);
 			scene.light->properties["light_size"] = 0.1;
@@ -161,7 +160,7 @@ TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both side
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const bool is_turned : { false, true }) {
-			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(is_turned);
 			SmallScene scene(type);
 			scene.box->surfaces[0].mesh = make_mesh("sheet",

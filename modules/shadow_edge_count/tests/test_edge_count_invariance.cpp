@@ -10,7 +10,6 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
 
 /// Everything in the scene, the light and the camera included.
 void turn_scene(SmallScene &r_scene, double p_angle_rad, const glm::dvec3 &p_axis) {
@@ -65,7 +64,7 @@ struct MeanError {
 TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the same mask") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		const auto render = [&](double p_scale, const glm::dvec3 &p_origin) {
 			SmallScene scene(type, p_scale, p_origin);
 			add_globe(scene, p_scale, p_origin);
@@ -84,7 +83,7 @@ TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the 
 TEST_CASE("[GPU][EdgeCount] a scene turned as a whole has the same mask") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		const auto render = [&](double p_angle_rad) {
 			SmallScene scene(type);
 			add_globe(scene);

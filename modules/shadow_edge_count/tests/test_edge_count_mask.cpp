@@ -9,7 +9,6 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
 
 /// The borders between an omni light's views shall run over what the camera sees.
 SmallScene make_scene(LightType p_type) {
@@ -51,7 +50,7 @@ void add_overlapping_solids(SmallScene &r_scene) {
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every kind of light") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene = make_scene(type);
 		add_globe(scene);
 		const MaskDifference difference = compare_with_double(
@@ -69,7 +68,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every ki
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids overlap") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(std::string(TYPE_NAMES[int(type)]));
+		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> masks[2];
 		for (const int turn : { 0, 1 }) {
 			CAPTURE(turn);

@@ -11,7 +11,6 @@ using namespace gnomon;
 namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-const char *const TYPE_NAMES[] = { "omni", "spot", "directional" };
 
 /// Shines straight down from a height; the view's axes are those of the world.
 glm::dmat4 look_down(double p_height_m) {
@@ -44,7 +43,7 @@ TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const int64_t map_size_px : { 64, 256 }) {
-			CAPTURE(std::string(TYPE_NAMES[int(type)]));
+			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(map_size_px);
 			SmallScene scene(type);
 			scene.light->properties["edge_count_map_size"] = map_size_px;

@@ -1,4 +1,4 @@
-#include "modules/gltf_scene/project_scene.h"
+#include "modules/core/project_scene.h"
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"

@@ -1,0 +1,28 @@
+#include "modules/editor/status_sink.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace gnomon {
+
+StatusSink::StatusSink() {
+	before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
+		static const char *const PREFIXES[] = { "", "WARNING: ", "ERROR: " };
+		std::fprintf(stderr, "%s%s\n", PREFIXES[static_cast<int>(p_level)], p_line.c_str());
+		if (p_level != LogLevel::INFO) {
+			const std::lock_guard lock(mutex);
+			lines.push_back(p_line);
+		}
+	});
+}
+
+StatusSink::~StatusSink() {
+	set_log_sink(before);
+}
+
+std::vector<std::string> StatusSink::take() {
+	const std::lock_guard lock(mutex);
+	return std::exchange(lines, {});
+}
+
+} // namespace gnomon

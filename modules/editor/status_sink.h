@@ -1,0 +1,29 @@
+#pragma once
+
+#include "modules/core/log.h"
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// While it lives, errors and warnings of all modules are collected for the status bar, beside
+/// where they went before. They may come from any thread.
+class StatusSink {
+public:
+	StatusSink();
+	~StatusSink();
+	StatusSink(const StatusSink &) = delete;
+	StatusSink &operator=(const StatusSink &) = delete;
+
+	/// Those since the last call.
+	std::vector<std::string> take();
+
+private:
+	LogSink before;
+	std::mutex mutex;
+	std::vector<std::string> lines;
+};
+
+} // namespace gnomon

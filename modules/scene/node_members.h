@@ -1,0 +1,62 @@
+#pragma once
+
+#include "modules/scene/node_properties.h"
+
+#include <memory>
+#include <vector>
+
+// What the files share that declare the members of node classes as properties.
+
+namespace gnomon {
+
+constexpr double DEGREES = 180.0 / 3.14159265358979323846; // in a radian
+
+template <typename T> T &to(Node3D &r_node) {
+	return static_cast<T &>(r_node);
+}
+template <typename T> const T &to(const Node3D &p_node) {
+	return static_cast<const T &>(p_node);
+}
+
+template <typename T, bool T::*MEMBER> PropertyValue read_flag(const Node3D &p_node) {
+	return to<T>(p_node).*MEMBER;
+}
+
+template <typename T, bool T::*MEMBER>
+void write_flag(Node3D &r_node, const PropertyValue &p_value) {
+	to<T>(r_node).*MEMBER = std::get<bool>(p_value);
+}
+
+template <typename T, float T::*MEMBER> PropertyValue read_number(const Node3D &p_node) {
+	return double(to<T>(p_node).*MEMBER);
+}
+
+template <typename T, float T::*MEMBER>
+void write_number(Node3D &r_node, const PropertyValue &p_value) {
+	to<T>(r_node).*MEMBER = float(std::get<double>(p_value));
+}
+
+template <typename T, float T::*MEMBER> PropertyValue read_degrees(const Node3D &p_node) {
+	return DEGREES * double(to<T>(p_node).*MEMBER);
+}
+
+template <typename T, float T::*MEMBER>
+void write_degrees(Node3D &r_node, const PropertyValue &p_value) {
+	to<T>(r_node).*MEMBER = float(std::get<double>(p_value) / DEGREES);
+}
+
+inline PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyValue p_default,
+		const char *p_hint, const char *p_tooltip, const char *p_unit, const char *p_group) {
+	return { p_name, p_type, std::move(p_default), p_hint, p_tooltip, p_unit, p_group };
+}
+
+/// The fields of every node, then more.
+std::vector<NodeField> extend_node_fields(std::vector<NodeField> p_more);
+
+template <typename T> std::unique_ptr<Node3D> copy_as(const Node3D &p_node) {
+	auto node = std::make_unique<T>();
+	node->assign(p_node);
+	return node;
+}
+
+} // namespace gnomon
