@@ -1,9 +1,30 @@
 #include "modules/editor/editor_context.h"
 
+#include "modules/scene/node_properties.h"
+
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
 namespace gnomon {
+
+const Light3D *EditorContext::find_light() const {
+	if (const auto *selected = dynamic_cast<const Light3D *>(document.get_selected())) {
+		return selected;
+	}
+	for (const Light3D *light : document.get_scene().find_nodes<Light3D>()) {
+		if (std::get<bool>(get_node_property(*light, "shadow_enabled"))) {
+			return light;
+		}
+	}
+	return nullptr;
+}
+
+std::shared_ptr<const SceneSnapshot> EditorContext::build_viewport_snapshot() const {
+	Camera3D camera;
+	camera.name = "Viewport";
+	viewport.camera.apply(camera);
+	return build_snapshot(document.get_scene(), camera);
+}
 
 void EditorContext::note_item(const std::string &p_name) {
 	if (ImGui::IsWindowAppearing()) {

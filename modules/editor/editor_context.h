@@ -1,15 +1,27 @@
 #pragma once
 
+#include "modules/editor/background_truth.h"
 #include "modules/editor/editor_document.h"
 #include "modules/editor/orbit_camera.h"
+#include "modules/editor/penumbra_guide.h"
+#include "modules/error_report/mask_image.h"
+#include "modules/error_report/mask_metrics.h"
+#include "modules/error_report/mask_timing.h"
 #include "modules/renderer/renderer.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon {
+
+/// Where the user has clicked.
+struct ViewportPick {
+	glm::dvec3 origin_world = glm::dvec3(0.0);
+	glm::dvec3 direction_world = glm::dvec3(0.0);
+};
 
 /// What the viewport shows, and how.
 struct ViewportState {
@@ -18,6 +30,39 @@ struct ViewportState {
 	glm::uvec2 size_px = glm::uvec2(0); // wanted by the panel
 	bool is_moving = false;				// a coarser picture will do
 	bool needs_picture = true;			// something has changed since the last one
+	/// Of the light in question, other than the picture: "mask", "error", the technique's own.
+	std::vector<std::string> debug_views;
+	bool wants_debug_views = false; // that list anew
+	/// A technique's id: right of the line the light in question has that one. Empty: no line.
+	std::string compared_technique;
+	float compared_from = 0.5f; // where the line is, a share of the width
+	std::optional<ViewportPick> pick;
+	bool shows_penumbra = true; // of the selected light
+	bool is_guide_changed = false;
+	std::vector<PenumbraLine> penumbra_lines;
+};
+
+/// How far one light's mask is from its truth, as the viewport sees it. ErrorMeter fills it.
+struct ErrorState {
+	static constexpr uint32_t SAMPLE_COUNTS[] = { 256, 1024, 4096, 9216 };
+	bool is_shown = false;		  // somebody looks
+	bool is_stopped = false;	  // by the user
+	uint32_t sample_count = 1024; // rays a pixel that are wanted in the end
+	std::string refusal;		  // why there is nothing
+	std::string light;
+	std::string technique; // that it has, by choice or by default
+	MaskImage mask;
+	TruthRound round;						// of the truth
+	std::shared_ptr<const TruthMask> truth; // null: not yet
+	uint64_t truth_hash = 0;				// compute_truth_hash of what is traced; 0: nothing
+	std::optional<MaskMetrics> metrics;
+	MaskTiming cost;
+	bool is_tracing = false;
+	float progress = 0; // of the round under way, and its rays a pixel
+	uint32_t round_sample_count = 0;
+	void *mask_picture = nullptr; // ImTextureID; null: none yet
+	void *truth_picture = nullptr;
+	void *error_picture = nullptr;
 };
 
 /// What a button or a key asks for; done once a frame, after the panels.
@@ -30,9 +75,12 @@ struct EditorContext {
 	ViewportState viewport;
 	/// Of the last picture.
 	RenderResult shown;
-	double shown_ms = 0;	 // wall time
-	void *picture = nullptr; // ImTextureID; null: none yet
+	double shown_ms = 0; // wall time
+	bool is_picture_coarse = false;
+	void *picture = nullptr;		  // ImTextureID; null: none yet
+	void *compared_picture = nullptr; // likewise, of ViewportState::compared_technique
 	glm::uvec2 picture_size_px = glm::uvec2(0);
+	ErrorState error;
 	/// What went wrong or was done last, for the status bar.
 	std::string status;
 	bool is_status_error = false;
@@ -56,6 +104,10 @@ struct EditorContext {
 		status = std::move(p_text);
 		is_status_error = true;
 	}
+	/// The light in question: the selected one, else the first that casts a shadow. Null: none.
+	const Light3D *find_light() const;
+	/// The scene as the viewport's camera sees it.
+	std::shared_ptr<const SceneSnapshot> build_viewport_snapshot() const;
 	/// Notes where the widget is that was drawn last.
 	void note_item(const std::string &p_name);
 	/// These places, and what a test waits for, as JSON. p_picture_count: sharp ones that were
@@ -66,8 +118,8 @@ struct EditorContext {
 		try {
 			p_action();
 			viewport.needs_picture = true;
-		} catch (const std::exception &error) {
-			complain(error.what());
+		} catch (const std::exception &failure) {
+			complain(failure.what());
 		}
 	}
 };
@@ -80,7 +132,8 @@ void draw_toolbar(EditorContext &r_context);
 void draw_scene_tree(EditorContext &r_context);
 void draw_inspector(EditorContext &r_context);
 void draw_viewport(EditorContext &r_context);
-void draw_plan(EditorContext &r_context);	  // within a tab bar
+void draw_error(EditorContext &r_context);	  // within a tab bar
+void draw_plan(EditorContext &r_context);	  // likewise
 void draw_modules(EditorContext &r_context);  // likewise
 void draw_messages(EditorContext &r_context); // likewise
 void draw_status(EditorContext &r_context);

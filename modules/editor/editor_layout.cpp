@@ -70,6 +70,7 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	if (ImGui::Begin("Frame", nullptr, PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar) &&
 			ImGui::BeginTabBar("bottom")) {
 		draw_plan(r_context);
+		draw_error(r_context);
 		draw_modules(r_context);
 		draw_messages(r_context);
 		ImGui::EndTabBar();

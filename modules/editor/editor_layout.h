@@ -8,7 +8,7 @@ namespace gnomon {
 struct EditorLayout {
 	float left = 0.18f;	  // the scene tree's width
 	float right = 0.31f;  // the inspector's
-	float bottom = 0.24f; // height of plan and modules
+	float bottom = 0.30f; // height of error, plan and modules
 };
 
 /// All panels, over the whole window.

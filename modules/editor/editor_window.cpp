@@ -8,11 +8,13 @@
 #include "modules/editor/editor_keys.h"
 #include "modules/editor/editor_layout.h"
 #include "modules/editor/editor_question.h"
+#include "modules/editor/error_meter.h"
 #include "modules/editor/game_process.h"
 #include "modules/editor/picture_maker.h"
 #include "modules/editor/status_sink.h"
 #include "modules/editor/ui_context.h"
 #include "modules/editor/ui_renderer.h"
+#include "modules/editor/viewport_guides.h"
 #include "modules/render_graph/transient_pool.h"
 
 #include <imgui.h>
@@ -37,8 +39,8 @@ public:
 			window("Gnomon", START_SIZE_PX, "The editor needs one: set DISPLAY."),
 			device(RenderingDevice::create(make_device_options())),
 			swapchain(*device, window.get_create_surface()), renderer(*device), transients(*device),
-			ui_context(window), ui(*device),
-			pictures(*device, renderer), context{ document, device->get_info() } {
+			ui_context(window), ui(*device), pictures(*device, renderer),
+			error_meter(*device, renderer), context{ document, device->get_info() } {
 		look_as_scene();
 		asks_to_recover = document.has_recovery();
 		context.say(text("Opened ", document.get_path().string()));
@@ -83,6 +85,10 @@ private:
 			}
 			follow_file(start);
 			pictures.update(context);
+			guides.update(context, pictures.get_drawn_count());
+			if (pictures.is_sharp()) {
+				error_meter.update(context, pictures.get_count());
+			}
 			for (const std::string &line : sink.take()) {
 				context.complain(line);
 			}
@@ -138,7 +144,14 @@ private:
 	}
 
 	void draw_frame() {
-		context.picture = pictures.get_picture() ? ui.add_texture(pictures.get_picture()) : nullptr;
+		const auto show = [&](TextureRID p_texture) {
+			return p_texture ? ui.add_texture(p_texture) : nullptr;
+		};
+		context.picture = show(pictures.get_picture());
+		context.compared_picture = show(pictures.get_compared_picture());
+		context.error.mask_picture = show(error_meter.get_mask_picture());
+		context.error.truth_picture = show(error_meter.get_truth_picture());
+		context.error.error_picture = show(error_meter.get_error_picture());
 		ui_context.begin_frame();
 		read_shortcuts();
 		draw_layout(context, layout);
@@ -299,6 +312,8 @@ private:
 	UiContext ui_context;
 	UiRenderer ui;
 	PictureMaker pictures;
+	ErrorMeter error_meter;
+	ViewportGuides guides;
 	EditorContext context;
 	EditorLayout layout;
 	Clock::time_point next_file_check;

@@ -16,8 +16,15 @@ void PictureMaker::update(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const Clock::time_point now = Clock::now();
 	const bool is_slow = r_context.device.type == "CPU";
+	const Light3D *light = r_context.find_light();
+	const bool asks_for_light =
+			!viewport.debug_view.empty() || !viewport.compared_technique.empty();
+	viewport.needs_picture |= asks_for_light && light != nullptr && light->name != drawn_light;
 	if (viewport.needs_picture) {
 		last_change = now;
+	}
+	if (viewport.wants_debug_views) {
+		r_context.attempt([&] { list_debug_views(r_context); });
 	}
 	const bool sharpens = is_coarse && now - last_change > REST;
 	if ((!viewport.needs_picture && !sharpens) || viewport.size_px == glm::uvec2(0)) {
@@ -38,27 +45,76 @@ void PictureMaker::update(EditorContext &r_context) {
 
 void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	const Clock::time_point start = Clock::now();
-	Camera3D camera;
-	camera.name = "Viewport";
-	r_context.viewport.camera.apply(camera);
-	OwnedTexture target;
-	if (p_size_px != r_context.picture_size_px || !picture) {
-		target = OwnedTexture(device,
-				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_size_px, 1,
+	const ViewportState &viewport = r_context.viewport;
+	const ErrorState &error = r_context.error;
+	RenderRequest request;
+	request.scene = r_context.build_viewport_snapshot();
+	request.size_px = p_size_px;
+	request.debug_view = viewport.debug_view;
+	request.needs_debug_view = false;
+	const Light3D *light = r_context.find_light();
+	request.debug_light = light != nullptr ? light->name : "";
+	drawn_light = request.debug_light;
+	const LightSnapshot *seen = request.scene->find_light(request.debug_light);
+	if (error.truth && seen != nullptr &&
+			compute_truth_hash(*request.scene, *seen, p_size_px) == error.truth_hash) {
+		request.truth = error.truth;
+	}
+	r_context.shown = draw_into(picture, request, renderer);
+	r_context.picture_size_px = p_size_px;
+	r_context.is_picture_coarse = is_coarse;
+	++drawn_count;
+	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+	if (viewport.compared_technique.empty()) {
+		compared_picture.reset();
+		compared_renderer.reset();
+	} else {
+		auto compared = std::make_shared<SceneSnapshot>(*request.scene);
+		for (LightSnapshot &other : compared->lights) {
+			if (other.name == request.debug_light) {
+				other.technique_id = viewport.compared_technique;
+			}
+		}
+		request.scene = compared;
+		if (!compared_renderer) {
+			compared_renderer = std::make_unique<Renderer>(device);
+		}
+		draw_into(compared_picture, request, *compared_renderer);
+	}
+	if (!r_context.shown.debug_views.empty()) {
+		r_context.viewport.debug_views = r_context.shown.debug_views;
+	}
+}
+
+/// r_picture is made anew where its size is another, and stays as it is on an Error.
+RenderResult PictureMaker::draw_into(
+		OwnedTexture &r_picture, RenderRequest p_request, Renderer &r_renderer) {
+	OwnedTexture made;
+	if (!r_picture || device.get_desc(r_picture.get()).size_px != p_request.size_px) {
+		made = OwnedTexture(device,
+				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_request.size_px, 1,
 						TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
 	}
-	RenderRequest request;
-	request.scene = build_snapshot(r_context.document.get_scene(), camera);
-	request.size_px = p_size_px;
-	request.debug_view = r_context.viewport.debug_view;
-	request.needs_debug_view = false;
-	request.picture_target = target ? target.get() : picture.get();
-	r_context.shown = renderer.render(request);
-	if (target) {
-		picture = std::move(target);
-		r_context.picture_size_px = p_size_px;
+	p_request.picture_target = made ? made.get() : r_picture.get();
+	RenderResult result = r_renderer.render(p_request);
+	if (made) {
+		r_picture = std::move(made);
 	}
-	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+	return result;
+}
+
+/// Techniques make their intermediate images only when one is asked for: a tiny frame asks.
+void PictureMaker::list_debug_views(EditorContext &r_context) {
+	const glm::uvec2 LIST_SIZE_PX(32);
+	r_context.viewport.wants_debug_views = false;
+	RenderRequest request;
+	request.scene = r_context.build_viewport_snapshot();
+	request.size_px = LIST_SIZE_PX;
+	request.debug_view = "mask";
+	request.needs_debug_view = false;
+	const Light3D *light = r_context.find_light();
+	request.debug_light = light != nullptr ? light->name : "";
+	r_context.viewport.debug_views = renderer.render(request).debug_views;
 }
 
 } // namespace gnomon

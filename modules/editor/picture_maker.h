@@ -3,11 +3,12 @@
 #include "modules/editor/editor_context.h"
 
 #include <chrono>
+#include <memory>
 
 namespace gnomon {
 
 /// Draws the scene for the viewport, when something has changed: coarser while it moves on a device
-/// that is a CPU, sharp once it rests.
+/// that is a CPU, sharp once it rests. A second time with another technique where two are compared.
 class PictureMaker {
 public:
 	PictureMaker(RenderingDevice &p_device, Renderer &p_renderer) :
@@ -17,18 +18,29 @@ public:
 	void update(EditorContext &r_context);
 	/// Empty before the first picture.
 	TextureRID get_picture() const { return picture.get(); }
-	/// Sharp ones that were drawn so far.
+	/// Of the compared technique; empty while none is.
+	TextureRID get_compared_picture() const { return compared_picture.get(); }
+	/// All that were drawn so far, and the sharp ones of them.
+	uint32_t get_drawn_count() const { return drawn_count; }
 	uint32_t get_count() const { return sharp_count; }
+	bool is_sharp() const { return sharp_count > 0 && !is_coarse; }
 
 private:
 	using Clock = std::chrono::steady_clock;
 
 	void draw(EditorContext &r_context, glm::uvec2 p_size_px);
+	RenderResult draw_into(OwnedTexture &r_picture, RenderRequest p_request, Renderer &r_renderer);
+	void list_debug_views(EditorContext &r_context);
 
 	RenderingDevice &device;
 	Renderer &renderer;
+	/// Keeps what the compared technique keeps; only while there is one.
+	std::unique_ptr<Renderer> compared_renderer;
 	OwnedTexture picture;
+	OwnedTexture compared_picture;
+	std::string drawn_light; // the light in question then
 	bool is_coarse = false;
+	uint32_t drawn_count = 0;
 	uint32_t sharp_count = 0;
 	Clock::time_point last_change;
 };

@@ -91,13 +91,9 @@ void change_type(Light3D &r_light, const LightSnapshot &p_before, const SceneSna
 } // namespace
 
 const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name) {
-	for (const LightSnapshot &light : p_scene.lights) {
-		if (light.name == p_name) {
-			return light;
-		}
-	}
-	GNOMON_ASSERT(false, "no light ", p_name);
-	return p_scene.lights.front();
+	const LightSnapshot *light = p_scene.find_light(p_name);
+	GNOMON_ASSERT(light != nullptr, "no light ", p_name);
+	return *light;
 }
 
 std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,

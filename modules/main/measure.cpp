@@ -19,25 +19,20 @@ using Clock = std::chrono::steady_clock;
 const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the shadow
 
 /// The passes of the light, or of every light, without its name.
-std::vector<PassCost> select_passes(
-		const std::vector<PassTiming> &p_timings, const RenderRequest &p_request) {
+std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
 	std::vector<PassCost> passes;
-	for (const PassTiming &timing : p_timings) {
-		for (const LightSnapshot &light : p_request.scene->lights) {
-			const std::string prefix = light.name + ": ";
-			const bool is_asked =
-					p_request.mask_light.empty() || light.name == p_request.mask_light;
-			if (!is_asked || timing.name.rfind(prefix, 0) != 0) {
+	for (const LightSnapshot &light : p_request.scene->lights) {
+		if (!p_request.mask_light.empty() && light.name != p_request.mask_light) {
+			continue;
+		}
+		for (const PassTiming &timing : p_result.find_light_passes(light.name)) {
+			if (timing.name == LIGHTING_PASS) {
 				continue;
 			}
-			std::string name = timing.name.substr(prefix.size());
-			if (name == LIGHTING_PASS) {
-				break;
-			}
 			// Of several lights each has its own row.
-			name = p_request.mask_light.empty() ? timing.name : name;
+			const std::string name =
+					p_request.mask_light.empty() ? light.name + ": " + timing.name : timing.name;
 			passes.push_back({ name, timing.gpu_ms, timing.wall_ms, timing.is_on_host });
-			break;
 		}
 	}
 	return passes;
@@ -60,7 +55,7 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		if (p_progress) {
 			p_progress(double(samples.get_frame_count()) / p_limits.frame_count);
 		}
-		samples.add_frame(select_passes(r_renderer.render(p_request).timings, p_request));
+		samples.add_frame(select_passes(r_renderer.render(p_request), p_request));
 		const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
 		const bool is_enough = seconds >= p_limits.seconds ||
 				(p_limits.median_error > 0 &&

@@ -28,6 +28,12 @@ void check_request(const RenderRequest &p_request, const RenderingDevice &p_devi
 	}
 }
 
+/// True when the request names a light whose technique can be looked at.
+bool has_debug_light(const RenderRequest &p_request) {
+	const LightSnapshot *light = p_request.scene->find_light(p_request.debug_light);
+	return light != nullptr && light->casts_shadow;
+}
+
 std::vector<float> read_mask(const std::vector<uint8_t> &p_bytes, Format p_format, size_t p_count) {
 	std::vector<float> values(p_count);
 	if (p_format == Format::R32_SFLOAT) {
@@ -79,6 +85,18 @@ struct Renderer::Frame {
 	Format mask_format = Format::R16_SFLOAT;
 };
 
+std::vector<PassTiming> RenderResult::find_light_passes(const std::string &p_light) const {
+	const std::string prefix = p_light + ": ";
+	std::vector<PassTiming> passes;
+	for (const PassTiming &timing : timings) {
+		if (timing.name.starts_with(prefix)) {
+			passes.push_back(timing);
+			passes.back().name.erase(0, prefix.size());
+		}
+	}
+	return passes;
+}
+
 Renderer::Renderer(RenderingDevice &p_device) :
 		device(p_device), transients(p_device), meshes(p_device), shadows(p_device, meshes) {}
 
@@ -123,8 +141,8 @@ RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTe
 		plan.leave_out("shadow", "shadow_enabled is false");
 		mask = add_constant_mask(graph, request.size_px, 1.0f);
 	} else {
-		// The first shadow-casting light's technique is the one whose debug view is shown.
-		const bool asks = !request.debug_view.empty() && !r_frame.has_asked_for_debug_view;
+		const bool asks = !request.debug_view.empty() && !r_frame.has_asked_for_debug_view &&
+				(p_light.name == request.debug_light || !has_debug_light(request));
 		r_frame.has_asked_for_debug_view |= asks;
 		mask = shadows.add_passes(graph,
 				{ *request.scene, p_light, r_frame.gbuffer, r_receivers, r_frame.constants,

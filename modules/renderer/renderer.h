@@ -6,6 +6,7 @@
 #include "modules/renderer/frame_plan.h"
 #include "modules/renderer/light_shadows.h"
 #include "modules/renderer/mesh_store.h"
+#include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <memory>
@@ -21,22 +22,17 @@ struct OverlayVertex {
 	glm::vec4 color;	   // sRGB-encoded, alpha not premultiplied
 };
 
-/// What the camera sees in one pixel.
-struct SurfacePoint {
-	bool is_there = false;						  // false: background
-	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative: the world's axes, in metres
-	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
-};
-
 /// What one frame is to make.
 struct RenderRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
-	/// Shows an intermediate image of the first shadow-casting light's technique: its id, or
-	/// "mask", or "error" where there is a truth.
+	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" where
+	/// there is a truth.
 	std::string debug_view;
+	/// Which light's. Empty, or one that casts no shadow: the first that does.
+	std::string debug_light;
 	/// Of that light, as the same camera sees it; of the frame's size.
 	std::shared_ptr<const TruthMask> truth;
 	/// False: where there is no such view the picture is shown, as a user expects who changes the
@@ -73,6 +69,9 @@ struct RenderResult {
 	std::string dot;					  // the frame's graph for Graphviz
 	uint64_t unaliased_bytes = 0;		  // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
+
+	/// The passes of one light, named without it.
+	std::vector<PassTiming> find_light_passes(const std::string &p_light) const;
 };
 
 /// Draws frames of a scene: G-buffer, each light's shadow, lighting, tone map.

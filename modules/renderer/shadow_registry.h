@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/renderer/shadow_technique.h"
+#include "modules/renderer/truth_source.h"
 
 #include <functional>
 #include <memory>
@@ -23,6 +24,9 @@ struct ShadowTechniqueInfo {
 	bool is_fallback = false;
 	/// Exact within its sampling error: what the others are measured against.
 	bool is_reference = false;
+	/// Of a reference: the same mask without a device, for whoever cannot wait for a frame. Empty:
+	/// there is no such way.
+	std::function<std::unique_ptr<TruthSource>(TruthQuestion)> make_truth_source = {};
 	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
 	bool is_example = false;
 };

@@ -173,6 +173,15 @@ glm::mat4 SceneSnapshot::get_camera_relative_from_node(const InstanceSnapshot &p
 	return glm::mat4(camera_relative_from_node);
 }
 
+const LightSnapshot *SceneSnapshot::find_light(const std::string &p_name) const {
+	for (const LightSnapshot &light : lights) {
+		if (light.name == p_name) {
+			return &light;
+		}
+	}
+	return nullptr;
+}
+
 Bounds SceneSnapshot::compute_caster_bounds() const {
 	Bounds bounds;
 	for (const InstanceSnapshot &instance : instances) {

@@ -72,6 +72,8 @@ struct SceneSnapshot {
 	}
 	/// Node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
+	/// Null: no light has that name.
+	const LightSnapshot *find_light(const std::string &p_name) const;
 	/// Of all that casts a shadow; empty without casters.
 	Bounds compute_caster_bounds() const;
 };

@@ -6,6 +6,7 @@
 #include "modules/core/progress.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/normal_packing.h"
+#include "modules/shadow_reference/reference_input.h"
 
 #include <chrono>
 #include <cstring>
@@ -17,30 +18,6 @@ namespace {
 // Counts up when the definition of truth or the tracer changes: older cache entries are then
 // not found.
 constexpr uint64_t TRUTH_VERSION = 1;
-
-/// Triangles of all casters relative to the camera, as the rasteriser places them.
-struct CasterTriangles {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-};
-
-CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
-	CasterTriangles triangles;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (!instance.casts_shadow) {
-			continue;
-		}
-		const glm::mat4 matrix = p_scene.get_camera_relative_from_node(instance);
-		const uint32_t first = static_cast<uint32_t>(triangles.positions.size());
-		for (const glm::vec3 &position : instance.mesh->positions_node) {
-			triangles.positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
-		}
-		for (uint32_t index : instance.mesh->indices) {
-			triangles.indices.push_back(first + index);
-		}
-	}
-	return triangles;
-}
 
 template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {
 	return compute_hash(bytes_of(p_values), p_hash);
@@ -148,12 +125,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->frame = compute_frame_constants(p_inputs.scene, p_inputs.size_px);
 	job->light_name = p_inputs.light.name;
 	job->may_keep = p_inputs.may_keep;
-	job->light.is_directional = p_inputs.light.type == LightType::DIRECTIONAL;
-	if (!job->light.is_directional) {
-		job->light.position = p_inputs.scene.to_camera_relative(p_inputs.light.position_world);
-	}
-	job->light.direction = glm::vec3(p_inputs.light.get_direction_world());
-	job->light.disc_radius = p_inputs.light.get_disc_radius();
+	job->light = make_area_light(p_inputs.scene, p_inputs.light);
 	job->options.scene_size_m = static_cast<float>(p_inputs.scene.scene_size_m);
 	job->options.sample_count =
 			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("reference_samples")));

@@ -1,10 +1,10 @@
-#include "modules/editor/editor_context.h"
+#include "modules/editor/panels/viewport_gizmos.h"
+#include "modules/renderer/shadow_registry.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace gnomon {
 
@@ -13,45 +13,6 @@ namespace {
 const double TURN_RAD_PER_PX = 0.006;
 const double ZOOM_PER_STEP = 0.87;
 const double FLIGHT_DISTANCES_PER_SECOND = 0.8;
-
-/// Where a place of the world is in the picture; nothing behind the camera.
-class ViewportProjection {
-public:
-	ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size) :
-			least(p_least.x, p_least.y), size(p_size.x, p_size.y) {
-		Camera3D camera;
-		p_camera.apply(camera);
-		camera_from_world = glm::inverse(camera.parent_from_node);
-		focal_px = 0.5 * size.y / std::tan(0.5 * double(camera.vertical_fov_rad));
-		near_m = camera.near_m;
-	}
-
-	std::optional<ImVec2> project(const glm::dvec3 &p_world) const {
-		const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
-		if (-place.z < near_m) {
-			return std::nullopt;
-		}
-		const glm::dvec2 px =
-				least + 0.5 * size + glm::dvec2(place.x, -place.y) * (focal_px / -place.z);
-		return ImVec2(float(px.x), float(px.y));
-	}
-	bool is_inside(const ImVec2 &p_point) const {
-		return p_point.x >= least.x && p_point.y >= least.y && p_point.x < least.x + size.x &&
-				p_point.y < least.y + size.y;
-	}
-	/// Metres at that place across the view for each pixel.
-	double compute_metres_per_px(const glm::dvec3 &p_world) const {
-		const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
-		return std::max(-place.z, double(near_m)) / focal_px;
-	}
-
-private:
-	glm::dvec2 least;
-	glm::dvec2 size;
-	glm::dmat4 camera_from_world;
-	double focal_px = 1;
-	float near_m = 0.05f;
-};
 
 void fly(ViewportState &r_viewport) {
 	const ImGuiIO &io = ImGui::GetIO();
@@ -95,124 +56,110 @@ void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 	}
 }
 
-/// The radius at which the mouse now holds the handle of a circle, as far along the line from its
-/// centre to the handle.
-double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
-		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
-	const ImGuiIO &io = ImGui::GetIO();
-	const glm::dvec2 moved(io.MouseDelta.x, io.MouseDelta.y);
-	const double SHORTEST_PX = 4.0; // below, the line says nothing: to the right is larger
-	if (!p_center) {
-		return p_radius_m + moved.x * p_metres_per_px;
+/// Which view of the light in question, and which technique beside its own.
+void draw_choices(EditorContext &r_context) {
+	ViewportState &viewport = r_context.viewport;
+	const auto choose = [&](std::string &r_choice, const std::string &p_choice,
+								const char *p_label) {
+		if (ImGui::Selectable(p_label, r_choice == p_choice)) {
+			r_choice = p_choice;
+			viewport.needs_picture = true;
+		}
+		r_context.note_item(std::string("choice ") + p_label);
+	};
+	ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
+	const char *shown = viewport.debug_view.empty() ? "picture" : viewport.debug_view.c_str();
+	if (ImGui::BeginCombo("##view", shown)) {
+		viewport.wants_debug_views |= ImGui::IsWindowAppearing();
+		choose(viewport.debug_view, "", "picture");
+		bool has_error = false;
+		for (const std::string &id : viewport.debug_views) {
+			choose(viewport.debug_view, id, id.c_str());
+			has_error |= id == "error";
+		}
+		if (!has_error && ShadowRegistry::find_reference() != nullptr) {
+			choose(viewport.debug_view, "error", "error");
+		}
+		ImGui::EndCombo();
 	}
-	const glm::dvec2 way(p_handle.x - p_center->x, p_handle.y - p_center->y);
-	const double length_px = glm::length(way);
-	if (length_px < SHORTEST_PX) {
-		return p_radius_m + moved.x * p_metres_per_px;
+	r_context.note_item("view");
+	ImGui::SameLine();
+	ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
+	const std::string against = "against " + viewport.compared_technique;
+	if (ImGui::BeginCombo("##against",
+				viewport.compared_technique.empty() ? "one technique" : against.c_str())) {
+		choose(viewport.compared_technique, "", "one technique");
+		for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_techniques()) {
+			choose(viewport.compared_technique, technique.id, technique.id.c_str());
+			if (ImGui::IsItemHovered()) {
+				ImGui::SetTooltip("%s\n%s", technique.name.c_str(), technique.source.c_str());
+			}
+		}
+		ImGui::EndCombo();
 	}
-	return p_radius_m * (1.0 + glm::dot(moved, way) / (length_px * length_px));
+	r_context.note_item("against");
+	ImGui::SameLine();
+	viewport.is_guide_changed |= ImGui::Checkbox("penumbra", &viewport.shows_penumbra);
+	r_context.note_item("penumbra");
+	if (ImGui::IsItemHovered()) {
+		ImGui::SetTooltip("Lines where the selected light's penumbra ends: orange outer (r), blue "
+						  "inner (t)");
+	}
+	if (!viewport.compared_technique.empty()) {
+		ImGui::SameLine();
+		const Light3D *light = r_context.find_light();
+		ImGui::TextDisabled("right of the line, for %s", light ? light->name.c_str() : "no light");
+	}
 }
 
-/// The rings, discs and cones of the selected node's gizmo, and the handle that changes them.
-void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projection) {
-	Node3D *node = r_context.document.get_selected();
-	if (node == nullptr) {
+/// The picture, or two with a line between them.
+void draw_pictures(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
+	if (r_context.picture == nullptr) {
 		return;
 	}
 	ImDrawList &list = *ImGui::GetWindowDrawList();
-	const ImU32 color = IM_COL32(255, 200, 60, 255);
-	const glm::dmat4 world_from_node = node->compute_world_from_node();
-	for (int axis = 0; axis < 3; ++axis) {
-		if (!(glm::length(glm::dvec3(world_from_node[axis])) > 0.0)) {
-			return; // flat: it has no direction
-		}
+	const ImVec2 greatest(p_least.x + p_size.x, p_least.y + p_size.y);
+	list.AddImage(r_context.picture, p_least, greatest);
+	if (r_context.compared_picture == nullptr) {
+		return;
 	}
-	std::vector<NodeGizmo> gizmos;
-	node->add_gizmos(gizmos);
-	for (const NodeGizmo &gizmo : gizmos) {
-		const glm::dvec3 center(world_from_node * glm::dvec4(gizmo.center, 1.0));
-		const glm::dmat3 axes(glm::normalize(glm::dvec3(world_from_node[0])),
-				glm::normalize(glm::dvec3(world_from_node[1])),
-				glm::normalize(glm::dvec3(world_from_node[2])));
-		std::vector<ImVec2> points;
-		const int SIDES = 64;
-		for (int side = 0; side <= SIDES; ++side) {
-			const double angle = 6.283185307179586 * side / SIDES;
-			const glm::dvec3 place = center +
-					gizmo.radius_m *
-							(axes *
-									(std::cos(angle) * gizmo.axis_x +
-											std::sin(angle) * gizmo.axis_y));
-			if (const std::optional<ImVec2> point = p_projection.project(place)) {
-				points.push_back(*point);
-			}
-		}
-		list.AddPolyline(points.data(), int(points.size()), color, ImDrawFlags_None, 2.0f);
-		if (gizmo.is_filled) {
-			list.AddConvexPolyFilled(points.data(), int(points.size()), IM_COL32(255, 200, 60, 50));
-		}
-		const std::optional<ImVec2> handle =
-				p_projection.project(center + gizmo.radius_m * (axes * gizmo.axis_x));
-		if (gizmo.property.empty() || !handle) {
-			continue;
-		}
-		const float half = 7.0f;
-		const ImGuiID id = ImGui::GetID(gizmo.property.c_str());
-		if (id != r_context.dragged_handle && !p_projection.is_inside(*handle)) {
-			continue;
-		}
-		list.AddCircleFilled(*handle, half, color);
-		ImGui::SetCursorScreenPos(ImVec2(handle->x - half, handle->y - half));
-		ImGui::PushID(gizmo.property.c_str());
-		ImGui::InvisibleButton("handle", ImVec2(2 * half, 2 * half));
-		r_context.note_item("handle " + gizmo.property);
-		ImGui::SetItemAllowOverlap();
-		r_context.dragged_handle = ImGui::IsItemActive() ? id
-				: r_context.dragged_handle == id		 ? 0
-														 : r_context.dragged_handle;
-		if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-			ImGui::SetTooltip("%s: %.4g", gizmo.property.c_str(), gizmo.value);
-		}
-		const ImGuiIO &io = ImGui::GetIO();
-		if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-			const double radius_m = compute_dragged_radius(gizmo.radius_m,
-					p_projection.compute_metres_per_px(center), p_projection.project(center),
-					*handle);
-			const double value =
-					std::max(gizmo.value + (radius_m - gizmo.radius_m) * gizmo.value_per_m, 0.0);
-			r_context.attempt(
-					[&] { r_context.document.set_property(*node, gizmo.property, value, true); });
-			r_context.viewport.is_moving = true;
-		}
-		if (ImGui::IsItemDeactivated()) {
-			r_context.document.end_drag();
-		}
-		ImGui::PopID();
+	const float share = r_context.viewport.compared_from;
+	const float x = p_least.x + share * p_size.x;
+	list.AddImage(r_context.compared_picture, ImVec2(x, p_least.y), greatest, ImVec2(share, 0.0f),
+			ImVec2(1.0f, 1.0f));
+	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
+}
+
+/// The line can be dragged; it is drawn over the pictures' own button.
+void draw_line_handle(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
+	if (r_context.compared_picture == nullptr) {
+		return;
+	}
+	const float half = 5.0f;
+	float &share = r_context.viewport.compared_from;
+	ImGui::SetCursorScreenPos(ImVec2(p_least.x + share * p_size.x - half, p_least.y));
+	ImGui::InvisibleButton("line", ImVec2(2.0f * half, p_size.y));
+	ImGui::SetItemAllowOverlap();
+	r_context.note_item("line");
+	if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+		ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+	}
+	if (ImGui::IsItemActive()) {
+		share = std::clamp((ImGui::GetIO().MousePos.x - p_least.x) / p_size.x, 0.0f, 1.0f);
 	}
 }
 
-void draw_view_choice(EditorContext &r_context) {
-	ViewportState &viewport = r_context.viewport;
-	ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-	const char *shown = viewport.debug_view.empty() ? "Picture" : viewport.debug_view.c_str();
-	if (!ImGui::BeginCombo("##view", shown)) {
-		return;
+/// A click that is no drag selects what is under the mouse.
+void pick(EditorContext &r_context, const ViewportProjection &p_projection) {
+	const float FARTHEST_PX = 4.0f;
+	const ImGuiIO &io = ImGui::GetIO();
+	const bool is_click =
+			io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < FARTHEST_PX * FARTHEST_PX;
+	if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && is_click &&
+			!io.KeyAlt) {
+		r_context.viewport.pick =
+				ViewportPick{ p_projection.get_eye(), p_projection.compute_direction(io.MousePos) };
 	}
-	if (ImGui::Selectable("Picture", viewport.debug_view.empty())) {
-		viewport.debug_view.clear();
-		viewport.needs_picture = true;
-	}
-	std::vector<std::string> ids = r_context.shown.debug_views;
-	if (ids.empty()) {
-		ids.push_back("mask"); // the others are known once one was shown
-	}
-	for (const std::string &id : ids) {
-		if (ImGui::Selectable(id.c_str(), viewport.debug_view == id)) {
-			viewport.debug_view = id;
-			viewport.needs_picture = true;
-		}
-	}
-	ImGui::EndCombo();
 }
 
 } // namespace
@@ -220,7 +167,7 @@ void draw_view_choice(EditorContext &r_context) {
 void draw_viewport(EditorContext &r_context) {
 	if (ImGui::Begin("Viewport", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
-		draw_view_choice(r_context);
+		draw_choices(r_context);
 		const ImVec2 least = ImGui::GetCursorScreenPos();
 		ImVec2 size = ImGui::GetContentRegionAvail();
 		size = ImVec2(std::max(size.x, 16.0f), std::max(size.y, 16.0f));
@@ -229,17 +176,21 @@ void draw_viewport(EditorContext &r_context) {
 			r_context.viewport.size_px = size_px;
 			r_context.viewport.needs_picture = true;
 		}
-		if (r_context.picture != nullptr) {
-			ImGui::Image(r_context.picture, size);
-			ImGui::SetCursorScreenPos(least);
-		}
+		draw_pictures(r_context, least, size);
 		ImGui::InvisibleButton("viewport", size,
 				ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
 						ImGuiButtonFlags_MouseButtonRight);
 		ImGui::SetItemAllowOverlap();
 		r_context.note_item("viewport");
 		move_camera(r_context.viewport, ImGui::IsItemHovered());
-		draw_gizmos(r_context, ViewportProjection(r_context.viewport.camera, least, size));
+		const ViewportProjection projection(r_context.viewport.camera, least, size);
+		pick(r_context, projection);
+		draw_line_handle(r_context, least, size);
+		ImGui::PushClipRect(least, ImVec2(least.x + size.x, least.y + size.y), true);
+		draw_penumbra_lines(r_context, projection);
+		draw_node_marks(r_context, projection);
+		draw_gizmos(r_context, projection);
+		ImGui::PopClipRect();
 	}
 	ImGui::End();
 }

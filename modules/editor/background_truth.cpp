@@ -1,0 +1,82 @@
+#include "modules/editor/background_truth.h"
+
+#include "modules/core/error.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace gnomon {
+
+namespace {
+
+const uint32_t RAYS_PER_ROUND = 4; // times those of the round before
+const int NICENESS = 15;
+
+} // namespace
+
+void BackgroundTruth::start(
+		std::function<std::unique_ptr<TruthSource>()> p_make, uint32_t p_sample_count) {
+	stop();
+	is_cancelled = false;
+	is_busy = true;
+	progress = 0.0f;
+	round_sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
+	thread = std::thread([this, make = std::move(p_make), p_sample_count] {
+		// Of this thread and those it makes. A refusal only makes it less polite.
+		setpriority(PRIO_PROCESS, 0, NICENESS);
+		try {
+			run(make, p_sample_count);
+		} catch (const std::exception &error) {
+			const std::lock_guard lock(mutex);
+			failure = error.what();
+		}
+		is_busy = false;
+	});
+}
+
+void BackgroundTruth::stop() {
+	is_cancelled = true;
+	if (thread.joinable()) {
+		thread.join();
+	}
+	const std::lock_guard lock(mutex);
+	ended_round.reset();
+	failure.clear();
+}
+
+std::optional<TruthRound> BackgroundTruth::take() {
+	const std::lock_guard lock(mutex);
+	if (!failure.empty()) {
+		fail(std::exchange(failure, std::string()));
+	}
+	return std::exchange(ended_round, std::nullopt);
+}
+
+void BackgroundTruth::run(
+		const std::function<std::unique_ptr<TruthSource>()> &p_make, uint32_t p_sample_count) {
+	const auto start = std::chrono::steady_clock::now();
+	const std::unique_ptr<TruthSource> source = p_make();
+	uint32_t sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
+	while (!is_cancelled) {
+		round_sample_count = sample_count;
+		TruthAnswer answer = source->trace(
+				sample_count, is_cancelled, [&](float p_fraction) { progress = p_fraction; });
+		if (!answer.is_complete) {
+			return;
+		}
+		{
+			const std::lock_guard lock(mutex);
+			ended_round = TruthRound{ std::move(answer.visibility), answer.standard_error,
+				sample_count,
+				std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() };
+		}
+		if (sample_count >= p_sample_count) {
+			return;
+		}
+		sample_count = std::min(sample_count * RAYS_PER_ROUND, p_sample_count);
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,181 @@
+#include "modules/editor/error_meter.h"
+
+#include "modules/core/text.h"
+#include "modules/error_report/mask_picture.h"
+#include "modules/renderer/light_shadows.h"
+#include "modules/renderer/shadow_registry.h"
+
+namespace gnomon {
+
+namespace {
+
+// Frames that tell the cost; fewer of a technique that takes long.
+const uint32_t COST_FRAME_COUNT = 20;
+const uint32_t LEAST_COST_FRAME_COUNT = 3;
+const double COST_MS = 1500;
+
+} // namespace
+
+void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
+	ErrorState &state = r_context.error;
+	const bool is_watched = state.is_shown || r_context.viewport.debug_view == "error";
+	if (!is_watched || state.is_stopped) {
+		if (truth.is_running()) {
+			truth.stop();
+			state.truth_hash = 0; // traced anew when somebody looks again
+		}
+	}
+	state.is_tracing = truth.is_running();
+	if (!is_watched || p_picture_count == 0) {
+		measured_picture = 0;
+		return;
+	}
+	try {
+		const bool needs_truth = !state.is_stopped && state.refusal.empty() &&
+				(state.truth_hash == 0 || state.sample_count != traced_sample_count);
+		const Light3D *node = r_context.find_light();
+		const bool is_other = (node != nullptr ? node->name : std::string()) != state.light;
+		if (p_picture_count != measured_picture || needs_truth || is_other) {
+			measured_picture = p_picture_count;
+			measure_mask(r_context);
+		} else if (!has_cost()) {
+			if (state.refusal.empty() && !truth.is_running()) { // beside it all is slower
+				measure_cost(r_context);
+			}
+		} else if (asked_truth && !state.is_stopped) {
+			truth.start(std::exchange(asked_truth, nullptr), state.sample_count);
+		}
+		if (std::optional<TruthRound> round = truth.take()) {
+			state.round = std::move(*round);
+			state.truth = std::make_shared<const TruthMask>(
+					TruthMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
+			compare(state);
+			r_context.viewport.needs_picture |= r_context.viewport.debug_view == "error";
+		}
+	} catch (const std::exception &error) {
+		refuse(state, error.what());
+	}
+	state.is_tracing = truth.is_running();
+	state.progress = truth.get_progress();
+	state.round_sample_count = truth.get_sample_count();
+}
+
+bool ErrorMeter::has_cost() const {
+	const uint32_t count = timings.get_frame_count();
+	return count >= COST_FRAME_COUNT || (count >= LEAST_COST_FRAME_COUNT && timed_ms > COST_MS);
+}
+
+void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
+	truth.stop();
+	asked_truth = nullptr;
+	r_state.refusal = std::move(p_text);
+	r_state.truth_hash = 0;
+	r_state.truth.reset();
+	r_state.metrics.reset();
+}
+
+void ErrorMeter::measure_mask(EditorContext &r_context) {
+	ErrorState &state = r_context.error;
+	state.refusal.clear();
+	const Light3D *node = r_context.find_light();
+	state.light = node != nullptr ? node->name : "";
+	if (node == nullptr) {
+		refuse(state, "No light casts a shadow. Select a light and set its shadow_enabled.");
+		return;
+	}
+	request = {};
+	request.scene = r_context.build_viewport_snapshot();
+	light = *request.scene->find_light(node->name);
+	if (!light.casts_shadow) {
+		refuse(state, text("Light \"", node->name, "\" casts no shadow. Set its shadow_enabled."));
+		return;
+	}
+	const ShadowTechniqueInfo *technique = choose_technique(light, {}).info;
+	state.technique = technique != nullptr ? technique->id : "";
+	request.size_px = r_context.viewport.size_px;
+	request.mask_light = node->name;
+	request.wants_mask = true;
+	const uint64_t hash = compute_truth_hash(*request.scene, light, request.size_px);
+	const bool needs_truth = !state.is_stopped &&
+			(hash != state.truth_hash || state.sample_count != traced_sample_count);
+	request.wants_surfaces = needs_truth;
+	RenderResult result = renderer.render(request);
+	state.mask = { request.size_px, std::move(result.visibility), result.receiver };
+	mask_picture = make_picture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
+	timings = TimingSamples();
+	timed_ms = 0;
+	state.cost = {};
+	if (hash != state.truth_hash) {
+		state.truth.reset();
+		state.metrics.reset();
+		state.truth_hash = 0;
+		asked_truth = nullptr;
+	}
+	if (needs_truth) {
+		state.truth_hash = hash;
+		traced_sample_count = state.sample_count;
+		ask_truth(r_context, std::move(result));
+	} else if (state.truth) {
+		compare(state);
+	}
+}
+
+void ErrorMeter::ask_truth(EditorContext &r_context, RenderResult p_result) {
+	truth.stop();
+	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
+	if (reference == nullptr || !reference->make_truth_source) {
+		refuse(r_context.error,
+				"There is no reference to compare with. Switch a module on that has one, in the "
+				"tab Modules.");
+		return;
+	}
+	TruthQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
+		std::move(p_result.receiver) };
+	asked_truth = [make = reference->make_truth_source, question = std::move(question)] {
+		return make(question);
+	};
+}
+
+/// A frame of the mask alone, pass by pass, as if the light had moved.
+void ErrorMeter::measure_cost(EditorContext &r_context) {
+	RenderRequest timed = request;
+	timed.wants_mask = false;
+	timed.wants_surfaces = false;
+	timed.may_keep = false;
+	timed.mode = RenderGraph::Mode::ONE_BY_ONE;
+	std::vector<PassCost> passes;
+	for (const PassTiming &pass : renderer.render(timed).find_light_passes(light.name)) {
+		passes.push_back({ pass.name, pass.gpu_ms, pass.wall_ms, pass.is_on_host });
+	}
+	timings.add_frame(passes);
+	timed_ms += timings.compute().total.wall_ms;
+	r_context.error.cost = timings.compute();
+}
+
+void ErrorMeter::compare(ErrorState &r_state) {
+	const MaskImage exact = { r_state.truth->size_px, r_state.truth->visibility,
+		r_state.truth->receiver };
+	r_state.metrics = compute_mask_metrics(exact, r_state.mask);
+	truth_picture = make_picture("truth", exact.size_px, 1, compute_mask_pixels(exact));
+	error_picture =
+			make_picture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
+}
+
+OwnedTexture ErrorMeter::make_picture(const std::string &p_name, glm::uvec2 p_size_px,
+		uint32_t p_channel_count, const std::vector<uint8_t> &p_pixels) {
+	const size_t pixel_count = size_t(p_size_px.x) * p_size_px.y;
+	std::vector<uint8_t> texels(4 * pixel_count, 255);
+	for (size_t pixel = 0; pixel < pixel_count; ++pixel) {
+		for (size_t channel = 0; channel < 3; ++channel) {
+			texels[4 * pixel + channel] =
+					p_pixels[p_channel_count * pixel + (p_channel_count == 1 ? 0 : channel)];
+		}
+	}
+	return OwnedTexture(device,
+			device.create_texture_with_data(
+					{ "editor " + p_name, Format::RGBA8_UNORM, p_size_px, 1,
+							TextureUsage::SAMPLED | TextureUsage::COPY_TARGET },
+					texels));
+}
+
+} // namespace gnomon

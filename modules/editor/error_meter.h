@@ -1,0 +1,50 @@
+#pragma once
+
+#include "modules/editor/background_truth.h"
+#include "modules/editor/editor_context.h"
+#include "modules/error_report/mask_timing.h"
+
+namespace gnomon {
+
+/// Keeps the error panel true: the mask of the light in question as the viewport sees it, its truth
+/// in the background, and what the mask costs, a frame at a time. Works only while somebody looks.
+class ErrorMeter {
+public:
+	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :
+			device(p_device), renderer(p_renderer) {}
+
+	/// Once a frame, after the picture. p_picture_count: sharp ones drawn so far, see PictureMaker.
+	void update(EditorContext &r_context, uint32_t p_picture_count);
+
+	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.
+	TextureRID get_mask_picture() const { return mask_picture.get(); }
+	TextureRID get_truth_picture() const { return truth_picture.get(); }
+	TextureRID get_error_picture() const { return error_picture.get(); }
+
+private:
+	void measure_mask(EditorContext &r_context);
+	void measure_cost(EditorContext &r_context);
+	bool has_cost() const;
+	void ask_truth(EditorContext &r_context, RenderResult p_result);
+	void compare(ErrorState &r_state);
+	void refuse(ErrorState &r_state, std::string p_text);
+	OwnedTexture make_picture(const std::string &p_name, glm::uvec2 p_size_px,
+			uint32_t p_channel_count, const std::vector<uint8_t> &p_pixels);
+
+	RenderingDevice &device;
+	Renderer &renderer;
+	RenderRequest request; // of the mask that is shown
+	LightSnapshot light;
+	uint32_t measured_picture = 0; // PictureMaker's count then
+	uint32_t traced_sample_count = 0;
+	TimingSamples timings;
+	double timed_ms = 0; // by those frames
+	/// Traced once the cost is known: both at once would slow each other.
+	std::function<std::unique_ptr<TruthSource>()> asked_truth;
+	OwnedTexture mask_picture;
+	OwnedTexture truth_picture;
+	OwnedTexture error_picture;
+	BackgroundTruth truth; // last: its thread ends first
+};
+
+} // namespace gnomon

@@ -1,0 +1,159 @@
+#include "modules/editor/editor_context.h"
+
+#include "shared/heat_map_shared.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+void draw_row(const char *p_name, const ErrorMetrics &p_metrics) {
+	ImGui::TableNextRow();
+	ImGui::TableNextColumn();
+	ImGui::TextUnformatted(p_name);
+	for (const double value : { p_metrics.mae, p_metrics.rmse, p_metrics.p99, p_metrics.bias }) {
+		ImGui::TableNextColumn();
+		ImGui::Text("%.4f", value);
+	}
+}
+
+void draw_metrics(const MaskMetrics &p_metrics) {
+	if (ImGui::BeginTable("metrics", 5, ImGuiTableFlags_RowBg)) {
+		for (const char *heading : { "", "mean", "RMSE", "99 %", "bias" }) {
+			ImGui::TableSetupColumn(heading);
+		}
+		ImGui::TableHeadersRow();
+		draw_row("penumbra", p_metrics.penumbra);
+		draw_row("receivers", p_metrics.receiver);
+		ImGui::EndTable();
+	}
+	const double penumbra_count = double(p_metrics.penumbra.pixel_count);
+	ImGui::TextDisabled("%.0f of %.0f pixels; %.1f %% too dark to be penumbra", penumbra_count,
+			double(p_metrics.receiver.pixel_count), 100.0 * p_metrics.umbra_over);
+}
+
+/// What the truth is worth so far, and how to have more or less of it.
+void draw_truth(EditorContext &r_context) {
+	ErrorState &state = r_context.error;
+	if (ImGui::Button(state.is_stopped ? "Start" : "Stop")) {
+		state.is_stopped = !state.is_stopped;
+	}
+	r_context.note_item("button truth");
+	if (ImGui::IsItemHovered()) {
+		ImGui::SetTooltip("The reference is traced in the background while this tab is open");
+	}
+	ImGui::SameLine();
+	ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
+	if (ImGui::BeginCombo("rays", std::to_string(state.sample_count).c_str())) {
+		for (const uint32_t count : ErrorState::SAMPLE_COUNTS) {
+			if (ImGui::Selectable(std::to_string(count).c_str(), count == state.sample_count)) {
+				state.sample_count = count;
+			}
+		}
+		ImGui::EndCombo();
+	}
+	ImGui::SameLine();
+	if (state.is_tracing) {
+		const std::string label = std::to_string(state.round_sample_count) + " rays a pixel";
+		ImGui::ProgressBar(state.progress, ImVec2(-1.0f, 0.0f), label.c_str());
+	} else if (!state.truth) {
+		ImGui::TextDisabled(state.is_stopped ? "no truth" : "measuring the cost");
+	} else {
+		ImGui::TextDisabled("%.1f s", state.round.seconds);
+	}
+	if (state.truth) {
+		ImGui::Text("Truth: %u rays a pixel, standard error %.4f", state.round.sample_count,
+				double(std::max(state.round.standard_error, 0.0f)));
+	}
+}
+
+void draw_cost(const ErrorState &p_state) {
+	if (p_state.cost.frame_count > 0) {
+		ImGui::Text("Cost: %.2f ms", p_state.cost.cost_ms);
+		ImGui::SameLine();
+		ImGui::TextDisabled("median of %u frames", p_state.cost.frame_count);
+	}
+}
+
+void draw_picture(EditorContext &r_context, const char *p_name, void *p_picture, ImVec2 p_size) {
+	ImGui::BeginGroup();
+	ImGui::TextUnformatted(p_name);
+	if (p_picture != nullptr) {
+		ImGui::Image(p_picture, p_size);
+	} else {
+		ImGui::Dummy(p_size);
+	}
+	ImGui::EndGroup();
+	r_context.note_item(std::string("picture ") + p_name);
+}
+
+/// A click shows it in the viewport, another click the picture again.
+void draw_view(EditorContext &r_context, const char *p_view, void *p_picture, ImVec2 p_size) {
+	draw_picture(r_context, p_view, p_picture, p_size);
+	if (ImGui::IsItemClicked()) {
+		ViewportState &viewport = r_context.viewport;
+		viewport.debug_view = viewport.debug_view == p_view ? "" : p_view;
+		viewport.needs_picture = true;
+	}
+}
+
+/// Mask, truth and their difference side by side, as large as fits.
+void draw_pictures(EditorContext &r_context) {
+	const ErrorState &state = r_context.error;
+	const ImVec2 space = ImGui::GetContentRegionAvail();
+	const float gap = ImGui::GetStyle().ItemSpacing.x;
+	const glm::vec2 size_px = state.mask.size_px;
+	if (size_px.x < 1.0f || size_px.y < 1.0f) {
+		return;
+	}
+	const float height = std::max(space.y - ImGui::GetTextLineHeightWithSpacing(), 16.0f);
+	const float width = std::max((space.x - 2.0f * gap) / 3.0f, 16.0f);
+	const float scale = std::min(width / size_px.x, height / size_px.y);
+	const ImVec2 size(size_px.x * scale, size_px.y * scale);
+	draw_view(r_context, "mask", state.mask_picture, size);
+	ImGui::SameLine();
+	draw_picture(r_context, "truth", state.metrics ? state.truth_picture : nullptr, size);
+	ImGui::SameLine();
+	draw_view(r_context, "error", state.metrics ? state.error_picture : nullptr, size);
+	if (ImGui::IsItemHovered()) {
+		ImGui::SetTooltip("Mask less truth. Blue: too dark, red: too light, full colour at %.2g",
+				double(HEAT_MAP_RANGE));
+	}
+}
+
+} // namespace
+
+void draw_error(EditorContext &r_context) {
+	ErrorState &state = r_context.error;
+	state.is_shown = ImGui::BeginTabItem("Error");
+	r_context.note_item("tab Error");
+	if (!state.is_shown) {
+		return;
+	}
+	ImGui::BeginChild("figures", ImVec2(26.0f * ImGui::GetFontSize(), 0.0f));
+	if (!state.refusal.empty()) {
+		ImGui::TextWrapped("%s", state.refusal.c_str());
+	} else {
+		ImGui::TextUnformatted(state.light.c_str());
+		ImGui::SameLine();
+		ImGui::TextDisabled("%s", state.technique.c_str());
+		draw_truth(r_context);
+		draw_cost(state);
+		if (state.metrics) {
+			draw_metrics(*state.metrics);
+		}
+	}
+	ImGui::EndChild();
+	ImGui::SameLine();
+	ImGui::BeginChild("pictures");
+	if (state.refusal.empty()) {
+		draw_pictures(r_context);
+	}
+	ImGui::EndChild();
+	ImGui::EndTabItem();
+}
+
+} // namespace gnomon

@@ -1,0 +1,178 @@
+#include "modules/editor/panels/viewport_gizmos.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gnomon {
+
+namespace {
+
+const ImU32 SELECTED_COLOR = IM_COL32(255, 200, 60, 255);
+const ImU32 MARK_COLOR = IM_COL32(230, 230, 230, 200);
+const ImU32 OUTER_COLOR = IM_COL32(255, 150, 40, 230);
+const ImU32 INNER_COLOR = IM_COL32(70, 150, 255, 230);
+
+/// The radius at which the mouse now holds the handle of a circle, as far along the line from its
+/// centre to the handle.
+double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
+		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
+	const ImGuiIO &io = ImGui::GetIO();
+	const glm::dvec2 moved(io.MouseDelta.x, io.MouseDelta.y);
+	const double SHORTEST_PX = 4.0; // below, the line says nothing: to the right is larger
+	if (!p_center) {
+		return p_radius_m + moved.x * p_metres_per_px;
+	}
+	const glm::dvec2 way(p_handle.x - p_center->x, p_handle.y - p_center->y);
+	const double length_px = glm::length(way);
+	if (length_px < SHORTEST_PX) {
+		return p_radius_m + moved.x * p_metres_per_px;
+	}
+	return p_radius_m * (1.0 + glm::dot(moved, way) / (length_px * length_px));
+}
+
+/// A sun for a light, a frame for a camera.
+void draw_mark(ImDrawList &r_list, const ImVec2 &p_place, bool p_is_light, ImU32 p_color) {
+	const float radius = 0.3f * ImGui::GetFontSize();
+	if (!p_is_light) {
+		r_list.AddRect(ImVec2(p_place.x - 1.5f * radius, p_place.y - radius),
+				ImVec2(p_place.x + 1.5f * radius, p_place.y + radius), p_color, 0.0f,
+				ImDrawFlags_None, 1.5f);
+		return;
+	}
+	r_list.AddCircleFilled(p_place, radius, p_color);
+	for (int ray = 0; ray < 8; ++ray) {
+		const float angle = 0.785398f * float(ray);
+		const ImVec2 way(std::cos(angle), std::sin(angle));
+		r_list.AddLine(ImVec2(p_place.x + 1.4f * radius * way.x, p_place.y + 1.4f * radius * way.y),
+				ImVec2(p_place.x + 2.0f * radius * way.x, p_place.y + 2.0f * radius * way.y),
+				p_color, 1.5f);
+	}
+}
+
+} // namespace
+
+void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_projection) {
+	Node3D *clicked = nullptr;
+	const auto draw = [&](Node3D &p_node, bool p_is_light) {
+		const std::optional<ImVec2> place =
+				p_projection.project(glm::dvec3(p_node.compute_world_from_node()[3]));
+		if (!place || !p_projection.is_inside(*place)) {
+			return;
+		}
+		const bool is_selected = r_context.document.get_selected() == &p_node;
+		draw_mark(*ImGui::GetWindowDrawList(), *place, p_is_light,
+				is_selected ? SELECTED_COLOR : MARK_COLOR);
+		const float half = 0.7f * ImGui::GetFontSize();
+		ImGui::PushID(&p_node);
+		ImGui::SetCursorScreenPos(ImVec2(place->x - half, place->y - half));
+		if (ImGui::InvisibleButton("mark", ImVec2(2.0f * half, 2.0f * half))) {
+			clicked = &p_node;
+		}
+		ImGui::SetItemAllowOverlap(); // a handle may lie on it
+		r_context.note_item("mark " + p_node.name);
+		if (ImGui::IsItemHovered()) {
+			ImGui::SetTooltip("%s", p_node.name.c_str());
+		}
+		ImGui::PopID();
+	};
+	const Scene &scene = r_context.document.get_scene();
+	for (Light3D *light : scene.find_nodes<Light3D>()) {
+		draw(*light, true);
+	}
+	for (Camera3D *camera : scene.find_nodes<Camera3D>()) {
+		draw(*camera, false);
+	}
+	if (clicked != nullptr) {
+		r_context.document.select(clicked);
+	}
+}
+
+void draw_penumbra_lines(const EditorContext &p_context, const ViewportProjection &p_projection) {
+	ImDrawList &list = *ImGui::GetWindowDrawList();
+	for (const PenumbraLine &line : p_context.viewport.penumbra_lines) {
+		const std::optional<ImVec2> from = p_projection.project(line.from_world);
+		const std::optional<ImVec2> to = p_projection.project(line.to_world);
+		if (from && to) {
+			list.AddLine(*from, *to, line.is_outer ? OUTER_COLOR : INNER_COLOR, 1.5f);
+		}
+	}
+}
+
+void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projection) {
+	Node3D *node = r_context.document.get_selected();
+	if (node == nullptr) {
+		return;
+	}
+	ImDrawList &list = *ImGui::GetWindowDrawList();
+	const glm::dmat4 world_from_node = node->compute_world_from_node();
+	for (int axis = 0; axis < 3; ++axis) {
+		if (!(glm::length(glm::dvec3(world_from_node[axis])) > 0.0)) {
+			return; // flat: it has no direction
+		}
+	}
+	std::vector<NodeGizmo> gizmos;
+	node->add_gizmos(gizmos);
+	for (const NodeGizmo &gizmo : gizmos) {
+		const glm::dvec3 center(world_from_node * glm::dvec4(gizmo.center, 1.0));
+		const glm::dmat3 axes(glm::normalize(glm::dvec3(world_from_node[0])),
+				glm::normalize(glm::dvec3(world_from_node[1])),
+				glm::normalize(glm::dvec3(world_from_node[2])));
+		std::vector<ImVec2> points;
+		const int SIDES = 64;
+		for (int side = 0; side <= SIDES; ++side) {
+			const double angle = 6.283185307179586 * side / SIDES;
+			const glm::dvec3 place = center +
+					gizmo.radius_m *
+							(axes *
+									(std::cos(angle) * gizmo.axis_x +
+											std::sin(angle) * gizmo.axis_y));
+			if (const std::optional<ImVec2> point = p_projection.project(place)) {
+				points.push_back(*point);
+			}
+		}
+		list.AddPolyline(points.data(), int(points.size()), SELECTED_COLOR, ImDrawFlags_None, 2.0f);
+		if (gizmo.is_filled) {
+			list.AddConvexPolyFilled(points.data(), int(points.size()), IM_COL32(255, 200, 60, 50));
+		}
+		const std::optional<ImVec2> handle =
+				p_projection.project(center + gizmo.radius_m * (axes * gizmo.axis_x));
+		if (gizmo.property.empty() || !handle) {
+			continue;
+		}
+		const float half = 7.0f;
+		const ImGuiID id = ImGui::GetID(gizmo.property.c_str());
+		if (id != r_context.dragged_handle && !p_projection.is_inside(*handle)) {
+			continue;
+		}
+		list.AddCircleFilled(*handle, half, SELECTED_COLOR);
+		ImGui::SetCursorScreenPos(ImVec2(handle->x - half, handle->y - half));
+		ImGui::PushID(gizmo.property.c_str());
+		ImGui::InvisibleButton("handle", ImVec2(2 * half, 2 * half));
+		r_context.note_item("handle " + gizmo.property);
+		ImGui::SetItemAllowOverlap();
+		r_context.dragged_handle = ImGui::IsItemActive() ? id
+				: r_context.dragged_handle == id		 ? 0
+														 : r_context.dragged_handle;
+		if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+			ImGui::SetTooltip("%s: %.4g", gizmo.property.c_str(), gizmo.value);
+		}
+		const ImGuiIO &io = ImGui::GetIO();
+		if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
+			const double radius_m = compute_dragged_radius(gizmo.radius_m,
+					p_projection.compute_metres_per_px(center), p_projection.project(center),
+					*handle);
+			const double value =
+					std::max(gizmo.value + (radius_m - gizmo.radius_m) * gizmo.value_per_m, 0.0);
+			r_context.attempt(
+					[&] { r_context.document.set_property(*node, gizmo.property, value, true); });
+			r_context.viewport.is_moving = true;
+		}
+		if (ImGui::IsItemDeactivated()) {
+			r_context.document.end_drag();
+		}
+		ImGui::PopID();
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "modules/mesh_tools/ray_tree.h"
+#include "modules/scene/nodes.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// Rays against what a scene shows, in the world: for picking and for guides.
+class SceneRays {
+public:
+	struct Instance {
+		MeshInstance3D *node = nullptr;
+		std::shared_ptr<const Mesh> mesh;
+		glm::dmat4 world_from_node = glm::dmat4(1.0);
+		glm::dmat4 node_from_world = glm::dmat4(1.0);
+		Bounds bounds_world;
+	};
+	struct Hit {
+		double t = 0; // in units of the ray's direction
+		const Instance *instance = nullptr;
+	};
+
+	/// Looks at the scene anew. Nodes that are flat are left out: no ray meets them in a way that
+	/// could be undone. Trees of meshes that were there before are kept.
+	void follow(const Scene &p_scene);
+	const std::vector<Instance> &get_instances() const { return instances; }
+	/// The nearest beyond p_begin, but for one instance.
+	std::optional<Hit> find_nearest(const glm::dvec3 &p_origin_world,
+			const glm::dvec3 &p_direction_world, double p_begin = 0.0,
+			const Instance *p_ignored = nullptr);
+
+private:
+	std::vector<Instance> instances;
+	std::map<uint64_t, std::unique_ptr<RayTree>> trees; // by Mesh::id; null: no ray came near yet
+};
+
+} // namespace gnomon

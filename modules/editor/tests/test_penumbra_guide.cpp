@@ -1,0 +1,104 @@
+#include "modules/editor/penumbra_guide.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace gnomon;
+
+namespace {
+
+/// A light straight above a box above the ground, seen from +X.
+struct GuidedScene : SmallScene {
+	SceneRays rays;
+
+	explicit GuidedScene(LightType p_type) : SmallScene(p_type) {
+		camera->parent_from_node = look_at({ 5.0, 4.0, 0.1 }, { 0.5, 0.0, 0.0 });
+		light->parent_from_node = look_at({ 0.0, 4.0, 0.0 }, { 0.0, 0.0, 0.0 });
+		light->properties["penumbra_outer_width"] = 0.2;
+		light->properties["penumbra_inner_width"] = 0.1;
+	}
+	std::vector<PenumbraLine> find_lines(size_t p_edge_count = 1000) {
+		rays.follow(scene);
+		const auto snapshot = snap();
+		return find_penumbra_lines(rays, *snapshot, snapshot->lights.front(), p_edge_count);
+	}
+};
+
+/// The X of the lines along Z on the ground at +X; -1: there are none.
+double find_x(const std::vector<PenumbraLine> &p_lines, bool p_is_outer) {
+	double x = -1;
+	for (const PenumbraLine &line : p_lines) {
+		if (line.is_outer == p_is_outer && line.from_world.x > 0.55 &&
+				std::abs(line.from_world.x - line.to_world.x) < 1e-9) {
+			CHECK(std::abs(line.from_world.y) < 1e-6);
+			CHECK((x < 0 || x == doctest::Approx(line.from_world.x)));
+			x = line.from_world.x;
+		}
+	}
+	return x;
+}
+
+} // namespace
+
+TEST_CASE("The penumbra of a straight edge ends where the rays from the light's rim meet the "
+		  "ground") {
+	// In the plane across the edge (0.5, 1.3) the light at (0, 4) has its rim across the ray to it.
+	for (LightType type : { LightType::SPOT, LightType::OMNI }) {
+		const std::vector<PenumbraLine> lines = GuidedScene(type).find_lines();
+		CHECK(find_x(lines, true) == doctest::Approx(0.84002).epsilon(1e-4));
+		CHECK(find_x(lines, false) == doctest::Approx(0.69210).epsilon(1e-4));
+	}
+	// A sun: tangents 0.2 / S and 0.1 / S, from 1.3 m above the ground; S is 4 m.
+	const std::vector<PenumbraLine> lines = GuidedScene(LightType::DIRECTIONAL).find_lines();
+	CHECK(find_x(lines, true) == doctest::Approx(0.5 + 1.3 * 0.05).epsilon(1e-4));
+	CHECK(find_x(lines, false) == doctest::Approx(-1.0)); // under the box: not seen from above
+}
+
+TEST_CASE("A light without shadow or without width has no penumbra to show") {
+	GuidedScene scene(LightType::SPOT);
+	const size_t all_count = scene.find_lines().size();
+	CHECK(all_count > 2);
+	CHECK(scene.find_lines(1).size() <= 2); // of one edge
+	scene.light->properties["shadow_enabled"] = false;
+	CHECK(scene.find_lines().empty());
+	scene.light->properties["shadow_enabled"] = true;
+	scene.light->properties["penumbra_inner_width"] = 0.0;
+	scene.light->properties["penumbra_outer_width"] = 0.0;
+	CHECK(scene.find_lines().empty());
+	scene.light->properties["penumbra_outer_width"] = 0.2;
+	scene.box->casts_shadow = false;
+	CHECK(scene.find_lines().empty()); // the ground's own edges meet nothing
+}
+
+TEST_CASE("What a spot light's cone or range does not reach has no penumbra") {
+	GuidedScene scene(LightType::SPOT);
+	scene.light->outer_cone_rad = 0.1f;
+	CHECK(scene.find_lines().empty());
+	GuidedScene near(LightType::OMNI);
+	near.light->range_m = 3.0f;
+	CHECK(near.find_lines().empty());
+}
+
+TEST_CASE("A ray through the scene finds the node it meets first, whatever its scale") {
+	GuidedScene scene(LightType::SPOT);
+	scene.box->parent_from_node =
+			glm::scale(scene.box->parent_from_node, glm::dvec3(0.5, 1.0, 2.0));
+	scene.rays.follow(scene.scene);
+	const auto first = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -2.0, 0.0 });
+	REQUIRE(first);
+	CHECK(first->instance->node == scene.box);
+	CHECK(first->t == doctest::Approx(3.7 / 2.0));
+	const auto beyond =
+			scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -2.0, 0.0 }, 0.0, first->instance);
+	REQUIRE(beyond);
+	CHECK(beyond->instance->node == scene.ground);
+	CHECK(!scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, 1.0, 0.0 }));
+	// A flat node is met by no ray, and breaks none.
+	scene.box->parent_from_node[1] = glm::dvec4(0.0);
+	scene.rays.follow(scene.scene);
+	const auto past_flat = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -1.0, 0.0 });
+	REQUIRE(past_flat);
+	CHECK(past_flat->instance->node == scene.ground);
+}

@@ -1,0 +1,49 @@
+#include "modules/editor/viewport_guides.h"
+
+namespace gnomon {
+
+namespace {
+
+// Silhouette edges that are followed: a moving light must not wait for them.
+const size_t MOVING_EDGE_COUNT = 150;
+const size_t EDGE_COUNT = 1500;
+
+} // namespace
+
+void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
+	ViewportState &viewport = r_context.viewport;
+	EditorDocument &document = r_context.document;
+	const bool is_changed = p_drawn_count != followed_count || viewport.is_guide_changed;
+	if (is_changed || viewport.pick) {
+		rays.follow(document.get_scene());
+	}
+	if (viewport.pick) {
+		const ViewportPick pick = *viewport.pick;
+		viewport.pick.reset();
+		const std::optional<SceneRays::Hit> hit =
+				rays.find_nearest(pick.origin_world, pick.direction_world);
+		document.select(hit ? hit->instance->node : nullptr);
+	}
+	const Node3D *selected = document.get_selected();
+	if (!is_changed && selected == guided_node) {
+		return;
+	}
+	followed_count = p_drawn_count;
+	viewport.is_guide_changed = false;
+	guided_node = selected;
+	viewport.penumbra_lines.clear();
+	if (!viewport.shows_penumbra || dynamic_cast<const Light3D *>(selected) == nullptr) {
+		return;
+	}
+	try {
+		const auto scene = r_context.build_viewport_snapshot();
+		if (const LightSnapshot *light = scene->find_light(selected->name)) {
+			viewport.penumbra_lines = find_penumbra_lines(rays, *scene, *light,
+					r_context.is_picture_coarse ? MOVING_EDGE_COUNT : EDGE_COUNT);
+		}
+	} catch (const std::exception &) {
+		// The scene cannot be drawn either, and the picture says why.
+	}
+}
+
+} // namespace gnomon

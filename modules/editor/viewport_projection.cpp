@@ -1,0 +1,44 @@
+#include "modules/editor/viewport_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+ViewportProjection::ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size) :
+		least(p_least.x, p_least.y), size(p_size.x, p_size.y) {
+	Camera3D camera;
+	p_camera.apply(camera);
+	world_from_camera = camera.parent_from_node;
+	camera_from_world = glm::inverse(world_from_camera);
+	focal_px = 0.5 * size.y / std::tan(0.5 * double(camera.vertical_fov_rad));
+	near_m = double(camera.near_m);
+}
+
+std::optional<ImVec2> ViewportProjection::project(const glm::dvec3 &p_world) const {
+	const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
+	if (-place.z < near_m) {
+		return std::nullopt;
+	}
+	const glm::dvec2 px =
+			least + 0.5 * size + glm::dvec2(place.x, -place.y) * (focal_px / -place.z);
+	return ImVec2(float(px.x), float(px.y));
+}
+
+bool ViewportProjection::is_inside(const ImVec2 &p_point) const {
+	const glm::dvec2 place = glm::dvec2(p_point.x, p_point.y) - least;
+	return place.x >= 0.0 && place.y >= 0.0 && place.x < size.x && place.y < size.y;
+}
+
+double ViewportProjection::compute_metres_per_px(const glm::dvec3 &p_world) const {
+	const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
+	return std::max(-place.z, near_m) / focal_px;
+}
+
+glm::dvec3 ViewportProjection::compute_direction(const ImVec2 &p_point) const {
+	const glm::dvec2 from_centre = glm::dvec2(p_point.x, p_point.y) - least - 0.5 * size;
+	return glm::dvec3(world_from_camera *
+			glm::dvec4(from_centre.x / focal_px, -from_centre.y / focal_px, -1.0, 0.0));
+}
+
+} // namespace gnomon

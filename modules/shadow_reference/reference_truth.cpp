@@ -1,0 +1,36 @@
+#include "modules/shadow_reference/reference_truth.h"
+
+#include "modules/core/error.h"
+#include "modules/shadow_reference/reference_input.h"
+
+namespace gnomon {
+
+TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+		const std::function<void(float)> &p_progress) {
+	if (!tracer) {
+		const size_t pixel_count = size_t(question.size_px.x) * question.size_px.y;
+		GNOMON_ASSERT(
+				question.surfaces.size() == pixel_count && question.receiver.size() == pixel_count,
+				question.surfaces.size(), " surfaces and ", question.receiver.size(),
+				" receivers for ", pixel_count, " pixels");
+		points.resize(pixel_count);
+		for (size_t index = 0; index < pixel_count; ++index) {
+			const SurfacePoint &surface = question.surfaces[index];
+			points[index] = { surface.position, surface.geometric_normal,
+				surface.is_there && question.receiver[index] >= 0.5f };
+		}
+		const CasterTriangles triangles = collect_triangles(*question.scene);
+		tracer.emplace(triangles.positions, triangles.indices);
+	}
+	VisibilityOptions options;
+	options.scene_size_m = static_cast<float>(question.scene->scene_size_m);
+	options.sample_count = p_sample_count;
+	options.is_cancelled = &p_is_cancelled;
+	options.progress = p_progress;
+	VisibilityResult result = tracer->compute(
+			points, question.size_px, make_area_light(*question.scene, question.light), options);
+	return { std::move(result.visibility), result.standard_error, result.penumbra_pixel_count,
+		result.is_complete };
+}
+
+} // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "modules/renderer/truth_source.h"
+#include "modules/shadow_reference/area_light_visibility.h"
+
+#include <optional>
+
+namespace gnomon {
+
+/// The truth beside the frames. The tree over the casters is built by the first trace and kept.
+class ReferenceTruth : public TruthSource {
+public:
+	explicit ReferenceTruth(TruthQuestion p_question) : question(std::move(p_question)) {}
+
+	TruthAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+			const std::function<void(float)> &p_progress) override;
+
+private:
+	TruthQuestion question;
+	std::vector<ReceiverPoint> points;
+	std::optional<AreaLightVisibility> tracer;
+};
+
+} // namespace gnomon
