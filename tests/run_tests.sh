@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables"
+PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables blender"
 
 usage() {
     cat <<'TEXT'
@@ -11,7 +11,8 @@ Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
                turn, tables with 9216 light samples
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
-               demo removal template sanitized; with --full also sanitized_all threads tables
+               demo removal template sanitized; with --full also sanitized_all threads tables;
+               only when named: blender (installs Blender, 160 MB)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
 }
@@ -53,12 +54,16 @@ done
 
 # shellcheck source=demo_project/install_packages.sh
 . demo_project/install_packages.sh
-install_packages "${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}" || exit 1
+packages=("${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
+if [[ " ${only[*]} " == *" blender "* ]]; then
+    packages+=("${BLENDER_PACKAGES[@]}")
+fi
+install_packages "${packages[@]}" || exit 1
 
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 # Never the user's own cache; shared by all parts, so that a truth is traced once.
-export GNOMON_CACHE_DIR=$work/cache
+export GNOMON_CACHE_DIR=$work/cache GNOMON_CONFIG_DIR=$work/config
 export PYTHONDONTWRITEBYTECODE=1
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
@@ -178,6 +183,10 @@ if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py
+fi
+# Not without being asked for: the package is large.
+if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
+    run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
 fi
 if is_wanted demo; then
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --no-window --out "$work/demo"

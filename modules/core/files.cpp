@@ -39,6 +39,36 @@ void write_all(int p_file, std::span<const uint8_t> p_bytes, const fs::path &p_p
 	}
 }
 
+/// What names a user's folder: two variables, a folder below the home, one below the temporary.
+struct UserFolder {
+	const char *own_variable;
+	const char *shared_variable;
+	const char *at_home;
+	const char *temporary;
+};
+
+const char *get_variable(const char *p_name) {
+	const char *value = std::getenv(p_name);
+	return value != nullptr && *value != 0 ? value : nullptr;
+}
+
+/// Created when absent; a failure shows when something is written there.
+fs::path find_user_folder(const UserFolder &p_folder) {
+	fs::path folder;
+	if (const char *own = get_variable(p_folder.own_variable)) {
+		folder = own;
+	} else if (const char *shared = get_variable(p_folder.shared_variable)) {
+		folder = fs::path(shared) / "gnomon";
+	} else if (const char *home = get_variable("HOME")) {
+		folder = fs::path(home) / p_folder.at_home / "gnomon";
+	} else {
+		folder = fs::temp_directory_path() / p_folder.temporary;
+	}
+	std::error_code code;
+	fs::create_directories(folder, code);
+	return folder;
+}
+
 } // namespace
 
 std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
@@ -112,19 +142,11 @@ bool is_inside_folder(const fs::path &p_path, const fs::path &p_folder) {
 }
 
 fs::path get_cache_folder() {
-	fs::path folder;
-	if (const char *own = std::getenv("GNOMON_CACHE_DIR"); own && *own) {
-		folder = own;
-	} else if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
-		folder = fs::path(cache) / "gnomon";
-	} else if (const char *home = std::getenv("HOME"); home && *home) {
-		folder = fs::path(home) / ".cache" / "gnomon";
-	} else {
-		folder = fs::temp_directory_path() / "gnomon-cache";
-	}
-	std::error_code code;
-	fs::create_directories(folder, code); // a failure shows when an entry is written: a warning
-	return folder;
+	return find_user_folder({ "GNOMON_CACHE_DIR", "XDG_CACHE_HOME", ".cache", "gnomon-cache" });
+}
+
+fs::path get_config_folder() {
+	return find_user_folder({ "GNOMON_CONFIG_DIR", "XDG_CONFIG_HOME", ".config", "gnomon-config" });
 }
 
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed) {

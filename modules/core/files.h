@@ -29,6 +29,10 @@ bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem
 /// else ~/.cache/gnomon, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_cache_folder();
 
+/// Where a user's choices are kept: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
+/// ~/.config/gnomon, else a folder below the system's temporary one. Created when absent.
+std::filesystem::path get_config_folder();
+
 /// 64 bits of xxHash3. Not for secrets; names cache entries and finds damaged ones.
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
 uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed = 0);

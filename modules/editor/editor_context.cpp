@@ -35,15 +35,37 @@ void EditorContext::note_item(const std::string &p_name) {
 	items[p_name] = { least.x, least.y, greatest.x, greatest.y };
 }
 
-std::string EditorContext::describe_items(uint32_t p_picture_count) const {
+bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition) {
+	const std::string label = p_name + p_addition + "###" + p_name;
+	const bool is_wanted = wanted_tab == p_name;
+	const bool is_shown = ImGui::BeginTabItem(
+			label.c_str(), nullptr, is_wanted ? ImGuiTabItemFlags_SetSelected : 0);
+	note_item(std::string("tab ") + p_name);
+	if (is_wanted && is_shown) {
+		wanted_tab.clear();
+	}
+	if (is_shown) {
+		shown_tab = p_name;
+	}
+	return is_shown;
+}
+
+std::string EditorContext::describe_items(uint32_t p_picture_count, bool p_is_resting) const {
 	nlohmann::json places = nlohmann::json::object();
 	for (const auto &[name, rectangle] : items) {
 		places[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
 	}
 	const Node3D *selected = document.get_selected();
-	return nlohmann::json({ { "items", places }, { "selected", selected ? selected->name : "" },
-								  { "status", status }, { "is_changed", document.is_changed() },
-								  { "pictures", p_picture_count } })
+	return nlohmann::json(
+			{ { "items", places }, { "selected", selected ? selected->name : "" },
+					{ "status", status }, { "is_changed", document.is_changed() },
+					{ "pictures", p_picture_count }, { "is_resting", p_is_resting },
+					{ "error",
+							{ { "light", error.light }, { "refusal", error.refusal },
+									{ "rays", error.truth ? error.round.sample_count : 0 },
+									{ "penumbra_mae",
+											error.metrics ? error.metrics->penumbra.mae
+														  : -1.0 } } } })
 			.dump();
 }
 

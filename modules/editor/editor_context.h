@@ -9,6 +9,7 @@
 #include "modules/error_report/mask_timing.h"
 #include "modules/renderer/renderer.h"
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -66,7 +67,19 @@ struct ErrorState {
 };
 
 /// What a button or a key asks for; done once a frame, after the panels.
-enum class EditorCommand { NONE, SAVE, UNDO, REDO, FRAME, PLAY, DUPLICATE, DELETE, QUIT };
+enum class EditorCommand {
+	NONE,
+	ASK_TO_OPEN,
+	OPEN,
+	SAVE,
+	UNDO,
+	REDO,
+	FRAME,
+	PLAY,
+	DUPLICATE,
+	DELETE,
+	QUIT
+};
 
 /// What all panels share. They change the scene through the document alone.
 struct EditorContext {
@@ -87,7 +100,12 @@ struct EditorContext {
 	std::vector<std::string> messages; // errors and warnings, the newest last
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
-	uint32_t dragged_handle = 0; // ImGuiID of a gizmo's handle; 0: none
+	bool asks_to_open = false;		 // opens the menu of scenes
+	std::filesystem::path open_path; // of EditorCommand::OPEN
+	std::vector<std::string> recent; // scenes that were open, the newest first
+	std::string shown_tab;			 // of the bar below the viewport
+	std::string wanted_tab;			 // is to be shown; empty once it is
+	uint32_t dragged_handle = 0;	 // ImGuiID of a gizmo's handle; 0: none
 	/// Where widgets are in the window, by name: left, top, right, bottom in pixels. For tests.
 	std::map<std::string, glm::vec4> items;
 
@@ -110,9 +128,12 @@ struct EditorContext {
 	std::shared_ptr<const SceneSnapshot> build_viewport_snapshot() const;
 	/// Notes where the widget is that was drawn last.
 	void note_item(const std::string &p_name);
+	/// Of the bar below the viewport; the caller ends it when it is true. p_addition: shown behind
+	/// the name.
+	bool begin_tab(const char *p_name, const std::string &p_addition = {});
 	/// These places, and what a test waits for, as JSON. p_picture_count: sharp ones that were
-	/// drawn.
-	std::string describe_items(uint32_t p_picture_count) const;
+	/// drawn. p_is_resting: nothing waits to be drawn.
+	std::string describe_items(uint32_t p_picture_count, bool p_is_resting) const;
 	/// Runs what a user asked for; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
 		try {

@@ -54,8 +54,17 @@ EditorDocument::EditorDocument(const fs::path &p_path) {
 	project = place.project;
 	path = fs::absolute(place.scene_path);
 	disable_modules(project);
-	open(path);
-	note_file_time();
+	std::error_code code;
+	if (!fs::exists(path, code)) {
+		fail("Scene ", path, " does not exist. Check the path.");
+	}
+	try {
+		read_file();
+	} catch (const Error &error) {
+		scene = std::make_unique<Scene>();
+		failure = error.what();
+		log_error(failure);
+	}
 }
 
 EditorDocument::~EditorDocument() {
@@ -72,13 +81,38 @@ void EditorDocument::open(const fs::path &p_file) {
 	selected = nullptr;
 	history = UndoHistory();
 	scene = std::move(loaded);
+	failure.clear();
 	autosaved_serial = 0;
 	changed_since.reset();
 }
 
+void EditorDocument::read_file() {
+	const FileTimes before = read_file_times();
+	file_times = before; // also when it cannot be read: once is enough
+	open(path);
+	note_file_time(); // it may refer to other files now
+	for (const auto &[file, time] : before) {
+		file_times[file] = time; // what was written meanwhile is newer
+	}
+}
+
 void EditorDocument::note_file_time() {
-	std::error_code code;
-	file_time = fs::last_write_time(path, code);
+	file_times = read_file_times();
+}
+
+EditorDocument::FileTimes EditorDocument::read_file_times() const {
+	std::vector<fs::path> files = scene ? scene->side_files : std::vector<fs::path>();
+	files.push_back(path);
+	files.push_back(fs::path(path).replace_extension(".bin"));
+	FileTimes times;
+	for (const fs::path &file : files) {
+		std::error_code code;
+		const fs::file_time_type time = fs::last_write_time(file, code);
+		if (!code) {
+			times[file] = time;
+		}
+	}
+	return times;
 }
 
 Bounds EditorDocument::compute_selected_bounds() const {
@@ -167,6 +201,9 @@ void EditorDocument::save() {
 }
 
 void EditorDocument::save_as(const fs::path &p_path) {
+	if (!failure.empty()) {
+		fail("Scene ", path, " was not read, so there is nothing to save: ", failure);
+	}
 	save_gltf(*scene, p_path);
 	discard_recovery();
 	path = fs::absolute(p_path);
@@ -231,14 +268,13 @@ void EditorDocument::discard_recovery() {
 }
 
 bool EditorDocument::is_file_newer() const {
-	std::error_code code;
-	const fs::file_time_type now = fs::last_write_time(path, code);
-	return !code && now != file_time;
+	const FileTimes now = read_file_times();
+	// While the scene itself is not there, it is being written.
+	return now != file_times && now.contains(path);
 }
 
 void EditorDocument::reload() {
-	note_file_time(); // also when it cannot be read: once is enough
-	open(path);
+	read_file();
 	is_recovered = false;
 }
 

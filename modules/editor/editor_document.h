@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +19,8 @@ public:
 	using Clock = std::chrono::steady_clock;
 	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 };
 
-	/// p_path: as find_project_scene. A file that cannot be read is an Error.
+	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
+	/// read opens empty and is said in the log, see get_failure.
 	explicit EditorDocument(const std::filesystem::path &p_path);
 	/// What this document put aside is removed when nothing of it would be lost.
 	~EditorDocument();
@@ -29,6 +31,9 @@ public:
 	const Project &get_project() const { return project; }
 	const std::filesystem::path &get_path() const { return path; }
 	UndoHistory &get_history() { return history; }
+	/// Why there is nothing of the file: what is wrong with it. Empty: it was read. Such a document
+	/// is not saved, for the file would be lost; it is read anew once it has changed.
+	const std::string &get_failure() const { return failure; }
 	bool is_changed() const { return is_recovered || !history.is_saved(); }
 
 	/// Null: nothing.
@@ -71,7 +76,8 @@ public:
 	void recover();
 	void discard_recovery();
 
-	/// True when another program has written the file since it was read or saved.
+	/// True when another program has written the file, or one that it refers to, since it was read
+	/// or saved.
 	bool is_file_newer() const;
 	/// The file's newer state is not wanted: the next save writes over it.
 	void keep_over_file() { note_file_time(); }
@@ -80,16 +86,21 @@ public:
 
 private:
 	void open(const std::filesystem::path &p_file);
+	void read_file();
 	void note_file_time();
+	/// When the scene's files were written. A scene that could not be read may lack its .bin only.
+	using FileTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
+	FileTimes read_file_times() const;
 
 	Project project;
 	std::filesystem::path path;
 	std::unique_ptr<Scene> scene;
+	std::string failure;
 	UndoHistory history;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;
 	bool owns_recovery = false; // what lies aside is this document's, not an earlier one's
-	std::filesystem::file_time_type file_time;
+	FileTimes file_times;
 	uint64_t autosaved_serial = 0;
 	std::optional<Clock::time_point> changed_since;
 };

@@ -8,6 +8,8 @@ EditorCommand find_command(const Window::KeyPress &p_press) {
 	const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
 	const bool has_shift = (p_press.modifiers & GLFW_MOD_SHIFT) != 0;
 	switch (p_press.key) {
+		case GLFW_KEY_O:
+			return has_control ? EditorCommand::ASK_TO_OPEN : EditorCommand::NONE;
 		case GLFW_KEY_S:
 			return has_control ? EditorCommand::SAVE : EditorCommand::NONE;
 		case GLFW_KEY_Z:

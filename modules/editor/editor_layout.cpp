@@ -12,9 +12,6 @@ const int PANEL_FLAGS = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
 
 namespace {
 
-const float LEAST_SHARE = 0.08f;
-const float GREATEST_SHARE = 0.45f;
-
 void place_next(ImVec2 p_position, ImVec2 p_size) {
 	ImGui::SetNextWindowPos(p_position);
 	ImGui::SetNextWindowSize(p_size);
@@ -38,7 +35,7 @@ void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is
 		const ImVec2 drag = ImGui::GetIO().MouseDelta;
 		r_share = std::clamp(
 				r_share + p_sign * (p_is_vertical ? drag.x : drag.y) / std::max(p_window, 1.0f),
-				LEAST_SHARE, GREATEST_SHARE);
+				EditorLayout::LEAST_SHARE, EditorLayout::GREATEST_SHARE);
 	}
 	ImGui::End();
 	ImGui::PopStyleVar(2);

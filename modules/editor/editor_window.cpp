@@ -3,6 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/core/project_scene.h"
 #include "modules/desktop/window.h"
 #include "modules/editor/editor_context.h"
 #include "modules/editor/editor_keys.h"
@@ -28,22 +30,33 @@ namespace {
 
 using Clock = EditorDocument::Clock;
 
-const glm::uvec2 START_SIZE_PX(1280, 720);
 const std::chrono::milliseconds FRAME{ 16 };
 const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
+const uint32_t QUIET_FRAME_COUNT = 3; // after which the window shows all that there is
 
 class Editor {
 public:
-	explicit Editor(const EditorOptions &p_options) :
-			options(p_options), document(p_options.path),
-			window("Gnomon", START_SIZE_PX, "The editor needs one: set DISPLAY."),
+	Editor(const EditorOptions &p_options, const std::filesystem::path &p_path,
+			EditorSettings &r_settings) :
+			options(p_options),
+			settings(r_settings), document(p_path),
+			window("Gnomon", r_settings.window_size_px, "The editor needs one: set DISPLAY."),
 			device(RenderingDevice::create(make_device_options())),
 			swapchain(*device, window.get_create_surface()), renderer(*device), transients(*device),
 			ui_context(window), ui(*device), pictures(*device, renderer),
 			error_meter(*device, renderer), context{ document, device->get_info() } {
 		look_as_scene();
 		asks_to_recover = document.has_recovery();
-		context.say(text("Opened ", document.get_path().string()));
+		settings.add_recent(document.get_path());
+		context.recent = settings.recent;
+		context.viewport.shows_penumbra = settings.shows_penumbra;
+		context.error.sample_count = settings.sample_count;
+		context.wanted_tab = settings.tab;
+		if (document.get_failure().empty()) {
+			context.say(text("Opened ", document.get_path().string()));
+		} else {
+			context.wanted_tab = "Messages";
+		}
 	}
 	~Editor() {
 		try {
@@ -55,9 +68,12 @@ public:
 	Editor(const Editor &) = delete;
 	Editor &operator=(const Editor &) = delete;
 
-	void run() {
+	/// Until the window is closed. Returns what is to be opened next; empty: nothing.
+	std::filesystem::path run() {
 		try {
 			loop();
+			remember();
+			return next_path;
 		} catch (...) {
 			try {
 				document.save_aside();
@@ -102,6 +118,16 @@ private:
 		}
 	}
 
+	void remember() {
+		if (const glm::uvec2 size_px = window.get_size_px(); size_px.x > 0 && size_px.y > 0) {
+			settings.window_size_px = size_px;
+		}
+		settings.tab = context.shown_tab;
+		settings.sample_count = context.error.sample_count;
+		settings.shows_penumbra = context.viewport.shows_penumbra;
+		settings.save();
+	}
+
 	DeviceOptions make_device_options() const {
 		DeviceOptions device_options;
 		device_options.device = options.device;
@@ -138,7 +164,11 @@ private:
 			return;
 		}
 		context.attempt([&] {
+			const bool was_read = document.get_failure().empty();
 			document.reload();
+			if (!was_read) {
+				look_as_scene();
+			}
 			context.say("The file has changed and was read anew.");
 		});
 	}
@@ -154,7 +184,7 @@ private:
 		context.error.error_picture = show(error_meter.get_error_picture());
 		ui_context.begin_frame();
 		read_shortcuts();
-		draw_layout(context, layout);
+		draw_layout(context, settings.layout);
 		draw_questions();
 		ImGui::Render();
 		window.set_title(text(document.get_path().filename().string(),
@@ -183,7 +213,12 @@ private:
 		if (options.items.empty()) {
 			return;
 		}
-		const std::string written = context.describe_items(pictures.get_count());
+		const bool is_quiet = !context.viewport.needs_picture && !context.viewport.pick &&
+				!context.is_picture_coarse && document.get_selected() == last_selected;
+		last_selected = document.get_selected();
+		quiet_count = is_quiet ? quiet_count + 1 : 0;
+		const std::string written =
+				context.describe_items(pictures.get_count(), quiet_count >= QUIET_FRAME_COUNT);
 		if (written != written_items) {
 			save_file_atomically(options.items, std::string_view(written));
 			written_items = written;
@@ -221,6 +256,17 @@ private:
 		Node3D *selected = document.get_selected();
 		switch (p_command) {
 			case EditorCommand::NONE:
+				break;
+			case EditorCommand::ASK_TO_OPEN:
+				context.asks_to_open = true;
+				break;
+			case EditorCommand::OPEN:
+				next_path = find_project_scene(context.open_path).scene_path;
+				if (!std::filesystem::exists(next_path)) {
+					fail("Scene ", std::exchange(next_path, {}),
+							" does not exist. Check the path.");
+				}
+				is_closing = true;
 				break;
 			case EditorCommand::SAVE:
 				document.save();
@@ -267,6 +313,9 @@ private:
 			is_done = true;
 		} else if (is_closing) {
 			is_closing = !draw_question(make_closing_question());
+			if (!is_closing && !is_done) {
+				next_path.clear(); // cancelled
+			}
 		} else if (asks_to_recover) {
 			asks_to_recover = !draw_question({ "Recover changes?",
 					"The editor ended without saving. What was changed was kept aside.", "Recover",
@@ -302,6 +351,7 @@ private:
 	}
 
 	const EditorOptions &options;
+	EditorSettings &settings;
 	StatusSink sink; // first: what cannot be read when the scene is opened is told too
 	EditorDocument document;
 	Window window;
@@ -315,9 +365,11 @@ private:
 	ErrorMeter error_meter;
 	ViewportGuides guides;
 	EditorContext context;
-	EditorLayout layout;
 	Clock::time_point next_file_check;
+	std::filesystem::path next_path; // to be opened when this ends
 	std::string written_items;
+	const Node3D *last_selected = nullptr; // compared only
+	uint32_t quiet_count = 0;			   // frames without anything to draw anew
 	bool asks_to_recover = false;
 	bool asks_to_reload = false;
 	bool is_closing = false;
@@ -327,7 +379,22 @@ private:
 } // namespace
 
 void run_editor(const EditorOptions &p_options) {
-	Editor(p_options).run();
+	EditorSettings settings = EditorSettings::load();
+	std::filesystem::path path = p_options.path;
+	if (path.empty()) {
+		if (settings.recent.empty()) {
+			fail("No scene was open before. Name a project or a scene: gnomon edit PROJECT.");
+		}
+		path = settings.recent.front();
+	}
+	while (!path.empty()) {
+		path = Editor(p_options, path, settings).run();
+		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+			if (!module.is_enabled && module.can_disable) {
+				ModuleRegistry::set_enabled(module.name, true); // each project says which it wants
+			}
+		}
+	}
 }
 
 } // namespace gnomon

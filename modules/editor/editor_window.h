@@ -8,7 +8,7 @@
 namespace gnomon {
 
 struct EditorOptions {
-	std::filesystem::path path; // a project, or a scene
+	std::filesystem::path path; // a project, or a scene; empty: what was open last
 	std::string device;
 	bool validation = false;
 	std::string program; // this program's file, for the play button
@@ -17,8 +17,7 @@ struct EditorOptions {
 	uint32_t frame_count = 0; // ends after so many; 0: when the window is closed
 };
 
-/// Shows the editor until its window is closed. No display, or a scene that cannot be read: an
-/// Error.
+/// Shows the editor until its window is closed. No display, or no such scene: an Error.
 void run_editor(const EditorOptions &p_options);
 
 } // namespace gnomon

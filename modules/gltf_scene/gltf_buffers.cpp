@@ -149,10 +149,10 @@ std::span<const uint8_t> GltfBuffers::load_view(const GltfObject &p_view) {
 	return bytes.subspan(offset, length);
 }
 
-std::vector<uint8_t> GltfBuffers::load_uri(
-		const GltfObject &p_buffer, const std::string &p_uri) const {
+std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_buffer, const std::string &p_uri) {
 	if (!is_data_uri(p_uri)) {
 		const fs::path path = resolve_uri(p_uri, place, p_buffer);
+		files.push_back(path);
 		try {
 			return load_file(path, GLTF_MAX_FILE_BYTES);
 		} catch (const Error &error) {

@@ -39,15 +39,18 @@ public:
 	std::span<const uint8_t> load_buffer(size_t p_index);
 	/// The bytes of a buffer view; outside its buffer: fails.
 	std::span<const uint8_t> load_view(const GltfObject &p_view);
+	/// That were read so far.
+	const std::vector<std::filesystem::path> &get_files() const { return files; }
 
 private:
-	std::vector<uint8_t> load_uri(const GltfObject &p_buffer, const std::string &p_uri) const;
+	std::vector<uint8_t> load_uri(const GltfObject &p_buffer, const std::string &p_uri);
 
 	GltfObject root;
 	const GltfPlace &place;
 	const std::vector<uint8_t> *bin_chunk;
 	std::map<size_t, std::vector<uint8_t>> loaded;
 	uint64_t loaded_bytes = 0;
+	std::vector<std::filesystem::path> files;
 };
 
 } // namespace gnomon

@@ -160,11 +160,13 @@ void read_cones(const GltfObject &p_light, Light3D &r_light) {
 		return;
 	}
 	r_light.outer_cone_rad = std::min(static_cast<float>(outer), MAX_CONE_RAD);
-	if (static_cast<float>(inner) >= r_light.outer_cone_rad) {
+	if (inner > outer) {
 		spot.report_value("innerConeAngle", text("below outerConeAngle, ", outer), "0");
 		return;
 	}
-	r_light.inner_cone_rad = static_cast<float>(inner);
+	// A hard edge has both alike, although the specification wants the inner one smaller.
+	r_light.inner_cone_rad =
+			std::min(static_cast<float>(inner), std::nextafter(r_light.outer_cone_rad, 0.0f));
 }
 
 } // namespace

@@ -92,6 +92,7 @@ void GltfReader::read(Scene &r_scene) {
 	for (const auto &[index, material] : meshes.get_materials()) {
 		document.material_indices[material.get()] = index;
 	}
+	r_scene.side_files = buffers.get_files();
 }
 
 std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_scene) {

@@ -15,8 +15,8 @@ EditorOptions options;
 
 void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	CLI::App *command = r_app.add_subcommand("edit", "Opens a project or a scene in the editor");
-	command->add_option("project", options.path, "A project's folder, or a .gltf or .glb file")
-			->required();
+	command->add_option("project", options.path,
+			"A project's folder, or a .gltf or .glb file. Default: what was open last");
 	command->add_option("--items", options.items, "Writes where widgets are as JSON, for tests");
 	command->add_option("--frames", options.frame_count, "Ends after so many")
 			->check(CLI::Range(1u, 1000000u));

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -136,6 +137,8 @@ class SceneDocument; // what a file format keeps for saving; see gltf_scene
 class Scene {
 public:
 	std::string path; // of the file it came from; empty for a generated one
+	/// Other files that its content was read from.
+	std::vector<std::filesystem::path> side_files;
 	std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
 	/// S in metres (TECHNIQUES, section 0): extras.scene_size. 0 = the diagonal of the casters.
 	double scene_size_m = 0;

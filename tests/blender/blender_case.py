@@ -28,7 +28,7 @@ def run_blender(folder, *arguments, **environment):
     """The finished process. Blender's own folders are in the test's; it needs no display."""
     # Debian's Blender takes its libraries, numpy too, from the first python3 in PATH: not from pyenv's or a venv's.
     path = os.pathsep.join(("/usr/bin", os.environ.get("PATH", "")))
-    variables = {**os.environ, "HOME": folder, "PATH": path, **environment}
+    variables = {**os.environ, "HOME": folder, "TMPDIR": folder, "PATH": path, **environment}
     for name in ("CONFIG", "SCRIPTS", "DATAFILES"):
         variables["BLENDER_USER_" + name] = os.path.join(folder, "user", name.lower())
         os.makedirs(variables["BLENDER_USER_" + name], exist_ok=True)

@@ -211,6 +211,7 @@ def draw_panel(out):
         if not states:
             write(out, sorted(set(drawn)))
             bpy.ops.wm.quit_blender()
+            return None
         light.data.type = states.pop(0)
         return 0.5
 

@@ -30,7 +30,7 @@ class DisplayTest(CommandLineTest):
         """The program, with the arguments, on the display."""
         process = subprocess.Popen(
             [GNOMON, *map(str, arguments)],
-            env={**os.environ, "DISPLAY": self.display},
+            env={**os.environ, "DISPLAY": self.display, "GNOMON_CONFIG_DIR": self.path("config")},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

@@ -41,7 +41,7 @@ class EditorTest(DisplayTest):
         try:
             return load(self.items)
         except (OSError, ValueError):  # not there yet
-            return {"items": {}, "selected": "", "status": "", "is_changed": False, "pictures": 0}
+            return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "pictures": 0}
 
     def wait_for(self, is_wanted):
         """The first state that is wanted. None comes in time: the test fails with the last one."""
@@ -74,11 +74,9 @@ class EditorTest(DisplayTest):
         self.press("sleep", "0.1", "mouseup", "1")
 
     def rest(self):
-        """Waits until the last picture is sharp and nothing more is drawn."""
-        count = -1
-        while self.get_state()["pictures"] != count:
-            count = self.get_state()["pictures"]
-            time.sleep(1.0)
+        """Waits until the window shows all that there is, and sharply."""
+        time.sleep(0.3)  # what was pressed last has arrived
+        self.wait_for(lambda state: state["is_resting"])
 
     def photograph(self):
         """What the viewport shows, as raw bytes."""

@@ -20,25 +20,35 @@ struct TemporaryFolder {
 	TemporaryFolder &operator=(const TemporaryFolder &) = delete;
 };
 
-/// An empty cache folder, so that no test depends on what another one left. Afterwards the cache is
-/// where it was before: never the user's own when the test script has chosen one.
-struct TemporaryCache : TemporaryFolder {
-	TemporaryCache() {
-		if (const char *value = std::getenv("GNOMON_CACHE_DIR")) {
+/// An empty folder that an environment variable names, so that no test depends on what another one
+/// left. Afterwards the variable is what it was before: never the user's own folder when the test
+/// script has chosen one.
+struct TemporaryUserFolder : TemporaryFolder {
+	explicit TemporaryUserFolder(const char *p_variable) : variable(p_variable) {
+		if (const char *value = std::getenv(variable)) {
 			before = value;
 		}
-		::setenv("GNOMON_CACHE_DIR", path.c_str(), 1);
+		::setenv(variable, path.c_str(), 1);
 	}
-	~TemporaryCache() {
+	~TemporaryUserFolder() {
 		if (before.empty()) {
-			::unsetenv("GNOMON_CACHE_DIR");
+			::unsetenv(variable);
 		} else {
-			::setenv("GNOMON_CACHE_DIR", before.c_str(), 1);
+			::setenv(variable, before.c_str(), 1);
 		}
 	}
 
 private:
+	const char *variable;
 	std::string before;
+};
+
+struct TemporaryCache : TemporaryUserFolder {
+	TemporaryCache() : TemporaryUserFolder("GNOMON_CACHE_DIR") {}
+};
+
+struct TemporaryConfig : TemporaryUserFolder {
+	TemporaryConfig() : TemporaryUserFolder("GNOMON_CONFIG_DIR") {}
 };
 
 } // namespace gnomon

@@ -128,8 +128,7 @@ void draw_pictures(EditorContext &r_context) {
 
 void draw_error(EditorContext &r_context) {
 	ErrorState &state = r_context.error;
-	state.is_shown = ImGui::BeginTabItem("Error");
-	r_context.note_item("tab Error");
+	state.is_shown = r_context.begin_tab("Error");
 	if (!state.is_shown) {
 		return;
 	}

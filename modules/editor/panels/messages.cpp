@@ -1,3 +1,4 @@
+#include "modules/core/text.h"
 #include "modules/editor/editor_context.h"
 
 #include <imgui.h>
@@ -5,9 +6,7 @@
 namespace gnomon {
 
 void draw_messages(EditorContext &r_context) {
-	const std::string label =
-			"Messages (" + std::to_string(r_context.messages.size()) + ")###messages";
-	if (!ImGui::BeginTabItem(label.c_str())) {
+	if (!r_context.begin_tab("Messages", text(" (", r_context.messages.size(), ")"))) {
 		return;
 	}
 	ImGui::BeginChild("messages");

@@ -35,9 +35,7 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 } // namespace
 
 void draw_modules(EditorContext &r_context) {
-	const bool is_shown = ImGui::BeginTabItem("Modules");
-	r_context.note_item("tab Modules");
-	if (!is_shown) {
+	if (!r_context.begin_tab("Modules")) {
 		return;
 	}
 	ImGui::BeginChild("modules");

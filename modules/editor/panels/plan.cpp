@@ -45,13 +45,13 @@ void draw_entries(const FramePlan &p_plan) {
 } // namespace
 
 void draw_plan(EditorContext &r_context) {
-	if (ImGui::BeginTabItem("Frame plan")) {
+	if (r_context.begin_tab("Frame plan")) {
 		ImGui::BeginChild("entries");
 		draw_entries(r_context.shown.plan);
 		ImGui::EndChild();
 		ImGui::EndTabItem();
 	}
-	if (ImGui::BeginTabItem("Passes")) {
+	if (r_context.begin_tab("Passes")) {
 		ImGui::BeginChild("timings");
 		draw_timings(r_context.shown);
 		ImGui::EndChild();

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <utility>
+#include <vector>
 
 namespace gnomon {
 
@@ -23,12 +26,54 @@ bool draw_button(EditorContext &r_context, const char *p_label, const char *p_to
 	return is_pressed;
 }
 
+void ask_to_open(EditorContext &r_context, const std::filesystem::path &p_path) {
+	r_context.open_path = p_path;
+	r_context.command = EditorCommand::OPEN;
+	ImGui::CloseCurrentPopup();
+}
+
+void draw_scenes(EditorContext &r_context, const char *p_heading,
+		const std::vector<std::filesystem::path> &p_scenes) {
+	ImGui::TextDisabled("%s", p_heading);
+	for (const std::filesystem::path &scene : p_scenes) {
+		if (ImGui::Selectable(scene.string().c_str(), scene == r_context.document.get_path())) {
+			ask_to_open(r_context, scene);
+		}
+		r_context.note_item("open " + scene.filename().string());
+	}
+}
+
+/// A path to type, the project's scenes, and those that were open before.
+void draw_open_menu(EditorContext &r_context) {
+	if (!ImGui::BeginPopup("open")) {
+		return;
+	}
+	static char path[1024] = {};
+	ImGui::SetNextItemWidth(30.0f * ImGui::GetFontSize());
+	if (ImGui::InputTextWithHint("##path", "A project's folder, or a .gltf or .glb file", path,
+				sizeof(path), ImGuiInputTextFlags_EnterReturnsTrue) &&
+			path[0] != 0) {
+		ask_to_open(r_context, path);
+	}
+	r_context.note_item("open path");
+	draw_scenes(r_context, "In this project", r_context.document.get_project().scenes);
+	draw_scenes(r_context, "Recent", { r_context.recent.begin(), r_context.recent.end() });
+	ImGui::EndPopup();
+}
+
 } // namespace
 
 void draw_toolbar(EditorContext &r_context) {
 	const UndoHistory &history = r_context.document.get_history();
 	if (ImGui::Begin("Toolbar", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
+		if (draw_button(r_context, "Open", "Ctrl+O: another scene or project")) {
+			r_context.asks_to_open = true;
+		}
+		if (std::exchange(r_context.asks_to_open, false)) {
+			ImGui::OpenPopup("open");
+		}
+		draw_open_menu(r_context);
 		if (draw_button(r_context, "Save", "Ctrl+S: write the scene",
 					r_context.document.is_changed())) {
 			r_context.command = EditorCommand::SAVE;
@@ -67,13 +112,24 @@ void draw_status(EditorContext &r_context) {
 				r_context.device.name.c_str());
 		const ImVec4 red(1.0f, 0.45f, 0.4f, 1.0f);
 		const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
-		ImGui::TextColored(r_context.is_status_error ? red : plain, "%s", r_context.status.c_str());
-		if (ImGui::IsItemHovered()) {
-			ImGui::SetTooltip("%s", r_context.status.c_str());
-		}
-		ImGui::SameLine(std::max(
+		const float frame_x = std::max(
 				ImGui::GetWindowWidth() - ImGui::CalcTextSize(frame).x - ImGui::GetFontSize(),
-				0.0f));
+				0.0f);
+		const ImVec2 place = ImGui::GetWindowPos();
+		ImGui::PushClipRect(place,
+				ImVec2(place.x + frame_x - ImGui::GetFontSize(),
+						place.y + ImGui::GetWindowHeight()),
+				true);
+		ImGui::TextColored(r_context.is_status_error ? red : plain, "%s", r_context.status.c_str());
+		ImGui::PopClipRect();
+		if (ImGui::IsItemHovered()) {
+			ImGui::BeginTooltip();
+			ImGui::PushTextWrapPos(60.0f * ImGui::GetFontSize());
+			ImGui::TextUnformatted(r_context.status.c_str());
+			ImGui::PopTextWrapPos();
+			ImGui::EndTooltip();
+		}
+		ImGui::SameLine(frame_x);
 		ImGui::TextDisabled("%s", frame);
 	}
 	ImGui::End();

@@ -6,7 +6,9 @@
 #include "modules/scene/node_properties.h"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 
 using namespace gnomon;
@@ -34,6 +36,25 @@ Light3D &find_light(EditorDocument &r_document) {
 double get_size(EditorDocument &r_document) {
 	return std::get<double>(get_node_property(find_light(r_document), "light_size"));
 }
+
+/// No file that is written meanwhile gets longer: a full disk, for the process.
+class FullDisk {
+public:
+	explicit FullDisk(rlim_t p_bytes) {
+		signal_before = std::signal(SIGXFSZ, SIG_IGN);
+		::getrlimit(RLIMIT_FSIZE, &before);
+		const rlimit full = { p_bytes, before.rlim_max };
+		::setrlimit(RLIMIT_FSIZE, &full);
+	}
+	~FullDisk() {
+		::setrlimit(RLIMIT_FSIZE, &before);
+		std::signal(SIGXFSZ, signal_before);
+	}
+
+private:
+	rlimit before = {};
+	void (*signal_before)(int) = nullptr;
+};
 
 const EditorDocument::Clock::time_point START{};
 const auto LATER = START + 2 * EditorDocument::AUTOSAVE_INTERVAL;
@@ -175,4 +196,68 @@ TEST_CASE("[EditorDocument] another program's change to the file is noticed once
 	CHECK_FALSE(document.is_file_newer());
 	document.save();
 	CHECK_FALSE(document.is_file_newer());
+}
+
+TEST_CASE("[EditorDocument] so is one to a file that the scene refers to") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	const auto later = fs::file_time_type::clock::now() + std::chrono::hours(1);
+	fs::last_write_time(project.path / "contact_box.bin", later);
+	CHECK(document.is_file_newer());
+	document.reload();
+	CHECK_FALSE(document.is_file_newer());
+	// While it is away, somebody is writing it.
+	fs::rename(project.scene, project.path / "away");
+	CHECK_FALSE(document.is_file_newer());
+}
+
+TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing") {
+	const EditedProject project;
+	const std::string before = load_text_file(project.scene);
+	EditorDocument document(project.path);
+	document.set_property(find_light(document), "light_size", 0.75);
+	{
+		const FullDisk full(200);
+		CHECK_THROWS_AS(document.save(), Error);
+		document.autosave(START);
+		CHECK_FALSE(document.autosave(LATER)); // told, and tried again later
+	}
+	const fs::path away = project.path.string() + "_away";
+	fs::rename(project.path, away);
+	CHECK_THROWS_AS(document.save(), Error);
+	fs::rename(away, project.path);
+	CHECK(document.is_changed());
+	CHECK(get_size(document) == 0.75);
+	CHECK(load_text_file(project.scene) == before);
+	// Nothing half written lies about.
+	CHECK(std::distance(fs::directory_iterator(project.path), fs::directory_iterator()) == 3);
+	document.save();
+	CHECK_FALSE(document.is_changed());
+	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+}
+
+TEST_CASE("[EditorDocument] a scene that cannot be read opens empty, is not lost, and is read once "
+		  "repaired") {
+	const EditedProject project;
+	const std::string whole = load_text_file(project.scene);
+	save_file_atomically(project.scene, std::string_view("{ \"asset\""));
+	EditorDocument document(project.path);
+	CHECK(document.get_failure().find("contact_box.gltf") != std::string::npos);
+	CHECK(document.get_scene().root->children.empty());
+	CHECK_FALSE(document.is_changed());
+	CHECK_THROWS_AS(document.save(), Error);
+	CHECK(load_text_file(project.scene) == "{ \"asset\"");
+	CHECK_FALSE(document.is_file_newer());
+	save_file_atomically(project.scene, std::string_view(whole));
+	fs::last_write_time(project.scene, fs::file_time_type::clock::now() + std::chrono::hours(1));
+	CHECK(document.is_file_newer());
+	document.reload();
+	CHECK(document.get_failure().empty());
+	CHECK(get_size(document) == 0.4);
+	document.save();
+}
+
+TEST_CASE("[EditorDocument] a scene that is not there is an error") {
+	const EditedProject project;
+	CHECK_THROWS_AS(EditorDocument(project.path / "none.gltf"), Error);
 }

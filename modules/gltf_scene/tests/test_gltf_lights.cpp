@@ -149,7 +149,7 @@ TEST_CASE("[GltfLights] wrong punctual values are reported and replaced by their
 		{ "range", "far" }, { "intensity", -1 }, { "intensity", 1e300 },
 		{ "color", Json::array({ 1, 1 }) }, { "color", Json::array({ 1, -1, 1 }) },
 		{ "spot", { { "outerConeAngle", 2 } } }, { "spot", { { "outerConeAngle", 0 } } },
-		{ "spot", { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.5 } } }, { "spot", 3 } };
+		{ "spot", { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.51 } } }, { "spot", 3 } };
 	GltfTestFolder folder;
 	for (const auto &[name, value] : bad) {
 		CAPTURE(name);
@@ -165,6 +165,19 @@ TEST_CASE("[GltfLights] wrong punctual values are reported and replaced by their
 		CHECK(light.inner_cone_rad < light.outer_cone_rad);
 		CHECK(std::isfinite(light.intensity));
 	}
+}
+
+TEST_CASE("[GltfLights] a spot light with a hard edge, both cones alike, keeps it") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_lamp();
+	get_light(json)["spot"] = { { "outerConeAngle", 0.5 }, { "innerConeAngle", 0.5 } };
+	const auto scene = folder.load(json);
+	const Light3D &light = *scene->find_nodes<Light3D>().at(0);
+	CHECK(log.errors.empty());
+	CHECK(light.outer_cone_rad == 0.5f);
+	CHECK(light.inner_cone_rad < 0.5f);
+	CHECK(light.inner_cone_rad == doctest::Approx(0.5f));
 }
 
 TEST_CASE("[GltfLights] a light of unknown type is no light; a reference to none fails") {

@@ -35,7 +35,7 @@ struct TracedScene {
 
 } // namespace
 
-TEST_CASE("The truth beside the frames is that of the reference, bit for bit") {
+TEST_CASE("[GPU] The truth beside the frames is that of the reference, bit for bit") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return; // a build without one
@@ -57,7 +57,7 @@ TEST_CASE("The truth beside the frames is that of the reference, bit for bit") {
 	}
 }
 
-TEST_CASE("A cancelled truth says that it is not complete, and a later one is") {
+TEST_CASE("[GPU] A cancelled truth says that it is not complete, and a later one is") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return;

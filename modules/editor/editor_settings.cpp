@@ -1,0 +1,90 @@
+#include "modules/editor/editor_settings.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const uint32_t LEAST_WINDOW_PX = 320;
+const uint32_t GREATEST_WINDOW_PX = 16384;
+const uint32_t GREATEST_SAMPLE_COUNT = 65536;
+
+std::filesystem::path get_path() {
+	return get_config_folder() / "editor.json";
+}
+
+template <typename T> void read(const Json &p_json, const char *p_name, T &r_value) {
+	if (const auto found = p_json.find(p_name); found != p_json.end()) {
+		r_value = found->get<T>();
+	}
+}
+
+/// In double: a number of a file may be beyond any other type.
+template <typename T>
+void read(const Json &p_json, const char *p_name, T &r_value, T p_least, T p_greatest) {
+	double value = double(r_value);
+	read(p_json, p_name, value);
+	r_value = value >= double(p_least) && value <= double(p_greatest) ? T(value) : r_value;
+}
+
+EditorSettings read_settings(const Json &p_json) {
+	EditorSettings settings;
+	EditorLayout &layout = settings.layout;
+	for (const auto &[name, share] : { std::pair<const char *, float *>("left", &layout.left),
+				 { "right", &layout.right }, { "bottom", &layout.bottom } }) {
+		read(p_json, name, *share, EditorLayout::LEAST_SHARE, EditorLayout::GREATEST_SHARE);
+	}
+	read(p_json, "window_width", settings.window_size_px.x, LEAST_WINDOW_PX, GREATEST_WINDOW_PX);
+	read(p_json, "window_height", settings.window_size_px.y, LEAST_WINDOW_PX, GREATEST_WINDOW_PX);
+	read(p_json, "tab", settings.tab);
+	read(p_json, "truth_rays", settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
+	read(p_json, "shows_penumbra", settings.shows_penumbra);
+	read(p_json, "recent", settings.recent);
+	return settings;
+}
+
+} // namespace
+
+EditorSettings EditorSettings::load() {
+	std::error_code code;
+	if (!std::filesystem::exists(get_path(), code)) {
+		return {};
+	}
+	try {
+		return read_settings(Json::parse(load_text_file(get_path())));
+	} catch (const std::exception &error) {
+		log_warning(
+				"The editor's settings in ", get_path().string(), " are not used: ", error.what());
+		return {};
+	}
+}
+
+void EditorSettings::save() const {
+	const Json json = { { "left", layout.left }, { "right", layout.right },
+		{ "bottom", layout.bottom }, { "window_width", window_size_px.x },
+		{ "window_height", window_size_px.y }, { "tab", tab }, { "truth_rays", sample_count },
+		{ "shows_penumbra", shows_penumbra }, { "recent", recent } };
+	try {
+		save_file_atomically(get_path(), json.dump(2) + "\n");
+	} catch (const Error &error) {
+		log_warning("The editor's settings are not kept: ", error.what());
+	}
+}
+
+void EditorSettings::add_recent(const std::filesystem::path &p_scene) {
+	const std::string scene = std::filesystem::absolute(p_scene).lexically_normal().string();
+	std::erase(recent, scene);
+	recent.insert(recent.begin(), scene);
+	recent.resize(std::min(recent.size(), MOST_RECENT));
+}
+
+} // namespace gnomon
