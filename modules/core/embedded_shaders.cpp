@@ -2,6 +2,10 @@
 
 #include "modules/core/error.h"
 
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -9,6 +13,7 @@ namespace gnomon {
 namespace {
 
 std::vector<EmbeddedShader> added_shaders;
+std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_shaders;
 
 const EmbeddedShader *find_shader(
 		std::span<const EmbeddedShader> p_shaders, std::string_view p_name) {
@@ -26,7 +31,18 @@ void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders) {
 	added_shaders.insert(added_shaders.end(), p_shaders.begin(), p_shaders.end());
 }
 
+void replace_embedded_shader(std::string_view p_name, std::vector<uint32_t> p_spirv) {
+	if (p_spirv.empty()) {
+		replaced_shaders.erase(std::string(p_name));
+	} else {
+		replaced_shaders.insert_or_assign(std::string(p_name), std::move(p_spirv));
+	}
+}
+
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name) {
+	if (const auto replaced = replaced_shaders.find(p_name); replaced != replaced_shaders.end()) {
+		return replaced->second;
+	}
 	const EmbeddedShader *shader = find_shader(get_embedded_shaders(), p_name);
 	if (shader == nullptr) {
 		shader = find_shader(added_shaders, p_name);

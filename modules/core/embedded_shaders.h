@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace gnomon {
 
@@ -17,7 +18,11 @@ std::span<const EmbeddedShader> get_embedded_shaders();
 /// More entry points, found after those of the build and valid until the program ends: the test
 /// runner's kernels. Before any pipeline is made.
 void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders);
-/// The SPIR-V of one entry point. An unknown name is an Error naming it.
+/// Other SPIR-V for an entry point, from now on; empty: that of the build again. Pipelines that are
+/// there already do not change: see RenderingDevice::replace_shader. One thread.
+void replace_embedded_shader(std::string_view p_name, std::vector<uint32_t> p_spirv);
+/// The SPIR-V of one entry point, valid until it is replaced. An unknown name is an Error naming
+/// it.
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name);
 
 } // namespace gnomon

@@ -97,7 +97,8 @@ struct EditorContext {
 	/// What went wrong or was done last, for the status bar.
 	std::string status;
 	bool is_status_error = false;
-	std::vector<std::string> messages; // errors and warnings, the newest last
+	std::vector<std::string> messages;				  // errors and warnings, the newest last
+	std::map<std::string, std::string> shader_errors; // by shader: why its last change is not used
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
 	bool asks_to_open = false;		 // opens the menu of scenes

@@ -15,34 +15,35 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_node(const Node3D &p_root, const std::string &p_name) {
-	if (p_root.name == p_name) {
-		return true;
+/// Null: none has that name.
+Node3D *find_node(Node3D &r_root, const std::string &p_name) {
+	if (r_root.name == p_name) {
+		return &r_root;
 	}
-	for (const std::unique_ptr<Node3D> &child : p_root.children) {
-		if (has_node(*child, p_name)) {
-			return true;
+	for (const std::unique_ptr<Node3D> &child : r_root.children) {
+		if (Node3D *node = find_node(*child, p_name)) {
+			return node;
 		}
 	}
-	return false;
+	return nullptr;
 }
 
-std::string make_free_name(const Node3D &p_root, const std::string &p_name) {
+std::string make_free_name(Node3D &r_root, const std::string &p_name) {
 	for (int number = 2;; ++number) {
 		const std::string name = text(p_name, " ", number);
-		if (!has_node(p_root, name)) {
+		if (find_node(r_root, name) == nullptr) {
 			return name;
 		}
 	}
 }
 
 /// With all below it, each with a name of its own.
-std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, const Node3D &p_root) {
+std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, Node3D &r_root) {
 	std::unique_ptr<Node3D> copy = p_node.copy();
 	copy->file_index = -1;
-	copy->name = make_free_name(p_root, p_node.name);
+	copy->name = make_free_name(r_root, p_node.name);
 	for (const std::unique_ptr<Node3D> &child : p_node.children) {
-		copy->add_child(copy_tree(*child, p_root));
+		copy->add_child(copy_tree(*child, r_root));
 	}
 	return copy;
 }
@@ -140,7 +141,7 @@ void EditorDocument::rename(Node3D &r_node, const std::string &p_name) {
 		fail(r_node.get_class_name(), " \"", r_node.name,
 				"\": its name cannot be empty. Type at least one letter.");
 	}
-	if (p_name != r_node.name && has_node(*scene->root, p_name)) {
+	if (p_name != r_node.name && find_node(*scene->root, p_name) != nullptr) {
 		fail(r_node.get_class_name(), " \"", r_node.name, "\": another node is named \"", p_name,
 				"\" already. Choose another name.");
 	}
@@ -274,7 +275,9 @@ bool EditorDocument::is_file_newer() const {
 }
 
 void EditorDocument::reload() {
+	const std::string name = selected != nullptr ? selected->name : std::string();
 	read_file();
+	selected = name.empty() ? nullptr : find_node(*scene->root, name);
 	is_recovered = false;
 }
 

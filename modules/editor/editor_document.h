@@ -81,7 +81,8 @@ public:
 	bool is_file_newer() const;
 	/// The file's newer state is not wanted: the next save writes over it.
 	void keep_over_file() { note_file_time(); }
-	/// Reads the file anew. Changes and history are lost. An Error leaves everything as it is.
+	/// Reads the file anew. Changes and history are lost; what has the selected node's name is
+	/// selected. An Error leaves everything as it is.
 	void reload();
 
 private:

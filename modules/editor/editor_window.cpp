@@ -13,6 +13,7 @@
 #include "modules/editor/error_meter.h"
 #include "modules/editor/game_process.h"
 #include "modules/editor/picture_maker.h"
+#include "modules/editor/shader_reloader.h"
 #include "modules/editor/status_sink.h"
 #include "modules/editor/ui_context.h"
 #include "modules/editor/ui_renderer.h"
@@ -44,7 +45,8 @@ public:
 			device(RenderingDevice::create(make_device_options())),
 			swapchain(*device, window.get_create_surface()), renderer(*device), transients(*device),
 			ui_context(window), ui(*device), pictures(*device, renderer),
-			error_meter(*device, renderer), context{ document, device->get_info() } {
+			error_meter(*device, renderer),
+			shaders(*device, p_options.shaders), context{ document, device->get_info() } {
 		look_as_scene();
 		asks_to_recover = document.has_recovery();
 		settings.add_recent(document.get_path());
@@ -100,6 +102,9 @@ private:
 				continue;
 			}
 			follow_file(start);
+			if (shaders.update(context, start)) {
+				pictures.forget_kept();
+			}
 			pictures.update(context);
 			guides.update(context, pictures.get_drawn_count());
 			if (pictures.is_sharp()) {
@@ -364,6 +369,7 @@ private:
 	PictureMaker pictures;
 	ErrorMeter error_meter;
 	ViewportGuides guides;
+	ShaderReloader shaders;
 	EditorContext context;
 	Clock::time_point next_file_check;
 	std::filesystem::path next_path; // to be opened when this ends

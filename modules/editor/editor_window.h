@@ -12,6 +12,8 @@ struct EditorOptions {
 	std::string device;
 	bool validation = false;
 	std::string program; // this program's file, for the play button
+	/// Where the shaders' sources are, to be compiled anew when they change; may not be there.
+	std::filesystem::path shaders;
 	/// Where widgets are, written as JSON whenever that changes; empty: nowhere. For tests.
 	std::filesystem::path items;
 	uint32_t frame_count = 0; // ends after so many; 0: when the window is closed

@@ -43,6 +43,11 @@ void PictureMaker::update(EditorContext &r_context) {
 	}
 }
 
+void PictureMaker::forget_kept() {
+	renderer.forget_kept();
+	compared_renderer.reset();
+}
+
 void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	const Clock::time_point start = Clock::now();
 	const ViewportState &viewport = r_context.viewport;

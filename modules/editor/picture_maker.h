@@ -16,6 +16,8 @@ public:
 
 	/// Draws if need be. An Error is told in the status bar, and the last picture stays.
 	void update(EditorContext &r_context);
+	/// What techniques kept of earlier frames is not true any more: shaders are others.
+	void forget_kept();
 	/// Empty before the first picture.
 	TextureRID get_picture() const { return picture.get(); }
 	/// Of the compared technique; empty while none is.

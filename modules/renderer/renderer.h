@@ -82,6 +82,8 @@ public:
 
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
+	/// Techniques start anew, as after shaders were replaced.
+	void forget_kept() { shadows.drop_techniques(); }
 	RenderingDevice &get_device() { return device; }
 
 private:

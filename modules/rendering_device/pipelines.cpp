@@ -115,33 +115,38 @@ uint32_t RenderingDevice::get_pipeline_count() const {
 	return static_cast<uint32_t>(impl->pipelines.size());
 }
 
+PipelineResource RenderingDevice::Impl::make_pipeline(const ComputePipelineDesc &p_desc) {
+	PipelineStages stages(*this, p_desc.constants);
+	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);
+	PipelineResource pipeline;
+	pipeline.name = p_desc.name.empty() ? p_desc.shader : p_desc.name;
+	pipeline.desc = p_desc;
+	pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
+	pipeline.local_size = stages.get_reflected()[0].local_size;
+	try {
+		create_layout(pipeline, stages.get_reflected());
+		const VkComputePipelineCreateInfo info = {
+			.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+			.stage = stages.get_infos()[0],
+			.layout = pipeline.layout
+		};
+		check(vkCreateComputePipelines(
+					  device, pipeline_cache, 1, &info, nullptr, &pipeline.pipeline),
+				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
+	} catch (const Error &) {
+		destroy(pipeline);
+		throw;
+	}
+	return pipeline;
+}
+
 PipelineRID RenderingDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc) {
 	impl->fail_if_lost();
 	const std::string description = p_desc.shader + describe_constants(p_desc.constants);
 	if (const PipelineRID found = impl->find_pipeline(description)) {
 		return found;
 	}
-	PipelineStages stages(*impl, p_desc.constants);
-	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);
-	PipelineResource pipeline;
-	pipeline.name = p_desc.name.empty() ? p_desc.shader : p_desc.name;
-	pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-	pipeline.local_size = stages.get_reflected()[0].local_size;
-	try {
-		impl->create_layout(pipeline, stages.get_reflected());
-		const VkComputePipelineCreateInfo info = {
-			.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-			.stage = stages.get_infos()[0],
-			.layout = pipeline.layout
-		};
-		impl->check(vkCreateComputePipelines(impl->device, impl->pipeline_cache, 1, &info, nullptr,
-							&pipeline.pipeline),
-				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
-	} catch (const Error &) {
-		impl->destroy(pipeline);
-		throw;
-	}
-	return impl->add_pipeline(description, std::move(pipeline));
+	return impl->add_pipeline(description, impl->make_pipeline(p_desc));
 }
 
 } // namespace gnomon

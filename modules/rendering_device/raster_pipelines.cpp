@@ -191,14 +191,9 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 	return pipeline;
 }
 
-PipelineRID RenderingDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
-	impl->fail_if_lost();
-	const std::string description = describe(p_desc);
-	if (const PipelineRID found = impl->find_pipeline(description)) {
-		return found;
-	}
-	impl->check_raster_features(p_desc);
-	PipelineStages stages(*impl, p_desc.constants);
+PipelineResource RenderingDevice::Impl::make_pipeline(const RasterPipelineDesc &p_desc) {
+	check_raster_features(p_desc);
+	PipelineStages stages(*this, p_desc.constants);
 	stages.add(p_desc.vertex_shader, VK_SHADER_STAGE_VERTEX_BIT);
 	if (!p_desc.geometry_shader.empty()) {
 		stages.add(p_desc.geometry_shader, VK_SHADER_STAGE_GEOMETRY_BIT);
@@ -208,20 +203,29 @@ PipelineRID RenderingDevice::get_raster_pipeline(const RasterPipelineDesc &p_des
 	}
 	PipelineResource pipeline;
 	pipeline.name = p_desc.name.empty() ? p_desc.vertex_shader : p_desc.name;
+	pipeline.desc = p_desc;
 	pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
 	pipeline.color_formats = p_desc.color_formats;
 	pipeline.has_depth = p_desc.has_depth;
 	pipeline.writes_depth = p_desc.has_depth && p_desc.writes_depth;
 	pipeline.vertex_buffer_count = static_cast<uint32_t>(p_desc.vertex_strides_bytes.size());
 	try {
-		impl->create_layout(pipeline, stages.get_reflected());
-		pipeline.pipeline =
-				impl->create_raster_pipeline(p_desc, pipeline.layout, stages.get_infos());
+		create_layout(pipeline, stages.get_reflected());
+		pipeline.pipeline = create_raster_pipeline(p_desc, pipeline.layout, stages.get_infos());
 	} catch (const Error &) {
-		impl->destroy(pipeline);
+		destroy(pipeline);
 		throw;
 	}
-	return impl->add_pipeline(description, std::move(pipeline));
+	return pipeline;
+}
+
+PipelineRID RenderingDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
+	impl->fail_if_lost();
+	const std::string description = describe(p_desc);
+	if (const PipelineRID found = impl->find_pipeline(description)) {
+		return found;
+	}
+	return impl->add_pipeline(description, impl->make_pipeline(p_desc));
 }
 
 } // namespace gnomon

@@ -114,6 +114,11 @@ public:
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc);
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc);
 	uint32_t get_pipeline_count() const;
+	/// Makes all pipelines anew that use the entry point, with other SPIR-V from now on, and waits
+	/// for the GPU. Handles stay valid. What the device refuses, and shaders that want other
+	/// bindings or push constants than the program gives, are an Error that leaves everything as it
+	/// was. Not while commands are being recorded; SPIR-V of another stage is our mistake.
+	void replace_shader(const std::string &p_name, std::vector<uint32_t> p_spirv);
 	void free(BufferRID p_buffer);
 	void free(TextureRID p_texture);
 	void free(SamplerRID p_sampler);

@@ -72,6 +72,7 @@ struct PipelineResource {
 	bool has_depth = false;
 	bool writes_depth = false;
 	uint32_t vertex_buffer_count = 0;
+	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc; // what it was made of
 };
 
 /// Freed, but perhaps still used by the submission of this number.
@@ -209,6 +210,8 @@ struct RenderingDevice::Impl {
 	void destroy(SamplerResource &r_sampler);
 	void destroy(MemoryResource &r_memory);
 	void destroy(PipelineResource &r_pipeline);
+	PipelineResource make_pipeline(const ComputePipelineDesc &p_desc);
+	PipelineResource make_pipeline(const RasterPipelineDesc &p_desc);
 
 	// uploads.cpp
 	void add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t> p_bytes);

@@ -120,7 +120,8 @@ void draw_status(EditorContext &r_context) {
 				ImVec2(place.x + frame_x - ImGui::GetFontSize(),
 						place.y + ImGui::GetWindowHeight()),
 				true);
-		ImGui::TextColored(r_context.is_status_error ? red : plain, "%s", r_context.status.c_str());
+		const std::string first_line = r_context.status.substr(0, r_context.status.find('\n'));
+		ImGui::TextColored(r_context.is_status_error ? red : plain, "%s", first_line.c_str());
 		ImGui::PopClipRect();
 		if (ImGui::IsItemHovered()) {
 			ImGui::BeginTooltip();

@@ -130,6 +130,26 @@ void draw_pictures(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
 }
 
+/// In place of a message elsewhere: what is wrong with a shader that was changed.
+void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p_size) {
+	std::string lines;
+	for (const auto &[shader, failure] : p_context.shader_errors) {
+		lines += (lines.empty() ? "" : "\n") + failure;
+	}
+	if (lines.empty()) {
+		return;
+	}
+	const float margin = 0.5f * ImGui::GetFontSize();
+	const float wrap = std::max(p_size.x - 4.0f * margin, 1.0f);
+	const ImVec2 size = ImGui::CalcTextSize(lines.c_str(), nullptr, false, wrap);
+	ImDrawList &list = *ImGui::GetWindowDrawList();
+	list.AddRectFilled(p_least, ImVec2(p_least.x + p_size.x, p_least.y + size.y + 2.0f * margin),
+			IM_COL32(90, 10, 10, 220));
+	list.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+			ImVec2(p_least.x + margin, p_least.y + margin), IM_COL32_WHITE, lines.c_str(), nullptr,
+			wrap);
+}
+
 /// The line can be dragged; it is drawn over the pictures' own button.
 void draw_line_handle(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	if (r_context.compared_picture == nullptr) {
@@ -190,6 +210,7 @@ void draw_viewport(EditorContext &r_context) {
 		draw_penumbra_lines(r_context, projection);
 		draw_node_marks(r_context, projection);
 		draw_gizmos(r_context, projection);
+		draw_shader_errors(r_context, least, size);
 		ImGui::PopClipRect();
 	}
 	ImGui::End();

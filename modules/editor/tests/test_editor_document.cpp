@@ -192,7 +192,11 @@ TEST_CASE("[EditorDocument] another program's change to the file is noticed once
 	CHECK_FALSE(document.is_file_newer());
 	fs::last_write_time(project.scene, fs::file_time_type::clock::now() + std::chrono::hours(1));
 	CHECK(document.is_file_newer());
+	const std::string name = find_light(document).name;
+	document.select(&find_light(document));
 	document.reload();
+	CHECK(document.get_selected() == &find_light(document));
+	CHECK(document.get_selected()->name == name);
 	CHECK_FALSE(document.is_file_newer());
 	document.save();
 	CHECK_FALSE(document.is_file_newer());

@@ -1,0 +1,98 @@
+#include "modules/core/embedded_shaders.h"
+#include "modules/rendering_device/tests/device_fixture.h"
+#include "modules/shader_reload/shader_compiler.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+const std::string NAME = "rendering_device/test_scale.comp"; // target = source * factor + offset
+
+struct ReplacedShader : DeviceFixture {
+	TemporaryFolder folder;
+	std::string source = load_text_file("shaders/" + NAME);
+
+	~ReplacedShader() { replace_embedded_shader(NAME, {}); }
+
+	std::vector<uint32_t> compile(const std::string &p_from, const std::string &p_to) {
+		std::string text = source;
+		const size_t place = text.find(p_from);
+		REQUIRE(place != std::string::npos);
+		text.replace(place, p_from.size(), p_to);
+		std::filesystem::create_directories((folder.path / NAME).parent_path());
+		save_file_atomically(folder.path / NAME, std::string_view(text));
+		return compile_shader(folder.path, NAME);
+	}
+	/// Of 5, with factor 3 and offset 1.
+	uint32_t run(PipelineRID p_pipeline) {
+		const OwnedBuffer source_buffer = make_buffer("source", std::vector<uint32_t>{ 5 });
+		const OwnedBuffer target(*device,
+				device->create_buffer({ .name = "target",
+						.size_bytes = 4,
+						.usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE }));
+		const OwnedBuffer readback = make_readback(4);
+		CommandList &commands = device->begin_commands();
+		commands.bind_pipeline(p_pipeline);
+		commands.bind_resources({ { 0, source_buffer.get() }, { 1, target.get() } });
+		const uint32_t push[] = { 1, 1 };
+		commands.push_constants(push);
+		commands.dispatch_items({ 1, 1, 1 });
+		const Barrier barrier = { .buffer = target.get(),
+			.before = Access::SHADER_WRITE_COMPUTE,
+			.after = Access::COPY_READ };
+		commands.barriers({ &barrier, 1 });
+		commands.copy_buffer(target.get(), readback.get(), 4);
+		device->submit_commands(RenderingDevice::SubmitMode::WAIT);
+		return read<uint32_t>(readback, 1).at(0);
+	}
+};
+
+} // namespace
+
+TEST_CASE("[GPU][RenderingDevice] a replaced shader is used at once, by handles that are there") {
+	ReplacedShader fixture;
+	const ComputePipelineDesc desc = { "scale", NAME, { { 0, 1 }, { 1, 3 } } };
+	const PipelineRID pipeline = fixture.device->get_compute_pipeline(desc);
+	CHECK(fixture.run(pipeline) == 16);
+	fixture.device->replace_shader(NAME, fixture.compile("+ push.offset", "+ 100"));
+	CHECK(fixture.run(pipeline) == 115);
+	CHECK(fixture.device->get_compute_pipeline(desc).id == pipeline.id);
+	CHECK(fixture.device->get_pipeline_count() == 1);
+	// A pipeline that is made later has it too.
+	CHECK(fixture.run(fixture.device->get_compute_pipeline(
+				  { "scale", NAME, { { 0, 1 }, { 1, 4 } } })) == 120);
+	// A binding that is used no more is only left out.
+	fixture.device->replace_shader(NAME, fixture.compile("source[index] * FACTOR", "FACTOR"));
+	CHECK(fixture.run(pipeline) == 4);
+}
+
+TEST_CASE("[GPU][RenderingDevice] a shader that wants what the program does not give is refused") {
+	ReplacedShader fixture;
+	const PipelineRID pipeline =
+			fixture.device->get_compute_pipeline({ "scale", NAME, { { 0, 1 }, { 1, 3 } } });
+	const std::pair<const char *, const char *> changes[] = {
+		{ "= source[index]", "= unused[0] + source[index]" }, // a binding that was not used
+		{ "uint offset;", "uint offset; uint more[8];" },	  // more push constants
+		{ "layout(std430, set = 0, binding = 7) buffer Unused { uint unused[]; };", "" },
+		{ "buffer Source { uint source[]; };",
+				"buffer Source { uint source[]; }; layout(set = 0, binding = 9) uniform More { "
+				"uint "
+				"more; };" },
+	};
+	int refused_count = 0;
+	for (const auto &[from, to] : changes) {
+		CAPTURE(to);
+		std::vector<uint32_t> spirv = fixture.compile(from, to);
+		try {
+			fixture.device->replace_shader(NAME, std::move(spirv));
+		} catch (const Error &error) {
+			++refused_count;
+			CHECK(std::string(error.what()).find("start it again") != std::string::npos);
+		}
+		CHECK(fixture.run(pipeline) == 16); // whatever came, it goes on
+	}
+	CHECK(refused_count >= 3); // a new binding that is not used harms nobody
+	CHECK(fixture.device->get_pipeline_count() == 1);
+}

@@ -1,0 +1,22 @@
+def get_dependencies():
+    return ["core"]
+
+
+def get_layer():
+    return 1
+
+
+def get_description():
+    return "Shaders compiled anew from their sources while the program runs"
+
+
+def can_disable():
+    return False
+
+
+def configure(env):
+    # Static libraries: each before those that it needs.
+    env.Append(
+        LIBS=["SPIRV", "glslang-default-resource-limits", "glslang", "MachineIndependent", "GenericCodeGen", "OSDependent"]
+        + ["OGLCompiler", "SPIRV-Tools-opt", "SPIRV-Tools"]
+    )

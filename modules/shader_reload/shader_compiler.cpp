@@ -1,0 +1,129 @@
+#include "modules/shader_reload/shader_compiler.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const int GLSL_VERSION = 460; // where a file does not say it itself
+const size_t DEEPEST_INCLUDE = 32;
+
+EShLanguage find_stage(const std::string &p_name) {
+	static const std::map<std::string, EShLanguage> STAGES = { { ".vert", EShLangVertex },
+		{ ".geom", EShLangGeometry }, { ".frag", EShLangFragment }, { ".comp", EShLangCompute } };
+	const auto found = STAGES.find(fs::path(p_name).extension().string());
+	if (found == STAGES.end()) {
+		fail("Shader \"", p_name, "\" must end in .vert, .geom, .frag or .comp. Rename it.");
+	}
+	return found->second;
+}
+
+/// Finds includes from the folder of shaders, whoever includes them.
+class FolderIncluder : public glslang::TShader::Includer {
+public:
+	explicit FolderIncluder(fs::path p_folder) : folder(std::move(p_folder)) {}
+
+	IncludeResult *includeLocal(const char *p_name, const char *, size_t p_depth) override {
+		if (p_depth > DEEPEST_INCLUDE) {
+			return nullptr;
+		}
+		try {
+			auto text = std::make_unique<std::string>(load_text_file(folder / p_name));
+			const char *data = text->data();
+			const size_t length = text->size();
+			return new IncludeResult(p_name, data, length, text.release());
+		} catch (const Error &) {
+			return nullptr; // the compiler says where it is asked for
+		}
+	}
+	IncludeResult *includeSystem(const char *p_name, const char *p_by, size_t p_depth) override {
+		return includeLocal(p_name, p_by, p_depth);
+	}
+	void releaseInclude(IncludeResult *p_result) override {
+		if (p_result != nullptr) {
+			delete static_cast<std::string *>(p_result->userData);
+			delete p_result;
+		}
+	}
+
+private:
+	fs::path folder;
+};
+
+/// The compiler's lines that say something, without its summary.
+std::string tidy_log(const std::string &p_log) {
+	std::istringstream lines(p_log);
+	std::string tidy;
+	for (std::string line; std::getline(lines, line);) {
+		if (line.find("compilation errors.  No code generated") == std::string::npos &&
+				line.find_first_not_of(" \t\r") != std::string::npos) {
+			tidy += (tidy.empty() ? "" : "\n") + line;
+		}
+	}
+	return tidy;
+}
+
+/// The compiler's tables live as long as the program uses it.
+struct CompilerProcess {
+	CompilerProcess() { glslang::InitializeProcess(); }
+	~CompilerProcess() { glslang::FinalizeProcess(); }
+};
+
+} // namespace
+
+std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string &p_name) {
+	static const CompilerProcess process;
+	const EShLanguage stage = find_stage(p_name);
+	const std::string source = load_text_file(p_folder / p_name);
+	const char *texts[] = { source.c_str() };
+	const int lengths[] = { static_cast<int>(source.size()) };
+	const char *names[] = { p_name.c_str() };
+	glslang::TShader shader(stage);
+	shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
+	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
+	shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
+	shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+	const EShMessages messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+	FolderIncluder includer(p_folder);
+	if (!shader.parse(GetDefaultResources(), GLSL_VERSION, false, messages, includer)) {
+		fail("Shader \"", p_name, "\" does not compile:\n", tidy_log(shader.getInfoLog()));
+	}
+	glslang::TProgram program;
+	program.addShader(&shader);
+	if (!program.link(messages)) {
+		fail("Shader \"", p_name, "\" does not link:\n", tidy_log(program.getInfoLog()));
+	}
+	std::vector<uint32_t> words;
+	glslang::SpvOptions options;
+	options.disableOptimizer = true; // as at build time: the driver optimises
+	options.stripDebugInfo = true;
+	glslang::GlslangToSpv(*program.getIntermediate(stage), words, &options);
+	return words;
+}
+
+std::vector<std::string> find_includes(const std::string &p_text) {
+	static const std::regex INCLUDE(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re");
+	std::vector<std::string> names;
+	for (std::sregex_iterator match(p_text.begin(), p_text.end(), INCLUDE);
+			match != std::sregex_iterator(); ++match) {
+		names.push_back((*match)[1].str());
+	}
+	return names;
+}
+
+} // namespace gnomon
