@@ -50,7 +50,7 @@ bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition)
 	return is_shown;
 }
 
-std::string EditorContext::describe_items(uint32_t p_picture_count, bool p_is_resting) const {
+std::string EditorContext::describe_items(const EditorProgress &p_progress) const {
 	nlohmann::json places = nlohmann::json::object();
 	for (const auto &[name, rectangle] : items) {
 		places[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
@@ -59,7 +59,9 @@ std::string EditorContext::describe_items(uint32_t p_picture_count, bool p_is_re
 	return nlohmann::json(
 			{ { "items", places }, { "selected", selected ? selected->name : "" },
 					{ "status", status }, { "is_changed", document.is_changed() },
-					{ "pictures", p_picture_count }, { "is_resting", p_is_resting },
+					{ "pictures", p_progress.picture_count },
+					{ "is_resting", p_progress.is_resting },
+					{ "answers_ms", p_progress.answers_ms }, { "frame", p_progress.frame },
 					{ "error",
 							{ { "light", error.light }, { "refusal", error.refusal },
 									{ "rays", error.truth ? error.round.sample_count : 0 },

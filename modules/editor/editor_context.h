@@ -78,7 +78,17 @@ enum class EditorCommand {
 	PLAY,
 	DUPLICATE,
 	DELETE,
+	READ_PAGE,
 	QUIT
+};
+
+/// What a test waits for, and a benchmark reads.
+struct EditorProgress {
+	uint64_t frame = 0;			// counts
+	uint32_t picture_count = 0; // sharp ones that were drawn
+	bool is_resting = false;	// nothing waits to be drawn
+	/// From each input that changed the scene to the picture that shows it.
+	const std::vector<double> &answers_ms;
 };
 
 /// What all panels share. They change the scene through the document alone.
@@ -101,6 +111,7 @@ struct EditorContext {
 	std::map<std::string, std::string> shader_errors; // by shader: why its last change is not used
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
+	std::string wanted_page;		 // of EditorCommand::READ_PAGE, from the program's folder
 	bool asks_to_open = false;		 // opens the menu of scenes
 	std::filesystem::path open_path; // of EditorCommand::OPEN
 	std::vector<std::string> recent; // scenes that were open, the newest first
@@ -132,9 +143,8 @@ struct EditorContext {
 	/// Of the bar below the viewport; the caller ends it when it is true. p_addition: shown behind
 	/// the name.
 	bool begin_tab(const char *p_name, const std::string &p_addition = {});
-	/// These places, and what a test waits for, as JSON. p_picture_count: sharp ones that were
-	/// drawn. p_is_resting: nothing waits to be drawn.
-	std::string describe_items(uint32_t p_picture_count, bool p_is_resting) const;
+	/// These places, and what tests and benchmarks wait for, as JSON.
+	std::string describe_items(const EditorProgress &p_progress) const;
 	/// Runs what a user asked for; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
 		try {

@@ -5,25 +5,28 @@
 
 namespace gnomon {
 
-bool draw_question(const EditorQuestion &p_question) {
+bool draw_question(EditorContext &r_context, const EditorQuestion &p_question) {
 	ImGui::OpenPopup(p_question.title);
 	if (!ImGui::BeginPopupModal(p_question.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
 		return false;
 	}
 	ImGui::TextUnformatted(p_question.text.c_str());
 	bool is_answered = false;
-	if (ImGui::Button(p_question.yes)) {
-		p_question.on_yes();
-		is_answered = true;
-	}
+	const auto draw_answer = [&](const char *p_label, const std::function<void()> &p_action) {
+		const bool is_pressed = ImGui::Button(p_label);
+		r_context.note_item(std::string("button ") + p_label);
+		if (is_pressed) {
+			p_action();
+			is_answered = true;
+		}
+	};
+	draw_answer(p_question.yes, p_question.on_yes);
 	ImGui::SameLine();
-	if (ImGui::Button(p_question.no)) {
-		p_question.on_no();
-		is_answered = true;
-	}
+	draw_answer(p_question.no, p_question.on_no);
 	if (p_question.may_cancel) {
 		ImGui::SameLine();
-		is_answered |= ImGui::Button("Cancel") || ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+		draw_answer("Cancel", [] {});
+		is_answered |= ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
 	}
 	if (is_answered) {
 		ImGui::CloseCurrentPopup();

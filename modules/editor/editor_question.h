@@ -1,5 +1,7 @@
 #pragma once
 
+#include "modules/editor/editor_context.h"
+
 #include <functional>
 #include <string>
 
@@ -17,6 +19,6 @@ struct EditorQuestion {
 };
 
 /// Draws the question over everything. True once it is answered; the answer was done then.
-bool draw_question(const EditorQuestion &p_question);
+bool draw_question(EditorContext &r_context, const EditorQuestion &p_question);
 
 } // namespace gnomon

@@ -11,7 +11,7 @@ struct EditorOptions {
 	std::filesystem::path path; // a project, or a scene; empty: what was open last
 	std::string device;
 	bool validation = false;
-	std::string program; // this program's file, for the play button
+	std::filesystem::path program; // this program's file: bin/gnomon beside doc and shaders
 	/// Where the shaders' sources are, to be compiled anew when they change; may not be there.
 	std::filesystem::path shaders;
 	/// Where widgets are, written as JSON whenever that changes; empty: nowhere. For tests.

@@ -14,6 +14,16 @@ const uint32_t COST_FRAME_COUNT = 20;
 const uint32_t LEAST_COST_FRAME_COUNT = 3;
 const double COST_MS = 1500;
 
+/// All that the cost of a mask depends on.
+std::string describe_cost(const LightSnapshot &p_light, uint64_t p_truth_hash) {
+	std::string description = text(p_truth_hash, " ", choose_technique(p_light, {}).info, " ",
+			p_light.penumbra_outer_width_m, " ", p_light.penumbra_inner_width_m);
+	for (const auto &[name, value] : p_light.properties) {
+		description += text(" ", name, "=", format_property(value));
+	}
+	return description;
+}
+
 } // namespace
 
 void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
@@ -102,9 +112,12 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	RenderResult result = renderer.render(request);
 	state.mask = { request.size_px, std::move(result.visibility), result.receiver };
 	mask_picture = make_picture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
-	timings = TimingSamples();
-	timed_ms = 0;
-	state.cost = {};
+	if (const std::string key = describe_cost(light, hash); key != timed_key) {
+		timed_key = key;
+		timings = TimingSamples();
+		timed_ms = 0;
+		state.cost = {};
+	}
 	if (hash != state.truth_hash) {
 		state.truth.reset();
 		state.metrics.reset();

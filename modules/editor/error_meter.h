@@ -37,6 +37,7 @@ private:
 	LightSnapshot light;
 	uint32_t measured_picture = 0; // PictureMaker's count then
 	uint32_t traced_sample_count = 0;
+	std::string timed_key; // what `timings` are of
 	TimingSamples timings;
 	double timed_ms = 0; // by those frames
 	/// Traced once the cost is known: both at once would slow each other.

@@ -8,7 +8,11 @@ namespace gnomon {
 namespace {
 
 const std::chrono::milliseconds REST{ 250 }; // without change, before the picture is sharpened
-const uint32_t COARSE_DIVISOR = 2;
+// How much coarser, by how long the last coarse picture took.
+const uint32_t LEAST_DIVISOR = 2;
+const uint32_t GREATEST_DIVISOR = 4;
+const double QUICK_MS = 25;
+const double SLOW_MS = 70;
 
 } // namespace
 
@@ -34,8 +38,12 @@ void PictureMaker::update(EditorContext &r_context) {
 	viewport.needs_picture = false;
 	viewport.is_moving = false;
 	try {
-		draw(r_context,
-				glm::max(viewport.size_px / (is_coarse ? COARSE_DIVISOR : 1u), glm::uvec2(1)));
+		draw(r_context, glm::max(viewport.size_px / (is_coarse ? divisor : 1u), glm::uvec2(1)));
+		if (is_coarse && r_context.shown_ms > SLOW_MS) {
+			divisor = std::min(divisor + 1, GREATEST_DIVISOR);
+		} else if (is_coarse && r_context.shown_ms < QUICK_MS) {
+			divisor = std::max(divisor - 1, LEAST_DIVISOR);
+		}
 		sharp_count += is_coarse ? 0 : 1;
 	} catch (const std::exception &error) {
 		r_context.complain(error.what());

@@ -42,6 +42,7 @@ private:
 	OwnedTexture compared_picture;
 	std::string drawn_light; // the light in question then
 	bool is_coarse = false;
+	uint32_t divisor = 2; // of the size, while it is coarse
 	uint32_t drawn_count = 0;
 	uint32_t sharp_count = 0;
 	Clock::time_point last_change;

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace gnomon {
 
@@ -81,11 +83,11 @@ UiRenderer::UiRenderer(RenderingDevice &p_device) : device(p_device) {
 					std::span(pixels, size_t(4) * size_px.x * size_px.y)));
 	fonts.SetTexID(to_texture_id(0));
 	sampler = OwnedSampler(device, device.create_sampler({ "editor pictures", Filter::LINEAR }));
-	textures.push_back(font.get());
+	textures.push_back([this] { return font.get(); });
 }
 
-void *UiRenderer::add_texture(TextureRID p_texture) {
-	textures.push_back(p_texture);
+void *UiRenderer::add_texture(GetTexture p_get_texture) {
+	textures.push_back(std::move(p_get_texture));
 	return to_texture_id(textures.size() - 1);
 }
 
@@ -95,11 +97,15 @@ void UiRenderer::add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDraw
 	for (int list = 0; list < p_data.CmdListsCount; ++list) {
 		append_list(*p_data.CmdLists[list], size_px, geometry);
 	}
-	std::vector<RGTexture> shown;
-	for (const TextureRID texture : textures) {
-		shown.push_back(r_graph.import_texture(texture, RenderGraph::ImportedContent::KEPT));
+	std::vector<std::optional<RGTexture>> shown;
+	for (const GetTexture &get_texture : textures) {
+		const TextureRID texture = get_texture();
+		shown.push_back(texture ? std::optional(r_graph.import_texture(
+										  texture, RenderGraph::ImportedContent::KEPT))
+								: std::nullopt);
 	}
 	textures.resize(1);
+	std::erase_if(geometry.draws, [&](const UiDraw &p_draw) { return !shown[p_draw.texture]; });
 	if (geometry.draws.empty()) {
 		return;
 	}
@@ -122,8 +128,10 @@ void UiRenderer::add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDraw
 			bytes_of(std::span<const uint32_t>(geometry.indices)));
 	PassBuilder pass = r_graph.add_pass("editor");
 	pass.reads(vertices, Access::VERTEX_READ).reads(indices, Access::VERTEX_READ);
-	for (const RGTexture texture : shown) {
-		pass.reads(texture, Access::SHADER_READ_FRAGMENT);
+	for (const std::optional<RGTexture> &texture : shown) {
+		if (texture) {
+			pass.reads(*texture, Access::SHADER_READ_FRAGMENT);
+		}
 	}
 	pass.color(p_target, LoadOp::KEEP)
 			.execute([=, sampler_rid = sampler.get(), draws = std::move(geometry.draws)](
@@ -137,7 +145,7 @@ void UiRenderer::add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDraw
 				for (const UiDraw &draw : draws) {
 					commands.set_scissor(draw.offset_px, draw.size_px);
 					commands.bind_resources(
-							{ { UI_BINDING_TEXTURE, p_context.get(shown[draw.texture]) },
+							{ { UI_BINDING_TEXTURE, p_context.get(*shown[draw.texture]) },
 									{ UI_BINDING_SAMPLER, sampler_rid } });
 					commands.draw_indexed(draw.index_count, draw.first_index);
 				}

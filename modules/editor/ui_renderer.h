@@ -2,6 +2,7 @@
 
 #include "modules/render_graph/render_graph.h"
 
+#include <functional>
 #include <vector>
 
 struct ImDrawData;
@@ -14,9 +15,11 @@ public:
 	/// Takes the fonts of the current ImGui context, which must be there.
 	explicit UiRenderer(RenderingDevice &p_device);
 
-	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. The number is its
-	/// ImTextureID.
-	void *add_texture(TextureRID p_texture);
+	using GetTexture = std::function<TextureRID()>;
+	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. It is asked for when
+	/// it is drawn, so that a picture may show what the panels have just changed; an empty one is
+	/// not shown. Returns its ImTextureID.
+	void *add_texture(GetTexture p_get_texture);
 	/// Draws into a target of the display's size, over what is there. Ends this frame's textures.
 	void add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDrawData &p_data);
 
@@ -24,7 +27,7 @@ private:
 	RenderingDevice &device;
 	OwnedTexture font;
 	OwnedSampler sampler;
-	std::vector<TextureRID> textures; // by ImTextureID - 1; the font's first
+	std::vector<GetTexture> textures; // by ImTextureID - 1; the font's first
 };
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +50,9 @@ public:
 	GltfContainer container;
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
-	std::vector<GltfNodeState> nodes;				   // by index in the file
+	std::vector<GltfNodeState> nodes; // by index in the file
+	/// By index of their node: what the scene named a light or camera that shares its node.
+	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, GltfLightState> lights;		   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // likewise: field of view, near plane
 	/// Where a light's properties stand besides its node: see find_blender_owner.

@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_light_writer.h"
 #include "modules/gltf_scene/gltf_transform_writer.h"
+#include "modules/gltf_scene/gltf_tree.h"
 
 #include <cmath>
 #include <typeinfo>
@@ -42,6 +43,10 @@ bool GltfNodeWriter::is_part(const Node3D &p_node, const Entry *p_parent) const 
 			p_node.parent_from_node != glm::dmat4(1.0)) {
 		return false; // moved away from its node or given children: it needs one of its own
 	}
+	const auto names = document->part_names.find(p_parent->index);
+	if (names == document->part_names.end() || !names->second.contains(p_node.name)) {
+		return false; // renamed: a node of its own has that name
+	}
 	return (dynamic_cast<const Light3D *>(&p_node) && document->lights.contains(p_parent->index)) ||
 			(dynamic_cast<const Camera3D *>(&p_node) &&
 					document->cameras.contains(p_parent->index));
@@ -80,9 +85,7 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	if (!p_entry.is_part) {
 		const GltfNodeState fresh;
 		const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
-		if (node.name != before.name) {
-			target["name"] = node.name;
-		}
+		write_name(p_entry, before.name, target);
 		if (node.parent_from_node != before.parent_from_node) {
 			write_transform(node, before.parent_from_node, target);
 		}
@@ -94,6 +97,23 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 		write_light_of(p_entry, *light);
 	} else if (const auto *camera = dynamic_cast<const Camera3D *>(&node)) {
 		write_camera(p_entry, *camera);
+	}
+}
+
+/// The light that Blender's exporter hung below its object is found by its name, so that this
+/// follows the object's; see find_blender_owner.
+void GltfNodeWriter::write_name(
+		const Entry &p_entry, const std::string &p_before, Json &r_node) const {
+	if (p_entry.node->name != p_before) {
+		r_node["name"] = p_entry.node->name;
+	}
+	if (p_entry.is_new) {
+		return;
+	}
+	const auto owner = document->blender_owners.find(p_entry.index);
+	if (owner != document->blender_owners.end()) {
+		r_node["name"] =
+				json["nodes"][owner->second]["name"].get<std::string>() + BLENDER_ORIENTATION;
 	}
 }
 

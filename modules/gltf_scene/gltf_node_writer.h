@@ -42,6 +42,7 @@ private:
 	std::optional<size_t> assign(const Node3D &p_node, const Entry *p_parent);
 	bool is_part(const Node3D &p_node, const Entry *p_parent) const;
 	void write_entry(const Entry &p_entry);
+	void write_name(const Entry &p_entry, const std::string &p_before, Json &r_node) const;
 	void write_children(const Entry &p_entry, Json &r_node) const;
 	void write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance);
 	std::optional<size_t> find_or_append_mesh(

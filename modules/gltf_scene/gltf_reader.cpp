@@ -163,6 +163,9 @@ Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_
 		parts[part]->name = names.make(part_names[part]);
 		parts[part]->file_index = static_cast<int>(p_index);
 		remember(p_index, *parts[part]);
+		if (part > 0) {
+			document.part_names[p_index].insert(parts[part]->name);
+		}
 		Node3D *added = (first ? *first : r_parent).add_child(std::move(parts[part]));
 		first = first ? first : added;
 	}

@@ -113,7 +113,7 @@ std::optional<size_t> find_blender_owner(
 	}
 	const std::string name = p_root.get_element("nodes", p_index).get_text("name");
 	const std::string parent_name = p_root.get_element("nodes", parent).get_text("name");
-	const bool is_orientation = !parent_name.empty() && name == parent_name + "_Orientation";
+	const bool is_orientation = !parent_name.empty() && name == parent_name + BLENDER_ORIENTATION;
 	return is_orientation ? std::optional(parent) : std::nullopt;
 }
 

@@ -25,9 +25,11 @@ GltfTree build_gltf_tree(const GltfObject &p_root);
 /// A node's matrix, or its translation, rotation and scale. Not finite: fails.
 glm::dmat4 read_transform(const GltfObject &p_node);
 
-/// Blender's exporter hangs the light of an object "Lamp" below it as "Lamp_Orientation", as glTF's
-/// lights look elsewhere than Blender's, and leaves the object's properties on "Lamp". That node,
-/// if p_index is such a child.
+constexpr char BLENDER_ORIENTATION[] = "_Orientation";
+
+/// Blender's older exporters hang the light of an object "Lamp" below it as "Lamp_Orientation", as
+/// glTF's lights look elsewhere than Blender's, and leave the object's properties on "Lamp". That
+/// node, if p_index is such a child.
 std::optional<size_t> find_blender_owner(
 		size_t p_index, const GltfTree &p_tree, const GltfObject &p_root);
 

@@ -27,10 +27,9 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->callback([&r_common] {
 		options.device = r_common.device;
 		options.validation = r_common.validation;
-		options.program = std::filesystem::read_symlink("/proc/self/exe").string();
+		options.program = std::filesystem::read_symlink("/proc/self/exe");
 		if (options.shaders.empty()) {
-			options.shaders =
-					std::filesystem::path(options.program).parent_path().parent_path() / "shaders";
+			options.shaders = options.program.parent_path().parent_path() / "shaders";
 		}
 		run_editor(options);
 	});

@@ -26,14 +26,15 @@ class DisplayTest(CommandLineTest):
         cls.server.terminate()
         cls.server.wait(TIMEOUT_S)
 
-    def start(self, *arguments):
-        """The program, with the arguments, on the display."""
+    def start(self, *arguments, **options):
+        """The program, with the arguments, on the display. options: of subprocess.Popen."""
         process = subprocess.Popen(
             [GNOMON, *map(str, arguments)],
             env={**os.environ, "DISPLAY": self.display, "GNOMON_CONFIG_DIR": self.path("config")},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
+            **options,
         )
         self.addCleanup(process.kill)
         return process

@@ -30,9 +30,8 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 		draw_row("receivers", p_metrics.receiver);
 		ImGui::EndTable();
 	}
-	const double penumbra_count = double(p_metrics.penumbra.pixel_count);
-	ImGui::TextDisabled("%.0f of %.0f pixels; %.1f %% too dark to be penumbra", penumbra_count,
-			double(p_metrics.receiver.pixel_count), 100.0 * p_metrics.umbra_over);
+	ImGui::TextDisabled("%.0f penumbra pixels, %.1f %% of them too dark",
+			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 
 /// What the truth is worth so far, and how to have more or less of it.

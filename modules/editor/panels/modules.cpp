@@ -29,7 +29,18 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 	ImGui::TableNextColumn();
 	ImGui::TextWrapped("%s", p_module.version.c_str());
 	ImGui::TableNextColumn();
-	ImGui::TextWrapped("%s", p_module.doc.c_str());
+	if (!p_module.doc.empty()) {
+		ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(120, 170, 255, 255));
+		ImGui::TextWrapped("%s", p_module.doc.c_str());
+		ImGui::PopStyleColor();
+		if (ImGui::IsItemHovered()) {
+			ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+		}
+		if (ImGui::IsItemClicked()) {
+			r_context.wanted_page = p_module.doc;
+			r_context.command = EditorCommand::READ_PAGE;
+		}
+	}
 }
 
 } // namespace

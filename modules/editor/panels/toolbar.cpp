@@ -99,6 +99,9 @@ void draw_toolbar(EditorContext &r_context) {
 		ImGui::AlignTextToFramePadding();
 		ImGui::TextDisabled("%s%s", r_context.document.get_path().filename().string().c_str(),
 				r_context.document.is_changed() ? " *" : "");
+		if (ImGui::IsItemHovered()) {
+			ImGui::SetTooltip("%s", r_context.document.get_path().string().c_str());
+		}
 	}
 	ImGui::End();
 }

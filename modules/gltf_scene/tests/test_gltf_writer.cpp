@@ -274,6 +274,43 @@ TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and re
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "a.gltf")) == "");
 }
 
+TEST_CASE("[GltfWriter] a light of a mesh node keeps a name of its own") {
+	GltfTestFolder folder;
+	Json json = make_triangle(folder);
+	json["extensions"] = make_lamp()["extensions"];
+	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
+	const auto scene = folder.load(json);
+	Light3D &light = get_light(*scene);
+	light.name = "Key light";
+	light.properties["light_size"] = 0.3;
+	save_gltf(*scene, folder.path / "a.gltf");
+	const auto again = load_gltf(folder.path / "a.gltf");
+	CHECK(get_light(*again).name == "Key light");
+	CHECK(find_difference(*scene, *again) == "");
+}
+
+TEST_CASE("[GltfWriter] a light that Blender hung below its object keeps its size when one of both "
+		  "is renamed") {
+	GltfTestFolder folder;
+	Json json = make_lamp();
+	json["nodes"] = Json::parse(R"([
+		{"name": "Lamp", "children": [1], "extras": {"light_size": 0.35}},
+		{"name": "Lamp_Orientation", "extensions": {"KHR_lights_punctual": {"light": 0}}}])");
+	json["scenes"][0]["nodes"] = { 0 };
+	const auto scene = folder.load(json);
+	Light3D &light = get_light(*scene);
+	light.name = "Other";
+	save_gltf(*scene, folder.path / "a.gltf");
+	CHECK(std::get<double>(
+				  get_light(*load_gltf(folder.path / "a.gltf")).properties.at("light_size")) ==
+			0.35);
+	light.parent->name = "Key";
+	save_gltf(*scene, folder.path / "a.gltf");
+	const auto again = load_gltf(folder.path / "a.gltf");
+	CHECK(get_light(*again).parent->name == "Key");
+	CHECK(std::get<double>(get_light(*again).properties.at("light_size")) == 0.35);
+}
+
 TEST_CASE("[GltfWriter] what no file can hold, and where none can be, is refused by name") {
 	GltfTestFolder folder;
 	GltfTestLog log;

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""Tells the editor's story under Xvfb and writes its pictures: doc/images/editor*.png. Build first: scons.
+
+Look at them afterwards: a picture that shows something else than its page says is worse than none.
+"""
+
+import os
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.join(ROOT, "tests", "command_line"))
+import editor_story  # noqa: E402
+from editor_case import EditorCase  # noqa: E402
+
+WINDOW = "1280x720+0+0"
+COLORS = 256  # so that a picture stays small in the repository
+
+
+class Photographer(EditorCase):
+    def runTest(self):
+        editor_story.tell(self, self.take)
+
+    def take(self, name):
+        path = os.path.join(ROOT, "doc", "images", name + ".png")
+        command = ["import", "-silent", "-window", "root", "-crop", WINDOW, "+repage", "+dither", "-colors", str(COLORS)]
+        subprocess.run([*command, "PNG8:" + path], env={**os.environ, "DISPLAY": self.display}, check=True)
+        print("%s: %d bytes" % (os.path.relpath(path, ROOT), os.path.getsize(path)))
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main(argv=[sys.argv[0], "Photographer"])

@@ -1,0 +1,183 @@
+#include "modules/editor/editor_session.h"
+
+#include "modules/core/error.h"
+#include "modules/core/project_scene.h"
+#include "modules/core/text.h"
+#include "modules/editor/child_process.h"
+#include "modules/scene/node_properties.h"
+
+namespace gnomon {
+
+namespace {
+
+const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
+
+} // namespace
+
+EditorSession::EditorSession(EditorContext &r_context, std::filesystem::path p_program) :
+		context(r_context), document(r_context.document), program(std::move(p_program)),
+		asks_to_recover(r_context.document.has_recovery()) {}
+
+/// From the scene's first camera, or so that all of it is seen.
+void EditorSession::look_as_scene() {
+	const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
+	Bounds bounds;
+	context.attempt([&] { bounds = document.compute_selected_bounds(); });
+	if (cameras.empty()) {
+		context.viewport.camera.frame(bounds);
+		return;
+	}
+	const glm::dvec3 position(cameras.front()->compute_world_from_node()[3]);
+	const double distance_m = bounds.is_empty()
+			? 5.0
+			: glm::length(0.5 * (bounds.minimum + bounds.maximum) - position);
+	context.viewport.camera.look_as(*cameras.front(), distance_m);
+}
+
+/// Another program, such as Blender, may have written the file.
+void EditorSession::follow_file(Clock::time_point p_now) {
+	if (p_now < next_file_check) {
+		return;
+	}
+	next_file_check = p_now + FILE_CHECK_INTERVAL;
+	if (!document.is_file_newer() || document.is_changed()) {
+		asks_to_reload |= document.is_file_newer();
+		return;
+	}
+	context.attempt([&] {
+		const bool was_read = document.get_failure().empty();
+		document.reload();
+		if (!was_read) {
+			look_as_scene();
+		}
+		context.say("The file has changed and was read anew.");
+	});
+}
+
+void EditorSession::run_command() {
+	const EditorCommand command = std::exchange(context.command, EditorCommand::NONE);
+	if (command == EditorCommand::NONE) {
+		return;
+	}
+	context.attempt([&] { run(command); });
+}
+
+void EditorSession::run(EditorCommand p_command) {
+	const bool saves = p_command == EditorCommand::SAVE ||
+			(p_command == EditorCommand::PLAY && document.is_changed());
+	if (saves && document.is_file_newer()) {
+		asks_to_reload = true;
+		return;
+	}
+	Node3D *selected = document.get_selected();
+	switch (p_command) {
+		case EditorCommand::NONE:
+			break;
+		case EditorCommand::ASK_TO_OPEN:
+			context.asks_to_open = true;
+			break;
+		case EditorCommand::OPEN:
+			next_path = find_project_scene(context.open_path).scene_path;
+			if (!std::filesystem::exists(next_path)) {
+				fail("Scene ", std::exchange(next_path, {}), " does not exist. Check the path.");
+			}
+			is_closing = true;
+			break;
+		case EditorCommand::SAVE:
+			document.save();
+			context.say(text("Saved ", document.get_path().filename().string()));
+			break;
+		case EditorCommand::UNDO:
+			if (const std::string name = document.undo(); !name.empty()) {
+				context.say("Undone: " + name);
+			}
+			break;
+		case EditorCommand::REDO:
+			if (const std::string name = document.redo(); !name.empty()) {
+				context.say("Done again: " + name);
+			}
+			break;
+		case EditorCommand::DUPLICATE:
+			if (selected != nullptr) {
+				document.duplicate(*selected);
+			}
+			break;
+		case EditorCommand::DELETE:
+			if (selected != nullptr) {
+				document.remove(*selected);
+			}
+			break;
+		case EditorCommand::FRAME:
+			context.viewport.camera.frame(document.compute_selected_bounds());
+			break;
+		case EditorCommand::PLAY:
+			if (document.is_changed()) {
+				document.save();
+			}
+			start_program({ program.string(), "run", document.get_path().string() });
+			context.say("The game runs in a window of its own.");
+			break;
+		case EditorCommand::READ_PAGE:
+			read_page();
+			break;
+		case EditorCommand::QUIT:
+			is_closing = true;
+			break;
+	}
+}
+
+/// With what the desktop shows such files.
+void EditorSession::read_page() {
+	const std::filesystem::path page = program.parent_path().parent_path() / context.wanted_page;
+	if (!std::filesystem::exists(page)) {
+		fail("Page ", page, " is not there. It comes with the sources of the program.");
+	}
+	start_program({ "xdg-open", page.string() });
+	context.say(text("Opened ", page.string()));
+}
+
+void EditorSession::draw_questions() {
+	if (is_closing && !document.is_changed()) {
+		is_done = true;
+	} else if (is_closing) {
+		is_closing = !draw_question(context, make_closing_question());
+		if (!is_closing && !is_done) {
+			next_path.clear(); // cancelled
+		}
+	} else if (asks_to_recover) {
+		asks_to_recover = !draw_question(context,
+				{ "Recover changes?",
+						"The editor ended without saving. What was changed was kept aside.",
+						"Recover", "Discard", [&] { context.attempt([&] { document.recover(); }); },
+						[&] { document.discard_recovery(); } });
+	} else if (asks_to_reload) {
+		asks_to_reload = !draw_question(context,
+				{ "Read the file anew?",
+						"Another program has written the file, and there are changes here.",
+						"Read it, drop the changes", "Keep the changes",
+						[&] { context.attempt([&] { document.reload(); }); },
+						[&] { document.keep_over_file(); } });
+	}
+}
+
+EditorQuestion EditorSession::make_closing_question() {
+	const auto save = [&] {
+		if (document.is_file_newer()) {
+			asks_to_reload = true; // first: which of both is to be saved
+			return;
+		}
+		context.attempt([&] {
+			document.save();
+			is_done = true;
+		});
+	};
+	const auto drop = [&] {
+		document.discard_recovery();
+		is_done = true;
+	};
+	return { "Save the changes?",
+		text(document.get_path().filename().string(), " has changes that are not saved."),
+		"Save and close", "Close without saving", save, drop, true };
+}
+
+} // namespace gnomon

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""How quickly the editor starts and answers, and the table of doc/benchmarks.md.
+
+    measure_editor.py [--write]
+
+Under Xvfb, 1280 x 720, without validation. Without --write the table is printed only. Build first: scons.
+"""
+
+import argparse
+import os
+import statistics
+import sys
+import tempfile
+import time
+
+import run_benchmarks
+from run_benchmarks import answer, describe_machine, format_table, publish_tables
+
+sys.path.insert(0, os.path.join(run_benchmarks.ROOT, "tests", "command_line"))
+from editor_case import EditorCase  # noqa: E402
+
+STARTS = 5
+START_GOAL_S = 2.0
+DRAGS = 4  # of a dozen steps each
+FRAME_MS = 16  # the interface's own
+
+
+class EditorBenchmark(EditorCase):
+    checks = ()
+
+    def runTest(self):
+        pass
+
+    def start_once(self):
+        """Seconds from the command to the first picture."""
+        before = time.monotonic()
+        self.open_editor()
+        seconds = time.monotonic() - before
+        self.rest()
+        self.finish()
+        return seconds
+
+    def drag_size(self):
+        """Milliseconds from each step of the mouse to the picture that shows it."""
+        for _ in range(DRAGS):
+            self.drag("property light_size", 2)
+            self.rest()
+        times = self.get_state()["answers_ms"]
+        while self.get_state()["is_changed"]:
+            self.press("key", "ctrl+z", "sleep", "0.3")
+        return times
+
+    def measure(self):
+        with tempfile.TemporaryDirectory() as cache:
+            os.environ["GNOMON_CACHE_DIR"] = cache
+            cold = self.start_once()
+            warm = statistics.median(self.start_once() for _ in range(STARTS))
+            self.open_editor()
+            self.select_light()
+            alone = self.drag_size()
+            self.click("tab Error")
+            self.wait_for(lambda state: state["error"]["rays"] >= 16)
+            count = len(self.get_state()["answers_ms"])
+            traced = self.drag_size()[count:]
+            self.finish()
+        return cold, warm, alone, traced
+
+
+def percentile(values, share):
+    return sorted(values)[min(int(share * len(values)), len(values) - 1)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    options = parser.parse_args()
+    load = os.getloadavg()[0]
+    EditorBenchmark.setUpClass()
+    benchmark = EditorBenchmark()
+    try:
+        benchmark.setUp()
+        cold, warm, alone, traced = benchmark.measure()
+    finally:
+        benchmark.doCleanups()
+        EditorBenchmark.tearDownClass()
+    middle = statistics.median
+    rows = [
+        ("start to the first picture, nothing cached", "%.2f s" % cold, "", ""),
+        ("likewise, pipelines cached, median of %d" % STARTS, "%.2f s" % warm, "< 2 s", answer(warm < START_GOAL_S)),
+        ("a dragged size is seen after, median of %d" % len(alone), "%.0f ms" % middle(alone), "", ""),
+        ("90th percentile", "%.0f ms" % percentile(alone, 0.9), "", ""),
+        ("likewise while the truth is traced, median of %d" % len(traced), "%.0f ms" % middle(traced), "", ""),
+        ("its ratio to the one without", "%.2f" % (middle(traced) / middle(alone)), "", ""),
+    ]
+    table = format_table(("three_lights, three soft shadows", "", "goal", "met"), rows)
+    publish_tables({"editor": table}, describe_machine(load), options.write)
+
+
+if __name__ == "__main__":
+    main()

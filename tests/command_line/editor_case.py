@@ -1,0 +1,120 @@
+"""`gnomon edit` as a user drives it: mouse and keys under Xvfb.
+
+Where widgets are, and what the editor says, comes from the file of --items.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+import unittest
+
+from command_line_case import ROOT, load_json
+from display_case import TIMEOUT_S, DisplayTest
+
+LIGHT = "Spot"
+DRAG_STEPS = 12
+
+
+def load(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+@unittest.skipUnless("editor" in [item["name"] for item in load_json("modules", "--json")], "this build has no editor")
+class EditorCase(DisplayTest):
+    def setUp(self):
+        super().setUp()
+        self.project = self.path("project")
+        shutil.copytree(os.path.join(ROOT, "demo_project"), self.project, ignore=shutil.ignore_patterns("out", "third_party"))
+        self.scene = os.path.join(self.project, "scenes", "three_lights.gltf")
+        self.items = self.path("items.json")
+
+    checks = ("--validation",)
+
+    def open_editor(self, *arguments, project=None, **options):
+        """Until it shows a picture. project: a path, "" for none; the others as for start()."""
+        if os.path.exists(self.items):
+            os.remove(self.items)
+        named = [self.project if project is None else project] if project != "" else []
+        self.process = self.start("edit", *named, "--items", self.items, *self.checks, *arguments, **options)
+        self.wait_for(lambda state: state["pictures"] >= 1)
+
+    def get_state(self):
+        try:
+            return load(self.items)
+        except (OSError, ValueError):  # not there yet
+            return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0, "pictures": 0}
+
+    def wait_for(self, is_wanted, at_most_s=TIMEOUT_S):
+        """The first state that is wanted. None comes in time: the test fails with the last one."""
+        end = time.monotonic() + at_most_s
+        while time.monotonic() < end:
+            state = self.get_state()
+            if is_wanted(state):
+                return state
+            if self.process.poll() is not None:
+                self.fail("the editor ended: %s" % self.process.communicate()[1])
+            time.sleep(0.05)
+        self.fail("the editor did not get there: %s" % json.dumps(self.get_state()))
+
+    def find_middle(self, name):
+        place, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
+        while place != before:  # what opens finds its place first
+            time.sleep(0.3)
+            before, place = place, self.wait_for(lambda state: name in state["items"])["items"][name]
+        left, top, right, bottom = place
+        return str(int((left + right) / 2)), str(int((top + bottom) / 2))
+
+    def click(self, name):
+        # As long as a hand takes: what is under the mouse is known a frame later.
+        self.press("mousemove", *self.find_middle(name), "sleep", "0.3", "mousedown", "1", "sleep", "0.2", "mouseup", "1")
+
+    def drag(self, name, step_px):
+        self.press("mousemove", *self.find_middle(name), "sleep", "0.3", "mousedown", "1", "sleep", "0.3")
+        for _ in range(DRAG_STEPS):
+            self.press("mousemove_relative", "--", str(step_px), "0", "sleep", "0.02")
+        self.press("sleep", "0.3", "mouseup", "1")
+
+    def rest(self):
+        """Waits until the window shows all that there is, and sharply."""
+        frame = self.get_state()["frame"]
+        # What was pressed last has arrived two frames later, however long they take.
+        self.wait_for(lambda state: state["frame"] > frame + 2 and state["is_resting"])
+
+    def photograph(self, begin=0.0, end=1.0):
+        """What the viewport shows between two shares of its width, as raw bytes."""
+        self.rest()
+        left, top, right, bottom = (int(value) for value in self.get_state()["items"]["viewport"])
+        left, right = int(left + begin * (right - left)), int(left + end * (right - left))
+        command = ["import", "-silent", "-window", "root", "-crop", "%dx%d+%d+%d" % (right - left, bottom - top, left, top)]
+        environment = {**os.environ, "DISPLAY": self.display}
+        return subprocess.run([*command, "+repage", "-depth", "8", "rgb:-"], env=environment, capture_output=True, check=True).stdout
+
+    def count_different(self, one, other):
+        self.assertEqual(len(one), len(other))
+        return sum(abs(a - b) > 8 for a, b in zip(one, other)) / len(one)
+
+    def finish(self):
+        self.press("key", "ctrl+q")
+        _, errors = self.process.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(self.process.returncode, 0, errors)
+        self.assertNotIn("VUID", errors)
+        self.assertNotIn("SYNC-HAZARD", errors)
+
+    def select_light(self):
+        self.click("node " + LIGHT)
+        self.wait_for(lambda state: state["selected"] == LIGHT)
+
+    def choose(self, name, choice):
+        self.click(name)
+        self.click("choice " + choice)
+
+    def save(self, scene):
+        with open(self.scene, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+
+    def find_light(self, scene):
+        lights = scene["extensions"]["KHR_lights_punctual"]["lights"]
+        return next(light for light in lights if light["name"] == LIGHT)

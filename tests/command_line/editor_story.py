@@ -1,0 +1,88 @@
+"""What the editor is for, from end to end: open, switch a soft shadow on for a light, drag its size, compare it with the
+truth, save, run the game. A test tells it; doc/make_editor_images.py photographs it.
+"""
+
+import os
+import signal
+import time
+
+from command_line_case import find_technique
+from editor_case import LIGHT, load
+from display_case import TIMEOUT_S
+
+TRUTH_RAYS = 256  # that are enough to judge by
+SOFT_MAE = 0.02
+
+
+def make_hard(case):
+    """The scene's light as a beginner has it: with a hard shadow."""
+    scene = load(case.scene)
+    case.find_light(scene)["extras"]["shadow_technique"] = find_technique("is_fallback")
+    case.save(scene)
+
+
+def find_game(scene):
+    """The process that runs the scene; None: there is none."""
+    for name in os.listdir("/proc"):
+        try:
+            with open("/proc/%s/cmdline" % name, "rb") as file:
+                words = file.read().split(b"\0")
+        except OSError:
+            continue
+        if b"run" in words and scene.encode() in words and not words[0].endswith(b"sh"):
+            return int(name)
+    return None
+
+
+def tell(case, take):
+    """case: an EditorCase. take(name) is called where there is something to be seen."""
+    make_hard(case)
+    size = case.find_light(load(case.scene))["extras"]["light_size"]
+    case.open_editor()
+    case.select_light()
+    case.click("penumbra")  # no lines over the shadow
+    hard = case.photograph()
+    take("editor_hard")
+
+    technique = find_technique("is_default")
+    case.choose("property shadow_technique", technique)
+    case.wait_for(lambda state: state["is_changed"])
+    soft = case.photograph()
+    case.assertGreater(case.count_different(hard, soft), 0.005)
+    case.drag("property light_size", 3)
+    case.assertGreater(case.count_different(soft, case.photograph()), 0.002)
+    plain = case.photograph()
+    case.click("penumbra")
+    case.assertGreater(case.count_different(plain, case.photograph()), 0.002)
+    take("editor")
+
+    case.click("penumbra")
+    case.click("tab Error")
+    error = case.wait_for(lambda state: state["error"]["rays"] >= TRUTH_RAYS)["error"]
+    case.assertEqual(error["light"], LIGHT)
+    case.assertLess(error["penumbra_mae"], SOFT_MAE)
+    case.choose("against", find_technique("is_fallback"))
+    case.wait_for(lambda state: "line" in state["items"])
+    case.rest()
+    take("editor_error")
+    case.choose("against", "one technique")
+
+    case.press("key", "ctrl+s")
+    case.wait_for(lambda state: not state["is_changed"] and state["status"].startswith("Saved"))
+    extras = case.find_light(load(case.scene))["extras"]
+    case.assertEqual(extras["shadow_technique"], technique)
+    case.assertGreater(extras["light_size"], size)
+
+    case.press("key", "F5")
+    end = time.monotonic() + TIMEOUT_S
+    while find_game(case.scene) is None and time.monotonic() < end:
+        time.sleep(0.05)
+    game = find_game(case.scene)
+    case.assertIsNotNone(game, "the game runs")
+    case.press("search", "--sync", "--pid", str(game))
+    time.sleep(3.0)
+    take("editor_game")
+    case.assertEqual(find_game(case.scene), game, "it still runs")
+    os.kill(game, signal.SIGTERM)
+    case.press("search", "--sync", "--pid", str(case.process.pid), "windowfocus")  # as a window manager would
+    case.finish()

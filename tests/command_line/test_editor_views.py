@@ -1,0 +1,122 @@
+"""What the editor shows: the error beside its truth, two techniques, changed shaders, what was open before."""
+
+import os
+import shutil
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from command_line_case import ROOT, find_technique  # noqa: E402
+from editor_case import EditorCase  # noqa: E402
+
+SOFT_MAE = 0.05  # of the penumbra: a soft shadow is below, a hard one far above
+TONE_MAP = os.path.join("renderer", "tone_map.comp")
+
+
+class EditorViewsTest(EditorCase):
+    def test_the_error_panel_tells_a_soft_shadow_from_a_hard_one(self):
+        self.open_editor()
+        self.select_light()
+        self.click("tab Error")
+        soft = self.wait_for(lambda state: state["error"]["rays"] >= 256)["error"]
+        self.assertEqual(soft["light"], "Spot")
+        self.assertGreater(soft["penumbra_mae"], 0.0)
+        self.assertLess(soft["penumbra_mae"], SOFT_MAE)
+        self.choose("property shadow_technique", find_technique("is_fallback"))
+        hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * SOFT_MAE)["error"]
+        self.assertGreaterEqual(hard["rays"], 256)  # the truth is the same, and was not traced again
+        picture = self.photograph()
+        self.click("picture error")  # a click shows it in the viewport
+        self.assertGreater(self.count_different(picture, self.photograph()), 0.2)
+        self.click("picture error")
+        self.assertLess(self.count_different(picture, self.photograph()), 0.001)
+        self.press("key", "ctrl+z")
+        self.wait_for(lambda state: not state["is_changed"])
+        self.finish()
+
+    def test_the_truth_can_be_stopped_and_started(self):
+        self.open_editor()
+        self.click("tab Error")
+        self.wait_for(lambda state: state["error"]["rays"] >= 16)
+        self.click("button truth")
+        self.rest()
+        stopped = self.get_state()["error"]["rays"]
+        self.rest()
+        self.assertEqual(self.get_state()["error"]["rays"], stopped)
+        self.click("button truth")
+        self.wait_for(lambda state: state["error"]["rays"] > stopped or state["error"]["rays"] >= 256)
+        self.finish()
+
+    def test_two_techniques_stand_side_by_side(self):
+        self.open_editor()
+        left, right = self.photograph(0.0, 0.49), self.photograph(0.51, 1.0)
+        self.choose("against", find_technique("is_fallback"))
+        self.wait_for(lambda state: "line" in state["items"])
+        self.assertLess(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
+        self.assertGreater(self.count_different(right, self.photograph(0.51, 1.0)), 0.0005)
+        before = self.get_state()["items"]["line"][0]
+        self.drag("line", -12)
+        self.wait_for(lambda state: state["items"]["line"][0] < before - 50)
+        self.assertGreater(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
+        self.choose("against", "one technique")
+        self.wait_for(lambda state: "line" not in state["items"])
+        self.assertLess(self.count_different(left, self.photograph(0.0, 0.49)), 0.001)
+        self.finish()
+
+    def test_a_click_selects_what_is_under_the_mouse(self):
+        self.open_editor()
+        self.click("mark Omni")
+        self.wait_for(lambda state: state["selected"] == "Omni")
+        self.click("viewport")
+        self.wait_for(lambda state: state["selected"] in ("Knot", "Box", "Sphere", "Ground"))
+        self.finish()
+
+    def test_a_changed_shader_is_seen_and_a_broken_one_is_told(self):
+        shaders = self.path("shaders")
+        shutil.copytree(os.path.join(ROOT, "shaders"), shaders)
+        tone_map = os.path.join(shaders, TONE_MAP)
+        with open(tone_map, encoding="utf-8") as file:
+            source = file.read()
+        self.assertIn("void main() {", source)
+
+        def write(text, is_seen):
+            before = self.get_state()["pictures"]
+            with open(tone_map, "w", encoding="utf-8") as file:
+                file.write(text)
+            self.wait_for(lambda state: is_seen(state, before))
+
+        def is_reloaded(state, before):
+            return state["pictures"] > before and "compiled anew" in state["status"]
+
+        def is_refused(state, _):
+            return "does not compile" in state["status"]
+
+        self.open_editor("--shaders", shaders)
+        first = self.photograph()
+        wrong = "void main() {\n\tconst float wrong = nothing;"
+        write(source.replace("void main() {", wrong), is_refused)
+        # The last good one stays; only the message is over the picture's upper edge.
+        self.assertLess(self.count_different(first, self.photograph()), 0.3)
+        black = "void main() {\n\tif (gl_GlobalInvocationID.x > 0u) {\n\t\treturn;\n\t}"
+        write(source.replace("void main() {", black), is_reloaded)
+        self.assertGreater(self.count_different(first, self.photograph()), 0.5)
+        write(source, is_reloaded)
+        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.finish()
+
+    def test_the_next_time_the_same_scene_and_tab_are_open(self):
+        self.open_editor()
+        self.click("button Open")
+        self.click("open terrain.gltf")
+        self.wait_for(lambda state: "Opened" in state["status"] and "terrain.gltf" in state["status"])
+        self.click("tab Modules")
+        self.rest()
+        self.finish()
+        self.open_editor(project="")
+        self.wait_for(lambda state: "terrain.gltf" in state["status"])
+        self.wait_for(lambda state: any(name.startswith("module ") for name in state["items"]))
+        self.finish()
+
+
+if __name__ == "__main__":
+    unittest.main()
