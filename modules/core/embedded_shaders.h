@@ -19,8 +19,10 @@ std::span<const EmbeddedShader> get_embedded_shaders();
 /// runner's kernels. Before any pipeline is made.
 void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders);
 /// Other SPIR-V for an entry point, from now on; empty: that of the build again. Pipelines that are
-/// there already do not change: see RenderingDevice::replace_shader. One thread.
+/// there already do not change: see RenderingDevice::replace_shaders. One thread.
 void replace_embedded_shader(std::string_view p_name, std::vector<uint32_t> p_spirv);
+/// The SPIR-V that this build has of an entry point, whatever replaces it.
+std::span<const uint32_t> find_built_shader(std::string_view p_name);
 /// The SPIR-V of one entry point, valid until it is replaced. An unknown name is an Error naming
 /// it.
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name);

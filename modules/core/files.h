@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace gnomon {
@@ -36,6 +37,11 @@ std::filesystem::path get_config_folder();
 /// 64 bits of xxHash3. Not for secrets; names cache entries and finds damaged ones.
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
 uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed = 0);
+/// Of one value without padding.
+template <typename T> uint64_t compute_value_hash(const T &p_value, uint64_t p_seed) {
+	static_assert(std::is_trivially_copyable_v<T>);
+	return compute_hash({ reinterpret_cast<const uint8_t *>(&p_value), sizeof(T) }, p_seed);
+}
 /// 16 hexadecimal digits.
 std::string format_hash(uint64_t p_hash);
 /// The bytes of a value or an array of values without padding.

@@ -41,6 +41,7 @@ void BackgroundTruth::stop() {
 	if (thread.joinable()) {
 		thread.join();
 	}
+	is_busy = false; // also where no thread could be made
 	const std::lock_guard lock(mutex);
 	ended_round.reset();
 	failure.clear();

@@ -33,7 +33,8 @@ public:
 
 	/// Ends what was under way. p_make is called on the thread.
 	void start(std::function<std::unique_ptr<TruthSource>()> p_make, uint32_t p_sample_count);
-	/// Waits for the thread's end, a few milliseconds. What was not taken is lost.
+	/// Waits for the thread's end: a pixel's rays, or once a question the tree over its casters.
+	/// What was not taken is lost.
 	void stop();
 	/// A round that has ended since the last call, the newest. A failure on the thread is thrown
 	/// here, once, as an Error.

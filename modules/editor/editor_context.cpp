@@ -63,7 +63,8 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 					{ "is_resting", p_progress.is_resting },
 					{ "answers_ms", p_progress.answers_ms }, { "frame", p_progress.frame },
 					{ "error",
-							{ { "light", error.light }, { "refusal", error.refusal },
+							{ { "light", error.light }, { "is_tracing", error.is_tracing },
+									{ "refusal", error.refusal },
 									{ "rays", error.truth ? error.round.sample_count : 0 },
 									{ "penumbra_mae",
 											error.metrics ? error.metrics->penumbra.mae

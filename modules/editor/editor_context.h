@@ -147,9 +147,9 @@ struct EditorContext {
 	std::string describe_items(const EditorProgress &p_progress) const;
 	/// Runs what a user asked for; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
+		viewport.needs_picture = true; // also of what was done half
 		try {
 			p_action();
-			viewport.needs_picture = true;
 		} catch (const std::exception &failure) {
 			complain(failure.what());
 		}

@@ -69,8 +69,8 @@ EditorDocument::EditorDocument(const fs::path &p_path) {
 }
 
 EditorDocument::~EditorDocument() {
-	if (owns_recovery && !is_changed()) {
-		discard_recovery();
+	if (!is_changed()) {
+		discard_own_recovery();
 	}
 }
 
@@ -92,8 +92,10 @@ void EditorDocument::read_file() {
 	file_times = before; // also when it cannot be read: once is enough
 	open(path);
 	note_file_time(); // it may refer to other files now
-	for (const auto &[file, time] : before) {
-		file_times[file] = time; // what was written meanwhile is newer
+	for (auto &[file, time] : file_times) {
+		if (const auto known = before.find(file); known != before.end()) {
+			time = known->second; // what was written meanwhile is newer
+		}
 	}
 }
 
@@ -206,7 +208,7 @@ void EditorDocument::save_as(const fs::path &p_path) {
 		fail("Scene ", path, " was not read, so there is nothing to save: ", failure);
 	}
 	save_gltf(*scene, p_path);
-	discard_recovery();
+	discard_own_recovery();
 	path = fs::absolute(p_path);
 	history.set_saved();
 	autosaved_serial = history.get_serial();
@@ -257,7 +259,14 @@ bool EditorDocument::has_recovery() const {
 }
 
 void EditorDocument::recover() {
-	open(get_recovery_path());
+	try {
+		open(get_recovery_path());
+	} catch (const Error &error) {
+		const fs::path kept = get_recovery_path().string() + ".unread";
+		std::error_code code;
+		fs::rename(get_recovery_path(), kept, code);
+		fail("What was kept aside cannot be read and stays as ", kept, ": ", error.what());
+	}
 	is_recovered = true;
 	owns_recovery = true;
 }
@@ -266,6 +275,12 @@ void EditorDocument::discard_recovery() {
 	std::error_code code;
 	fs::remove(get_recovery_path(), code);
 	owns_recovery = false;
+}
+
+void EditorDocument::discard_own_recovery() {
+	if (owns_recovery) {
+		discard_recovery();
+	}
 }
 
 bool EditorDocument::is_file_newer() const {

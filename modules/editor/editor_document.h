@@ -72,9 +72,13 @@ public:
 	void save_aside();
 	/// True when an earlier program ended without saving what is there.
 	bool has_recovery() const;
-	/// Takes over what was saved aside; it counts as changed.
+	/// Takes over what was saved aside; it counts as changed. Where it cannot be read it is kept
+	/// under another name, and that is an Error.
 	void recover();
+	/// Whosever it is.
 	void discard_recovery();
+	/// What this document itself put aside or took over is not wanted any more.
+	void discard_own_recovery();
 
 	/// True when another program has written the file, or one that it refers to, since it was read
 	/// or saved.

@@ -18,7 +18,6 @@ EditorSession::EditorSession(EditorContext &r_context, std::filesystem::path p_p
 		context(r_context), document(r_context.document), program(std::move(p_program)),
 		asks_to_recover(r_context.document.has_recovery()) {}
 
-/// From the scene's first camera, or so that all of it is seen.
 void EditorSession::look_as_scene() {
 	const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
 	Bounds bounds;
@@ -34,7 +33,6 @@ void EditorSession::look_as_scene() {
 	context.viewport.camera.look_as(*cameras.front(), distance_m);
 }
 
-/// Another program, such as Blender, may have written the file.
 void EditorSession::follow_file(Clock::time_point p_now) {
 	if (p_now < next_file_check) {
 		return;
@@ -136,6 +134,16 @@ void EditorSession::read_page() {
 	context.say(text("Opened ", page.string()));
 }
 
+void EditorSession::recover() {
+	context.attempt([&] {
+		const bool was_read = document.get_failure().empty();
+		document.recover();
+		if (!was_read) {
+			look_as_scene();
+		}
+	});
+}
+
 void EditorSession::draw_questions() {
 	if (is_closing && !document.is_changed()) {
 		is_done = true;
@@ -148,7 +156,7 @@ void EditorSession::draw_questions() {
 		asks_to_recover = !draw_question(context,
 				{ "Recover changes?",
 						"The editor ended without saving. What was changed was kept aside.",
-						"Recover", "Discard", [&] { context.attempt([&] { document.recover(); }); },
+						"Recover", "Discard", [&] { recover(); },
 						[&] { document.discard_recovery(); } });
 	} else if (asks_to_reload) {
 		asks_to_reload = !draw_question(context,
@@ -172,7 +180,7 @@ EditorQuestion EditorSession::make_closing_question() {
 		});
 	};
 	const auto drop = [&] {
-		document.discard_recovery();
+		document.discard_own_recovery();
 		is_done = true;
 	};
 	return { "Save the changes?",

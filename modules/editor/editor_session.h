@@ -37,6 +37,7 @@ public:
 private:
 	void run(EditorCommand p_command);
 	void read_page();
+	void recover();
 	EditorQuestion make_closing_question();
 
 	EditorContext &context;

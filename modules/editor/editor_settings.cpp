@@ -74,10 +74,22 @@ void EditorSettings::save() const {
 		{ "window_height", window_size_px.y }, { "tab", tab }, { "truth_rays", sample_count },
 		{ "shows_penumbra", shows_penumbra }, { "recent", recent } };
 	try {
-		save_file_atomically(get_path(), json.dump(2) + "\n");
+		// A path need not be text in any encoding.
+		const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
+		save_file_atomically(get_path(), text + "\n");
 	} catch (const Error &error) {
 		log_warning("The editor's settings are not kept: ", error.what());
 	}
+}
+
+std::filesystem::path EditorSettings::find_recent() const {
+	for (const std::string &scene : recent) {
+		std::error_code code;
+		if (std::filesystem::exists(scene, code)) {
+			return scene;
+		}
+	}
+	return {};
 }
 
 void EditorSettings::add_recent(const std::filesystem::path &p_scene) {

@@ -34,6 +34,8 @@ struct EditorSettings {
 	static EditorSettings load();
 	/// A failure only warns.
 	void save() const;
+	/// The newest that is still there; empty: none is.
+	std::filesystem::path find_recent() const;
 	/// Puts the scene in front.
 	void add_recent(const std::filesystem::path &p_scene);
 };

@@ -105,6 +105,7 @@ private:
 			session.follow_file(start);
 			if (shaders.update(context, start)) {
 				pictures.forget_kept();
+				error_meter.forget_cost();
 			}
 			// First what the user does, then the picture: one frame shows what it has changed.
 			build_panels();
@@ -113,7 +114,7 @@ private:
 			seen_serial = document.get_history().get_serial();
 			draw_pictures();
 			show_frame();
-			if (is_changed) {
+			if (is_changed && !options.items.empty()) {
 				answers_ms.push_back(
 						std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 			}
@@ -207,9 +208,12 @@ private:
 				{ ++frame, pictures.get_count(), quiet_count >= QUIET_FRAME_COUNT, answers_ms });
 		// Whole or not at all, but without waiting for the disk as save_file_atomically does.
 		const std::filesystem::path made = options.items.string() + ".new";
-		std::ofstream(made) << written;
-		std::error_code code;
-		std::filesystem::rename(made, options.items, code); // else the next one is
+		std::ofstream stream(made);
+		stream << written;
+		stream.close();
+		if (std::error_code code; stream) {
+			std::filesystem::rename(made, options.items, code); // else the next one is
+		}
 		context.items.clear();
 	}
 
@@ -253,10 +257,11 @@ void run_editor(const EditorOptions &p_options) {
 	EditorSettings settings = EditorSettings::load();
 	std::filesystem::path path = p_options.path;
 	if (path.empty()) {
-		if (settings.recent.empty()) {
-			fail("No scene was open before. Name a project or a scene: gnomon edit PROJECT.");
+		path = settings.find_recent();
+		if (path.empty()) {
+			fail("No scene that was open before is still there. Name a project or a scene: gnomon "
+				 "edit PROJECT.");
 		}
-		path = settings.recent.front();
 	}
 	while (!path.empty()) {
 		path = Editor(p_options, path, settings).run();

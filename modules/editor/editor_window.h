@@ -14,7 +14,7 @@ struct EditorOptions {
 	std::filesystem::path program; // this program's file: bin/gnomon beside doc and shaders
 	/// Where the shaders' sources are, to be compiled anew when they change; may not be there.
 	std::filesystem::path shaders;
-	/// Where widgets are, written as JSON whenever that changes; empty: nowhere. For tests.
+	/// Where widgets are, written as JSON each frame; empty: nowhere. For tests.
 	std::filesystem::path items;
 	uint32_t frame_count = 0; // ends after so many; 0: when the window is closed
 };

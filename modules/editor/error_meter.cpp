@@ -3,7 +3,10 @@
 #include "modules/core/text.h"
 #include "modules/error_report/mask_picture.h"
 #include "modules/renderer/light_shadows.h"
+#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/shadow_registry.h"
+
+#include <utility>
 
 namespace gnomon {
 
@@ -16,8 +19,11 @@ const double COST_MS = 1500;
 
 /// All that the cost of a mask depends on.
 std::string describe_cost(const LightSnapshot &p_light, uint64_t p_truth_hash) {
-	std::string description = text(p_truth_hash, " ", choose_technique(p_light, {}).info, " ",
-			p_light.penumbra_outer_width_m, " ", p_light.penumbra_inner_width_m);
+	const ShadowTechniqueInfo *technique = choose_technique(p_light, {}).info;
+	std::string description =
+			text(p_truth_hash, " ", technique != nullptr ? technique->id : std::string(), " ",
+					ShadowRegistry::get_revision(), " ", MaskFilterRegistry::get_revision(), " ",
+					p_light.penumbra_outer_width_m, " ", p_light.penumbra_inner_width_m);
 	for (const auto &[name, value] : p_light.properties) {
 		description += text(" ", name, "=", format_property(value));
 	}
@@ -31,9 +37,9 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 	const bool is_watched = state.is_shown || r_context.viewport.debug_view == "error";
 	if (!is_watched || state.is_stopped) {
 		if (truth.is_running()) {
-			truth.stop();
-			state.truth_hash = 0; // traced anew when somebody looks again
+			traced_sample_count = 0; // goes on when somebody looks again; what is known stays
 		}
+		truth.stop();
 	}
 	state.is_tracing = truth.is_running();
 	if (!is_watched || p_picture_count == 0) {
@@ -55,7 +61,9 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 		} else if (asked_truth && !state.is_stopped) {
 			truth.start(std::exchange(asked_truth, nullptr), state.sample_count);
 		}
-		if (std::optional<TruthRound> round = truth.take()) {
+		std::optional<TruthRound> round = truth.take();
+		// Begun anew, it has to become better first than what is known.
+		if (round && !(state.truth && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
 			state.truth = std::make_shared<const TruthMask>(
 					TruthMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
@@ -65,6 +73,8 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 	} catch (const std::exception &error) {
 		refuse(state, error.what());
 	}
+	r_context.viewport.needs_picture |=
+			std::exchange(is_error_stale, false) && r_context.viewport.debug_view == "error";
 	state.is_tracing = truth.is_running();
 	state.progress = truth.get_progress();
 	state.round_sample_count = truth.get_sample_count();
@@ -82,6 +92,12 @@ void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 	r_state.truth_hash = 0;
 	r_state.truth.reset();
 	r_state.metrics.reset();
+	is_error_stale = true;
+}
+
+void ErrorMeter::forget_cost() {
+	timed_key.clear();
+	measured_picture = 0;
 }
 
 void ErrorMeter::measure_mask(EditorContext &r_context) {
@@ -90,7 +106,9 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	const Light3D *node = r_context.find_light();
 	state.light = node != nullptr ? node->name : "";
 	if (node == nullptr) {
-		refuse(state, "No light casts a shadow. Select a light and set its shadow_enabled.");
+		refuse(state,
+				"No light of the scene casts a shadow. Add one, or set shadow_enabled of one that "
+				"is there.");
 		return;
 	}
 	request = {};
@@ -159,9 +177,9 @@ void ErrorMeter::measure_cost(EditorContext &r_context) {
 	std::vector<PassCost> passes;
 	for (const PassTiming &pass : renderer.render(timed).find_light_passes(light.name)) {
 		passes.push_back({ pass.name, pass.gpu_ms, pass.wall_ms, pass.is_on_host });
+		timed_ms += pass.wall_ms;
 	}
 	timings.add_frame(passes);
-	timed_ms += timings.compute().total.wall_ms;
 	r_context.error.cost = timings.compute();
 }
 

@@ -16,6 +16,9 @@ public:
 	/// Once a frame, after the picture. p_picture_count: sharp ones drawn so far, see PictureMaker.
 	void update(EditorContext &r_context, uint32_t p_picture_count);
 
+	/// Measures it anew: the shaders are others.
+	void forget_cost();
+
 	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.
 	TextureRID get_mask_picture() const { return mask_picture.get(); }
 	TextureRID get_truth_picture() const { return truth_picture.get(); }
@@ -39,7 +42,8 @@ private:
 	uint32_t traced_sample_count = 0;
 	std::string timed_key; // what `timings` are of
 	TimingSamples timings;
-	double timed_ms = 0; // by those frames
+	double timed_ms = 0;		 // by those frames
+	bool is_error_stale = false; // the viewport may show an error that is none
 	/// Traced once the cost is known: both at once would slow each other.
 	std::function<std::unique_ptr<TruthSource>()> asked_truth;
 	OwnedTexture mask_picture;

@@ -28,7 +28,7 @@ std::vector<CasterEdge> collect_edges(const SceneRays &p_rays, const LightSnapsh
 			? glm::dvec4(-p_light.get_direction_world(), 0.0)
 			: glm::dvec4(p_light.position_world, 1.0);
 	for (const SceneRays::Instance &instance : p_rays.get_instances()) {
-		if (!instance.node->casts_shadow) {
+		if (!instance.casts_shadow) {
 			continue;
 		}
 		const auto topology = get_topology(instance.mesh);

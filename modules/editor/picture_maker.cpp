@@ -1,5 +1,8 @@
 #include "modules/editor/picture_maker.h"
 
+#include "modules/core/text.h"
+#include "modules/renderer/shadow_registry.h"
+
 #include <algorithm>
 #include <exception>
 
@@ -44,7 +47,6 @@ void PictureMaker::update(EditorContext &r_context) {
 		} else if (is_coarse && r_context.shown_ms < QUICK_MS) {
 			divisor = std::max(divisor - 1, LEAST_DIVISOR);
 		}
-		sharp_count += is_coarse ? 0 : 1;
 	} catch (const std::exception &error) {
 		r_context.complain(error.what());
 		is_coarse = false;
@@ -69,7 +71,7 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	request.debug_light = light != nullptr ? light->name : "";
 	drawn_light = request.debug_light;
 	const LightSnapshot *seen = request.scene->find_light(request.debug_light);
-	if (error.truth && seen != nullptr &&
+	if (error.truth && seen != nullptr && seen->casts_shadow &&
 			compute_truth_hash(*request.scene, *seen, p_size_px) == error.truth_hash) {
 		request.truth = error.truth;
 	}
@@ -77,26 +79,43 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	r_context.picture_size_px = p_size_px;
 	r_context.is_picture_coarse = is_coarse;
 	++drawn_count;
-	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-	if (viewport.compared_technique.empty()) {
-		compared_picture.reset();
-		compared_renderer.reset();
-	} else {
-		auto compared = std::make_shared<SceneSnapshot>(*request.scene);
-		for (LightSnapshot &other : compared->lights) {
-			if (other.name == request.debug_light) {
-				other.technique_id = viewport.compared_technique;
-			}
-		}
-		request.scene = compared;
-		if (!compared_renderer) {
-			compared_renderer = std::make_unique<Renderer>(device);
-		}
-		draw_into(compared_picture, request, *compared_renderer);
+	sharp_count += is_coarse ? 0 : 1;
+	try {
+		draw_compared(r_context, request);
+	} catch (const std::exception &failure) {
+		compared_picture.reset(); // it would show something else than the one beside it
+		r_context.complain(failure.what());
 	}
+	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 	if (!r_context.shown.debug_views.empty()) {
 		r_context.viewport.debug_views = r_context.shown.debug_views;
 	}
+}
+
+/// The same with another technique for the light in question.
+void PictureMaker::draw_compared(EditorContext &r_context, RenderRequest p_request) {
+	std::string &technique = r_context.viewport.compared_technique;
+	if (!technique.empty() && ShadowRegistry::find(technique) == nullptr) {
+		r_context.complain(text("Technique \"", technique,
+				"\" is there no more: its module is switched off. Choose another one to compare."));
+		technique.clear();
+	}
+	if (technique.empty()) {
+		compared_picture.reset();
+		compared_renderer.reset();
+		return;
+	}
+	auto scene = std::make_shared<SceneSnapshot>(*p_request.scene);
+	for (LightSnapshot &light : scene->lights) {
+		if (light.name == p_request.debug_light) {
+			light.technique_id = technique;
+		}
+	}
+	p_request.scene = scene;
+	if (!compared_renderer) {
+		compared_renderer = std::make_unique<Renderer>(device);
+	}
+	draw_into(compared_picture, std::move(p_request), *compared_renderer);
 }
 
 /// r_picture is made anew where its size is another, and stays as it is on an Error.

@@ -31,6 +31,7 @@ private:
 	using Clock = std::chrono::steady_clock;
 
 	void draw(EditorContext &r_context, glm::uvec2 p_size_px);
+	void draw_compared(EditorContext &r_context, RenderRequest p_request);
 	RenderResult draw_into(OwnedTexture &r_picture, RenderRequest p_request, Renderer &r_renderer);
 	void list_debug_views(EditorContext &r_context);
 

@@ -20,7 +20,8 @@ void SceneRays::follow(const Scene &p_scene) {
 			}
 			instances.push_back(
 					{ node, surface.mesh, world_from_node, glm::inverse(world_from_node),
-							transform_bounds(surface.mesh->bounds_node, world_from_node) });
+							transform_bounds(surface.mesh->bounds_node, world_from_node),
+							node->casts_shadow });
 			if (std::unique_ptr<RayTree> &tree = trees[surface.mesh->id]) {
 				kept[surface.mesh->id] = std::move(tree);
 			}

@@ -19,6 +19,7 @@ public:
 		glm::dmat4 world_from_node = glm::dmat4(1.0);
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
+		bool casts_shadow = true;
 	};
 	struct Hit {
 		double t = 0; // in units of the ray's direction

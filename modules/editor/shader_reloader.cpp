@@ -16,31 +16,34 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 		return false;
 	}
 	next_look = p_now + LOOK_INTERVAL;
-	std::vector<std::string> reloaded;
 	std::map<std::string, std::string> &errors = r_context.shader_errors;
+	std::map<std::string, std::vector<uint32_t>> compiled;
+	const auto refuse = [&](const std::string &p_shader, const std::string &p_failure) {
+		r_context.complain(p_failure);
+		errors[p_shader] = p_failure;
+	};
 	for (ShaderChange &change : watcher.poll()) {
 		errors.erase(change.name);
 		if (change.failure.empty()) {
-			try {
-				device.replace_shader(change.name, std::move(change.spirv));
-				reloaded.push_back(change.name);
-			} catch (const Error &error) {
-				change.failure = error.what();
-			}
-		}
-		if (!change.failure.empty()) {
-			r_context.complain(change.failure);
-			errors[change.name] = change.failure;
+			compiled[change.name] = std::move(change.spirv);
+		} else {
+			refuse(change.name, change.failure);
 		}
 	}
-	if (reloaded.empty()) {
+	if (compiled.empty()) {
+		return false;
+	}
+	try {
+		device.replace_shaders(compiled); // all at once: stages must fit each other
+	} catch (const Error &error) {
+		refuse(compiled.begin()->first, error.what());
 		return false;
 	}
 	r_context.viewport.needs_picture = true;
 	if (errors.empty()) {
-		r_context.say(reloaded.size() == 1
-						? text("Shader ", reloaded.front(), " was compiled anew.")
-						: text(reloaded.size(), " shaders were compiled anew."));
+		r_context.say(compiled.size() == 1
+						? text("Shader ", compiled.begin()->first, " was compiled anew.")
+						: text(compiled.size(), " shaders were compiled anew."));
 	}
 	return true;
 }

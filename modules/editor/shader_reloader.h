@@ -17,7 +17,7 @@ public:
 	ShaderReloader(RenderingDevice &p_device, const std::filesystem::path &p_folder) :
 			device(p_device), watcher(p_folder) {}
 
-	/// Looks once a second. True: some shaders are others now.
+	/// Looks twice a second. True: some shaders are others now.
 	bool update(EditorContext &r_context, Clock::time_point p_now);
 
 private:

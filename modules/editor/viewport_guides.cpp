@@ -14,7 +14,7 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 	ViewportState &viewport = r_context.viewport;
 	EditorDocument &document = r_context.document;
 	const bool is_changed = p_drawn_count != followed_count || viewport.is_guide_changed;
-	if (is_changed || viewport.pick) {
+	if (is_changed || viewport.pick || document.get_selected() != guided_node) {
 		rays.follow(document.get_scene());
 	}
 	if (viewport.pick) {

@@ -13,6 +13,10 @@ def get_description():
     return "Masks and their error against a truth; reports of error against run time"
 
 
+def can_disable():
+    return False  # the report and the editor's error panel are made of it
+
+
 def can_build(env):
     return subprocess.run(["pkg-config", "--exists", "OpenEXR"]).returncode == 0
 

@@ -161,7 +161,7 @@ void read_cones(const GltfObject &p_light, Light3D &r_light) {
 	}
 	r_light.outer_cone_rad = std::min(static_cast<float>(outer), MAX_CONE_RAD);
 	if (inner > outer) {
-		spot.report_value("innerConeAngle", text("below outerConeAngle, ", outer), "0");
+		spot.report_value("innerConeAngle", text("at most outerConeAngle, ", outer), "0");
 		return;
 	}
 	// A hard edge has both alike, although the specification wants the inner one smaller.

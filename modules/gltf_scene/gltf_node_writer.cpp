@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_node_writer.h"
 
 #include "modules/core/error.h"
+#include "modules/core/log.h"
 #include "modules/gltf_scene/gltf_light_writer.h"
 #include "modules/gltf_scene/gltf_transform_writer.h"
 #include "modules/gltf_scene/gltf_tree.h"
@@ -112,8 +113,13 @@ void GltfNodeWriter::write_name(
 	}
 	const auto owner = document->blender_owners.find(p_entry.index);
 	if (owner != document->blender_owners.end()) {
-		r_node["name"] =
+		const std::string name =
 				json["nodes"][owner->second]["name"].get<std::string>() + BLENDER_ORIENTATION;
+		if (p_entry.node->name != p_before && p_entry.node->name != name) {
+			log_warning("Light \"", p_entry.node->name, "\" is saved as \"", name,
+					"\": its name follows its parent's. Rename that.");
+		}
+		r_node["name"] = name;
 	}
 }
 

@@ -11,27 +11,22 @@ namespace gnomon {
 
 namespace {
 
-template <typename T> uint64_t hash_value(const T &p_value, uint64_t p_seed) {
-	static_assert(std::is_trivially_copyable_v<T>);
-	return compute_hash({ reinterpret_cast<const uint8_t *>(&p_value), sizeof(T) }, p_seed);
-}
-
 CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, bool p_may_cull) {
 	CasterList casters;
 	// Field by field: the struct has padding.
-	uint64_t hash = hash_value(p_view.view_from_world, 1);
-	hash = hash_value(p_view.half_extent, hash);
-	hash = hash_value(p_view.size_px, hash);
-	hash = hash_value(p_view.near_m, hash);
-	hash = hash_value(p_view.far_m, hash);
+	uint64_t hash = compute_value_hash(p_view.view_from_world, 1);
+	hash = compute_value_hash(p_view.half_extent, hash);
+	hash = compute_value_hash(p_view.size_px, hash);
+	hash = compute_value_hash(p_view.near_m, hash);
+	hash = compute_value_hash(p_view.far_m, hash);
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];
 		if (!instance.casts_shadow || (p_may_cull && !p_view.may_see(instance.bounds_world))) {
 			continue;
 		}
 		casters.instances.push_back(index);
-		hash = hash_value(instance.mesh->id, hash);
-		hash = hash_value(instance.world_from_node, hash);
+		hash = compute_value_hash(instance.mesh->id, hash);
+		hash = compute_value_hash(instance.world_from_node, hash);
 	}
 	casters.content_hash = hash;
 	return casters;

@@ -21,9 +21,10 @@ void merge_bindings(const std::string &p_pipeline, std::span<const ReflectedShad
 				r_bindings.push_back(binding);
 				continue;
 			}
-			GNOMON_ASSERT(found->type == binding.type && found->is_arrayed == binding.is_arrayed,
-					"pipeline '", p_pipeline, "': binding ", binding.binding,
-					" is declared as two kinds of resource");
+			if (found->type != binding.type || found->is_arrayed != binding.is_arrayed) {
+				fail("Pipeline '", p_pipeline, "': binding ", binding.binding,
+						" is declared as two kinds of resource. Give one of them another number.");
+			}
 			if (binding.is_used) {
 				found->stages = found->is_used ? found->stages | binding.stages : binding.stages;
 				found->is_used = true;

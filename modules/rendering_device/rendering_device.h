@@ -3,6 +3,7 @@
 #include "modules/rendering_device/resource_types.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -114,11 +115,12 @@ public:
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc);
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc);
 	uint32_t get_pipeline_count() const;
-	/// Makes all pipelines anew that use the entry point, with other SPIR-V from now on, and waits
-	/// for the GPU. Handles stay valid. What the device refuses, and shaders that want other
-	/// bindings or push constants than the program gives, are an Error that leaves everything as it
-	/// was. Not while commands are being recorded; SPIR-V of another stage is our mistake.
-	void replace_shader(const std::string &p_name, std::vector<uint32_t> p_spirv);
+	/// Other SPIR-V for these entry points from now on: makes all pipelines anew that use one of
+	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
+	/// wants other bindings or push constants than this build's, are an Error that leaves
+	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is our
+	/// mistake.
+	void replace_shaders(const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name);
 	void free(BufferRID p_buffer);
 	void free(TextureRID p_texture);
 	void free(SamplerRID p_sampler);

@@ -6,17 +6,23 @@ namespace gnomon {
 
 namespace {
 
-bool uses_shader(const ComputePipelineDesc &p_desc, const std::string &p_shader) {
-	return p_desc.shader == p_shader;
+using Replacements = std::map<std::string, std::vector<uint32_t>>;
+
+bool is_same_kind(const ReflectedBinding &p_left, const ReflectedBinding &p_right) {
+	return p_left.type == p_right.type && p_left.is_arrayed == p_right.is_arrayed;
 }
 
-bool uses_shader(const RasterPipelineDesc &p_desc, const std::string &p_shader) {
-	return p_desc.vertex_shader == p_shader || p_desc.geometry_shader == p_shader ||
-			p_desc.fragment_shader == p_shader;
+bool uses_any(const ComputePipelineDesc &p_desc, const Replacements &p_shaders) {
+	return p_shaders.contains(p_desc.shader);
 }
 
-const ReflectedBinding *find_binding(const PipelineResource &p_pipeline, uint32_t p_number) {
-	for (const ReflectedBinding &binding : p_pipeline.bindings) {
+bool uses_any(const RasterPipelineDesc &p_desc, const Replacements &p_shaders) {
+	return p_shaders.contains(p_desc.vertex_shader) || p_shaders.contains(p_desc.geometry_shader) ||
+			p_shaders.contains(p_desc.fragment_shader);
+}
+
+const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p_number) {
+	for (const ReflectedBinding &binding : p_shader.bindings) {
 		if (binding.binding == p_number) {
 			return &binding;
 		}
@@ -24,51 +30,56 @@ const ReflectedBinding *find_binding(const PipelineResource &p_pipeline, uint32_
 	return nullptr;
 }
 
-bool is_same_kind(const ReflectedBinding &p_left, const ReflectedBinding &p_right) {
-	return p_left.type == p_right.type && p_left.is_arrayed == p_right.is_arrayed;
-}
-
-/// The program gives a pipeline what its shaders declared when the program was built: they may use
-/// less of it than they did, and no more.
-void check_interface(const std::string &p_shader, const PipelineResource &p_before,
-		const PipelineResource &p_now) {
+/// The program gives a shader what it declared when the program was built: it may use less of that,
+/// and no more.
+void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
+	const ReflectedShader built = reflect_spirv(p_name, find_built_shader(p_name), {});
+	const ReflectedShader now = reflect_spirv(p_name, p_words, {});
 	const auto refuse = [&](const std::string &p_what) {
-		fail("Shader \"", p_shader, "\" ", p_what,
+		fail("Shader \"", p_name, "\" ", p_what,
 				", which the program does not know of. Build the program and start it again.");
 	};
-	for (const ReflectedBinding &binding : p_now.bindings) {
-		const ReflectedBinding *known = find_binding(p_before, binding.binding);
-		if (binding.is_used &&
-				(known == nullptr || !known->is_used || !is_same_kind(*known, binding))) {
+	for (const ReflectedBinding &binding : now.bindings) {
+		const ReflectedBinding *known = find_binding(built, binding.binding);
+		if (!is_same_kind(*find_binding(now, binding.binding), binding)) {
+			refuse(text("declares binding ", binding.binding, " as two kinds of resource"));
+		}
+		if ((known != nullptr && !is_same_kind(*known, binding)) ||
+				(binding.is_used && (known == nullptr || !known->is_used))) {
 			refuse(text("uses binding ", binding.binding, " in another way than before"));
 		}
 	}
-	for (const ReflectedBinding &binding : p_before.bindings) {
-		if (find_binding(p_now, binding.binding) == nullptr) {
+	for (const ReflectedBinding &binding : built.bindings) {
+		if (find_binding(now, binding.binding) == nullptr) {
 			refuse(text("declares binding ", binding.binding, " no more"));
 		}
 	}
-	if (p_before.push_constant_bytes != p_now.push_constant_bytes) {
-		refuse(text("has ", p_now.push_constant_bytes, " bytes of push constants, before ",
-				p_before.push_constant_bytes));
+	if (built.push_constant_bytes != now.push_constant_bytes) {
+		refuse(text("has ", now.push_constant_bytes, " bytes of push constants, before ",
+				built.push_constant_bytes));
 	}
 }
 
 } // namespace
 
-void RenderingDevice::replace_shader(const std::string &p_name, std::vector<uint32_t> p_spirv) {
+void RenderingDevice::replace_shaders(const Replacements &p_spirv_by_name) {
 	impl->fail_if_lost();
-	const std::span<const uint32_t> now = find_embedded_shader(p_name);
-	std::vector<uint32_t> before(now.begin(), now.end());
-	replace_embedded_shader(p_name, std::move(p_spirv));
+	Replacements before;
+	for (const auto &[name, words] : p_spirv_by_name) {
+		check_interface(name, words);
+		const std::span<const uint32_t> now = find_embedded_shader(name);
+		before[name].assign(now.begin(), now.end());
+	}
+	for (const auto &[name, words] : p_spirv_by_name) {
+		replace_embedded_shader(name, words);
+	}
 	std::vector<std::pair<size_t, PipelineResource>> made;
 	try {
 		for (size_t index = 0; index < impl->pipelines.size(); ++index) {
 			std::visit(
 					[&](const auto &p_desc) {
-						if (uses_shader(p_desc, p_name)) {
+						if (uses_any(p_desc, p_spirv_by_name)) {
 							made.emplace_back(index, impl->make_pipeline(p_desc));
-							check_interface(p_name, impl->pipelines[index], made.back().second);
 						}
 					},
 					impl->pipelines[index].desc);
@@ -78,7 +89,9 @@ void RenderingDevice::replace_shader(const std::string &p_name, std::vector<uint
 		for (auto &[index, pipeline] : made) {
 			impl->destroy(pipeline);
 		}
-		replace_embedded_shader(p_name, std::move(before));
+		for (auto &[name, words] : before) {
+			replace_embedded_shader(name, std::move(words));
+		}
 		throw;
 	}
 	for (auto &[index, pipeline] : made) {

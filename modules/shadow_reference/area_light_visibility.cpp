@@ -207,6 +207,9 @@ void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {
 		uint64_t ray_count = 0;
 		for (uint32_t y = begin.y; y < end.y; ++y) {
 			for (uint32_t x = begin.x; x < end.x; ++x) {
+				if (r_job.should_stop()) {
+					return; // the tile does not count as done
+				}
 				ray_count += trace_pixel(r_job, y * r_job.size_px.x + x);
 			}
 		}

@@ -40,9 +40,11 @@ class EditorBenchmark(EditorCase):
         self.finish()
         return seconds
 
-    def drag_size(self):
+    def drag_size(self, is_traced=False):
         """Milliseconds from each step of the mouse to the picture that shows it."""
         for _ in range(DRAGS):
+            if is_traced:
+                self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)
             self.drag("property light_size", 2)
             self.rest()
         times = self.get_state()["answers_ms"]
@@ -59,9 +61,8 @@ class EditorBenchmark(EditorCase):
             self.select_light()
             alone = self.drag_size()
             self.click("tab Error")
-            self.wait_for(lambda state: state["error"]["rays"] >= 16)
             count = len(self.get_state()["answers_ms"])
-            traced = self.drag_size()[count:]
+            traced = self.drag_size(is_traced=True)[count:]
             self.finish()
         return cold, warm, alone, traced
 

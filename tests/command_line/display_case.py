@@ -41,7 +41,7 @@ class DisplayTest(CommandLineTest):
 
     def press(self, *command):
         environment = {**os.environ, "DISPLAY": self.display}
-        subprocess.run(["xdotool", *command], env=environment, check=True, timeout=TIMEOUT_S)
+        subprocess.run(["xdotool", *command], env=environment, check=True, timeout=TIMEOUT_S, stdout=subprocess.DEVNULL)
 
     def finish(self, process):
         _, errors = process.communicate(timeout=TIMEOUT_S)

@@ -45,7 +45,9 @@ class EditorCase(DisplayTest):
         try:
             return load(self.items)
         except (OSError, ValueError):  # not there yet
-            return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0, "pictures": 0}
+            error = {"light": "", "refusal": "", "is_tracing": False, "rays": 0, "penumbra_mae": -1.0}
+            return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0,
+                    "pictures": 0, "answers_ms": [], "error": error}  # fmt: skip
 
     def wait_for(self, is_wanted, at_most_s=TIMEOUT_S):
         """The first state that is wanted. None comes in time: the test fails with the last one."""

@@ -34,6 +34,12 @@ def find_game(scene):
     return None
 
 
+def wait_until(is_so):
+    end = time.monotonic() + TIMEOUT_S
+    while not is_so() and time.monotonic() < end:
+        time.sleep(0.05)
+
+
 def tell(case, take):
     """case: an EditorCase. take(name) is called where there is something to be seen."""
     make_hard(case)
@@ -74,9 +80,7 @@ def tell(case, take):
     case.assertGreater(extras["light_size"], size)
 
     case.press("key", "F5")
-    end = time.monotonic() + TIMEOUT_S
-    while find_game(case.scene) is None and time.monotonic() < end:
-        time.sleep(0.05)
+    wait_until(lambda: find_game(case.scene) is not None)
     game = find_game(case.scene)
     case.assertIsNotNone(game, "the game runs")
     case.press("search", "--sync", "--pid", str(game))
@@ -84,5 +88,7 @@ def tell(case, take):
     take("editor_game")
     case.assertEqual(find_game(case.scene), game, "it still runs")
     os.kill(game, signal.SIGTERM)
-    case.press("search", "--sync", "--pid", str(case.process.pid), "windowfocus")  # as a window manager would
+    wait_until(lambda: find_game(case.scene) is None)
+    # As a window manager would, once the game's window is gone.
+    case.press("search", "--sync", "--pid", str(case.process.pid), "windowfocus", "sleep", "0.5")
     case.finish()

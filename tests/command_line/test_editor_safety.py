@@ -7,6 +7,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command_line_case import ROOT  # noqa: E402
+from display_case import TIMEOUT_S  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 
 FULL_DISK_BYTES = 6000  # less than the scene has, more than the file of --items
@@ -78,7 +79,7 @@ class EditorSafetyTest(EditorCase):
         self.wait_for(lambda state: "button Cancel" not in state["items"])
         self.press("key", "ctrl+q")
         self.click("button Save and close")
-        self.process.communicate()
+        self.process.communicate(timeout=TIMEOUT_S)
         self.assertEqual(self.process.returncode, 0)
         self.assert_saved_larger()
 

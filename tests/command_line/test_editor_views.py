@@ -37,14 +37,15 @@ class EditorViewsTest(EditorCase):
     def test_the_truth_can_be_stopped_and_started(self):
         self.open_editor()
         self.click("tab Error")
-        self.wait_for(lambda state: state["error"]["rays"] >= 16)
+        self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)
         self.click("button truth")
+        stopped = self.wait_for(lambda state: not state["error"]["is_tracing"])["error"]["rays"]
+        self.assertLess(stopped, 1024, "it was stopped before its end")
         self.rest()
-        stopped = self.get_state()["error"]["rays"]
-        self.rest()
-        self.assertEqual(self.get_state()["error"]["rays"], stopped)
+        self.assertEqual(self.get_state()["error"]["rays"], stopped, "what is known stays")
         self.click("button truth")
-        self.wait_for(lambda state: state["error"]["rays"] > stopped or state["error"]["rays"] >= 256)
+        self.wait_for(lambda state: state["error"]["is_tracing"])
+        self.wait_for(lambda state: state["error"]["rays"] > stopped)
         self.finish()
 
     def test_two_techniques_stand_side_by_side(self):

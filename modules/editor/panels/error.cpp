@@ -30,7 +30,7 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 		draw_row("receivers", p_metrics.receiver);
 		ImGui::EndTable();
 	}
-	ImGui::TextDisabled("%.0f penumbra pixels, %.1f %% of them too dark",
+	ImGui::TextDisabled("%.0f penumbra pixels; umbra over-estimated: %.1f %%",
 			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 
@@ -42,7 +42,8 @@ void draw_truth(EditorContext &r_context) {
 	}
 	r_context.note_item("button truth");
 	if (ImGui::IsItemHovered()) {
-		ImGui::SetTooltip("The reference is traced in the background while this tab is open");
+		ImGui::SetTooltip("The reference is traced in the background while this tab or the view "
+						  "\"error\" is open");
 	}
 	ImGui::SameLine();
 	ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
@@ -64,8 +65,13 @@ void draw_truth(EditorContext &r_context) {
 		ImGui::TextDisabled("%.1f s", state.round.seconds);
 	}
 	if (state.truth) {
-		ImGui::Text("Truth: %u rays a pixel, standard error %.4f", state.round.sample_count,
-				double(std::max(state.round.standard_error, 0.0f)));
+		ImGui::Text("Truth: %u rays a pixel, standard error", state.round.sample_count);
+		ImGui::SameLine();
+		if (state.round.standard_error < 0.0f) {
+			ImGui::TextUnformatted("unknown");
+		} else {
+			ImGui::Text("%.4f", double(state.round.standard_error));
+		}
 	}
 }
 

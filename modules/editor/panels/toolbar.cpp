@@ -35,12 +35,14 @@ void ask_to_open(EditorContext &r_context, const std::filesystem::path &p_path) 
 void draw_scenes(EditorContext &r_context, const char *p_heading,
 		const std::vector<std::filesystem::path> &p_scenes) {
 	ImGui::TextDisabled("%s", p_heading);
+	ImGui::PushID(p_heading); // the same scene may stand in both lists
 	for (const std::filesystem::path &scene : p_scenes) {
 		if (ImGui::Selectable(scene.string().c_str(), scene == r_context.document.get_path())) {
 			ask_to_open(r_context, scene);
 		}
 		r_context.note_item("open " + scene.filename().string());
 	}
+	ImGui::PopID();
 }
 
 /// A path to type, the project's scenes, and those that were open before.

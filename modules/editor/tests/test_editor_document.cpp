@@ -265,3 +265,28 @@ TEST_CASE("[EditorDocument] a scene that is not there is an error") {
 	const EditedProject project;
 	CHECK_THROWS_AS(EditorDocument(project.path / "none.gltf"), Error);
 }
+
+TEST_CASE("[EditorDocument] what lies aside and cannot be read is kept under another name") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	const fs::path aside = document.get_recovery_path();
+	save_file_atomically(aside, std::string_view("{ broken"));
+	CHECK(document.has_recovery());
+	CHECK_THROWS_AS(document.recover(), Error);
+	CHECK_FALSE(document.has_recovery());
+	CHECK(get_size(document) == 0.4);
+	document.set_property(find_light(document), "light_size", 0.5);
+	document.save();
+	CHECK(load_text_file(aside.string() + ".unread") == "{ broken");
+}
+
+TEST_CASE("[EditorDocument] saving keeps what an earlier editor put aside, until that is decided") {
+	const EditedProject project;
+	EditorDocument document(project.path);
+	fs::copy_file(project.scene, document.get_recovery_path());
+	document.set_property(find_light(document), "light_size", 0.5);
+	document.save();
+	CHECK(document.has_recovery());
+	document.discard_recovery();
+	CHECK_FALSE(document.has_recovery());
+}

@@ -47,6 +47,25 @@ TEST_CASE("[EditorSettings] the scene that was open last comes first, each once,
 	CHECK(settings.recent[9] == "/scenes/2.gltf");
 }
 
+TEST_CASE("[EditorSettings] the newest scene that is still there is opened without a name") {
+	const TemporaryFolder folder;
+	EditorSettings settings;
+	CHECK(settings.find_recent().empty());
+	save_file_atomically(folder.path / "there.gltf", std::string_view("{}"));
+	settings.add_recent(folder.path / "there.gltf");
+	settings.add_recent(folder.path / "gone.gltf");
+	CHECK(settings.find_recent() == folder.path / "there.gltf");
+}
+
+TEST_CASE("[EditorSettings] a name that is no text is no reason to keep nothing") {
+	const TemporaryConfig folder;
+	EditorSettings settings;
+	settings.tab = "Error";
+	settings.add_recent("/scenes/\xff.gltf");
+	CHECK_NOTHROW(settings.save());
+	CHECK(EditorSettings::load().tab == "Error");
+}
+
 TEST_CASE("[EditorSettings] a damaged file or a value out of range gives the default") {
 	const TemporaryConfig folder;
 	for (const char *text : { "", "{", "[]", "null", R"({ "left": "wide" })", R"({ "recent": 3 })",
