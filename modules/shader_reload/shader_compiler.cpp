@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <sstream>
 
 namespace gnomon {
@@ -117,11 +116,26 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 }
 
 std::vector<std::string> find_includes(const std::string &p_text) {
-	static const std::regex INCLUDE(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re");
+	const char *const BLANKS = " \t";
 	std::vector<std::string> names;
-	for (std::sregex_iterator match(p_text.begin(), p_text.end(), INCLUDE);
-			match != std::sregex_iterator(); ++match) {
-		names.push_back((*match)[1].str());
+	std::istringstream lines(p_text);
+	for (std::string line; std::getline(lines, line);) {
+		// # include "name", with blanks anywhere.
+		size_t place = line.find_first_not_of(BLANKS);
+		if (place == std::string::npos || line[place] != '#') {
+			continue;
+		}
+		place = line.find_first_not_of(BLANKS, place + 1);
+		if (place == std::string::npos || line.compare(place, 7, "include") != 0) {
+			continue;
+		}
+		const size_t begin = line.find_first_not_of(BLANKS, place + 7);
+		if (begin == std::string::npos || line[begin] != '"') {
+			continue;
+		}
+		if (const size_t end = line.find('"', begin + 1); end != std::string::npos) {
+			names.push_back(line.substr(begin + 1, end - begin - 1));
+		}
 	}
 	return names;
 }
