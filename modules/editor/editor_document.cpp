@@ -230,7 +230,7 @@ bool EditorDocument::autosave(Clock::time_point p_now) {
 	if (!changed_since) {
 		changed_since = p_now;
 	}
-	if (p_now - *changed_since < AUTOSAVE_INTERVAL) {
+	if (p_now - *changed_since < autosave_interval) {
 		return true;
 	}
 	changed_since = p_now;

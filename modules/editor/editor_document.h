@@ -17,7 +17,7 @@ namespace gnomon {
 class EditorDocument {
 public:
 	using Clock = std::chrono::steady_clock;
-	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 };
+	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // unless told otherwise
 
 	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
 	/// read opens empty and is said in the log, see get_failure.
@@ -68,6 +68,7 @@ public:
 	/// Writes the changes aside when they have waited long enough. False: that failed; once a while
 	/// it is tried again.
 	bool autosave(Clock::time_point p_now);
+	void set_autosave_interval(std::chrono::seconds p_interval) { autosave_interval = p_interval; }
 	/// Writes changes aside now; for when the program is about to end.
 	void save_aside();
 	/// True when an earlier program ended without saving what is there.
@@ -106,6 +107,7 @@ private:
 	bool is_recovered = false;
 	bool owns_recovery = false; // what lies aside is this document's, not an earlier one's
 	FileTimes file_times;
+	std::chrono::seconds autosave_interval = AUTOSAVE_INTERVAL;
 	uint64_t autosaved_serial = 0;
 	std::optional<Clock::time_point> changed_since;
 };

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 const uint32_t LEAST_WINDOW_PX = 320;
 const uint32_t GREATEST_WINDOW_PX = 16384;
 const uint32_t GREATEST_SAMPLE_COUNT = 65536;
+const uint32_t GREATEST_AUTOSAVE_S = 600;
 
 std::filesystem::path get_path() {
 	return get_config_folder() / "editor.json";
@@ -48,6 +49,7 @@ EditorSettings read_settings(const Json &p_json) {
 	read(p_json, "tab", settings.tab);
 	read(p_json, "truth_rays", settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
 	read(p_json, "shows_penumbra", settings.shows_penumbra);
+	read(p_json, "autosave_s", settings.autosave_s, 1u, GREATEST_AUTOSAVE_S);
 	read(p_json, "recent", settings.recent);
 	return settings;
 }
@@ -72,7 +74,7 @@ void EditorSettings::save() const {
 	const Json json = { { "left", layout.left }, { "right", layout.right },
 		{ "bottom", layout.bottom }, { "window_width", window_size_px.x },
 		{ "window_height", window_size_px.y }, { "tab", tab }, { "truth_rays", sample_count },
-		{ "shows_penumbra", shows_penumbra }, { "recent", recent } };
+		{ "shows_penumbra", shows_penumbra }, { "autosave_s", autosave_s }, { "recent", recent } };
 	try {
 		// A path need not be text in any encoding.
 		const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -28,6 +28,7 @@ struct EditorSettings {
 	std::string tab;				 // that is open below the viewport; empty: the first
 	uint32_t sample_count = 1024;	 // rays a pixel of the error panel's truth
 	bool shows_penumbra = true;		 // in the viewport
+	uint32_t autosave_s = 20;		 // after which changes are kept aside, 1 to 600
 	std::vector<std::string> recent; // scenes, absolute, the newest first
 
 	/// What is missing or out of range has its default; a damaged file only warns.

@@ -46,6 +46,7 @@ public:
 			shaders(*device, p_options.shaders), context{ document, device->get_info() },
 			session(context, p_options.program) {
 		session.look_as_scene();
+		document.set_autosave_interval(std::chrono::seconds(settings.autosave_s));
 		settings.add_recent(document.get_path());
 		context.recent = settings.recent;
 		context.viewport.shows_penumbra = settings.shows_penumbra;

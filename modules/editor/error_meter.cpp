@@ -89,10 +89,10 @@ void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 	truth.stop();
 	asked_truth = nullptr;
 	r_state.refusal = std::move(p_text);
+	is_error_stale |= r_state.truth != nullptr; // once: without one there is nothing to take back
 	r_state.truth_hash = 0;
 	r_state.truth.reset();
 	r_state.metrics.reset();
-	is_error_stale = true;
 }
 
 void ErrorMeter::forget_cost() {

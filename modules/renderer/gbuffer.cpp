@@ -1,9 +1,11 @@
 #include "modules/renderer/gbuffer.h"
 
 #include "modules/core/error.h"
+#include "modules/renderer/normal_packing.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace gnomon {
 
@@ -31,6 +33,24 @@ glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_s
 	return p_frame.near_m / p_depth *
 			(glm::vec3(p_frame.forward) + (2.0f * uv.x - 1.0f) * glm::vec3(p_frame.right_tangent) +
 					(1.0f - 2.0f * uv.y) * glm::vec3(p_frame.up_tangent));
+}
+
+std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
+		const uint8_t *p_depths, const uint8_t *p_normals) {
+	std::vector<SurfacePoint> surfaces(size_t(p_size_px.x) * p_size_px.y);
+	for (size_t index = 0; index < surfaces.size(); ++index) {
+		float depth = 0;
+		uint32_t packed_normal = 0;
+		std::memcpy(&depth, p_depths + index * sizeof(depth), sizeof(depth));
+		std::memcpy(
+				&packed_normal, p_normals + index * sizeof(packed_normal), sizeof(packed_normal));
+		if (depth > 0.0f) {
+			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
+			surfaces[index] = { true, compute_position(p_frame, p_size_px, pixel, depth),
+				unpack_normal(packed_normal) };
+		}
+	}
+	return surfaces;
 }
 
 float compute_exposure(const SceneSnapshot &p_scene) {

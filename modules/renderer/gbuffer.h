@@ -3,6 +3,7 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/renderer/light_view.h"
 #include "modules/renderer/mesh_store.h"
+#include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include "shared/frame_shared.h"
@@ -26,6 +27,11 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 /// of depth_inc.glsl, for passes that run on the CPU.
 glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
 		glm::uvec2 p_pixel, float p_depth);
+
+/// What the camera sees in each pixel, for passes that run on the CPU: of the texels of `depth` and
+/// `geometric_normal`, rows from the top.
+std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
+		const uint8_t *p_depths, const uint8_t *p_normals);
 
 /// Scales radiance so that a white surface at the middle of the casters, facing the brightest
 /// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.

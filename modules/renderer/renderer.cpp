@@ -3,7 +3,6 @@
 #include "modules/core/error.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
-#include "modules/renderer/normal_packing.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -47,25 +46,6 @@ std::vector<float> read_mask(const std::vector<uint8_t> &p_bytes, Format p_forma
 		values[index] = glm::unpackHalf1x16(half);
 	}
 	return values;
-}
-
-std::vector<SurfacePoint> read_surfaces(const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
-		const std::vector<uint8_t> &p_depths, const std::vector<uint8_t> &p_normals) {
-	const shader::FrameConstants frame = compute_frame_constants(p_scene, p_size_px);
-	std::vector<SurfacePoint> surfaces(size_t(p_size_px.x) * p_size_px.y);
-	for (size_t index = 0; index < surfaces.size(); ++index) {
-		float depth = 0;
-		uint32_t packed_normal = 0;
-		std::memcpy(&depth, p_depths.data() + index * sizeof(depth), sizeof(depth));
-		std::memcpy(&packed_normal, p_normals.data() + index * sizeof(packed_normal),
-				sizeof(packed_normal));
-		if (depth > 0.0f) {
-			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
-			surfaces[index] = { true, compute_position(frame, p_size_px, pixel, depth),
-				unpack_normal(packed_normal) };
-		}
-	}
-	return surfaces;
 }
 
 } // namespace
@@ -323,8 +303,8 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();
 	result.aliased_bytes = frame.graph.get_aliased_bytes();
 	if (!frame.depth_bytes.empty()) {
-		result.surfaces =
-				read_surfaces(scene, p_request.size_px, frame.depth_bytes, frame.normal_bytes);
+		result.surfaces = read_surfaces(compute_frame_constants(scene, p_request.size_px),
+				p_request.size_px, frame.depth_bytes.data(), frame.normal_bytes.data());
 	}
 	if (!frame.mask_bytes.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);

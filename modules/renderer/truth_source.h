@@ -45,8 +45,8 @@ public:
 			const std::function<void(float)> &p_progress) = 0;
 };
 
-/// Of everything that the light's exact mask depends on, but the pixels' surfaces: equal hashes,
-/// equal masks.
+/// Of everything that the light's exact mask depends on, the camera included: equal hashes, equal
+/// masks.
 uint64_t compute_truth_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px);
 

@@ -2,6 +2,18 @@
 
 namespace gnomon {
 
+std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
+		const std::function<bool(size_t)> &p_is_receiver) {
+	std::vector<ReceiverPoint> points(p_surfaces.size());
+	for (size_t pixel = 0; pixel < points.size(); ++pixel) {
+		if (p_surfaces[pixel].is_there && p_is_receiver(pixel)) {
+			points[pixel] = { p_surfaces[pixel].position, p_surfaces[pixel].geometric_normal,
+				true };
+		}
+	}
+	return points;
+}
+
 CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
 	CasterTriangles triangles;
 	for (const InstanceSnapshot &instance : p_scene.instances) {

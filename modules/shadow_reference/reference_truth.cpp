@@ -13,12 +13,8 @@ TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<boo
 				question.surfaces.size() == pixel_count && question.receiver.size() == pixel_count,
 				question.surfaces.size(), " surfaces and ", question.receiver.size(),
 				" receivers for ", pixel_count, " pixels");
-		points.resize(pixel_count);
-		for (size_t index = 0; index < pixel_count; ++index) {
-			const SurfacePoint &surface = question.surfaces[index];
-			points[index] = { surface.position, surface.geometric_normal,
-				surface.is_there && question.receiver[index] >= 0.5f };
-		}
+		points = make_receiver_points(question.surfaces,
+				[&](size_t p_pixel) { return question.receiver[p_pixel] >= 0.5f; });
 		const CasterTriangles triangles = collect_triangles(*question.scene);
 		tracer.emplace(triangles.positions, triangles.indices);
 	}

@@ -5,7 +5,6 @@
 #include "modules/core/log.h"
 #include "modules/core/progress.h"
 #include "modules/renderer/gbuffer.h"
-#include "modules/renderer/normal_packing.h"
 #include "modules/shadow_reference/reference_input.h"
 
 #include <chrono>
@@ -83,22 +82,10 @@ void ShadowReference::compute(
 void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 	const size_t pixel_count = size_t(p_job.size_px.x) * p_job.size_px.y;
 	const uint8_t *receivers = p_context.get_mapped(p_job.receivers);
-	const uint8_t *depths = p_context.get_mapped(p_job.depth);
-	const uint8_t *normals = p_context.get_mapped(p_job.normal);
-	std::vector<ReceiverPoint> points(pixel_count);
-	for (size_t index = 0; index < pixel_count; ++index) {
-		float depth = 0;
-		uint32_t packed_normal = 0;
-		std::memcpy(&depth, depths + index * sizeof(float), sizeof(float));
-		std::memcpy(&packed_normal, normals + index * sizeof(uint32_t), sizeof(uint32_t));
-		points[index].is_receiver = receivers[index] != 0 && depth > 0.0f;
-		if (points[index].is_receiver) {
-			const uint32_t x = static_cast<uint32_t>(index % p_job.size_px.x);
-			const uint32_t y = static_cast<uint32_t>(index / p_job.size_px.x);
-			points[index].position = compute_position(p_job.frame, p_job.size_px, { x, y }, depth);
-			points[index].geometric_normal = unpack_normal(packed_normal);
-		}
-	}
+	const std::vector<ReceiverPoint> points = make_receiver_points(
+			read_surfaces(p_job.frame, p_job.size_px, p_context.get_mapped(p_job.depth),
+					p_context.get_mapped(p_job.normal)),
+			[&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
 	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
 		const std::optional<Truth> stored =

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import time
 
 from command_line_case import GNOMON, CommandLineTest
 
@@ -42,6 +43,18 @@ class DisplayTest(CommandLineTest):
     def press(self, *command):
         environment = {**os.environ, "DISPLAY": self.display}
         subprocess.run(["xdotool", *command], env=environment, check=True, timeout=TIMEOUT_S, stdout=subprocess.DEVNULL)
+
+    def focus(self, process):
+        """As a window manager would, until it holds: windows that vanish meanwhile take the focus away again."""
+        environment = {**os.environ, "DISPLAY": self.display}
+        pid = str(process.pid)
+        find = ["xdotool", "search", "--onlyvisible", "--all", "--pid", pid, "--name", "."]
+        check = ["windowfocus", "sleep", "0.5", "getwindowfocus", "getwindowpid"]
+        end = time.monotonic() + TIMEOUT_S
+        answer = None
+        while answer is None or answer.stdout.strip() != pid:
+            self.assertLess(time.monotonic(), end, "the window of %s does not keep the focus: %s" % (pid, answer))
+            answer = subprocess.run([*find, *check], env=environment, capture_output=True, text=True, timeout=TIMEOUT_S)
 
     def finish(self, process):
         _, errors = process.communicate(timeout=TIMEOUT_S)

@@ -89,6 +89,5 @@ def tell(case, take):
     case.assertEqual(find_game(case.scene), game, "it still runs")
     os.kill(game, signal.SIGTERM)
     wait_until(lambda: find_game(case.scene) is None)
-    # As a window manager would, once the game's window is gone.
-    case.press("search", "--sync", "--pid", str(case.process.pid), "windowfocus", "sleep", "0.5")
+    case.focus(case.process)
     case.finish()

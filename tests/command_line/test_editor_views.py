@@ -7,7 +7,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command_line_case import ROOT, find_technique  # noqa: E402
-from editor_case import EditorCase  # noqa: E402
+from editor_case import EditorCase, load  # noqa: E402
 
 SOFT_MAE = 0.05  # of the penumbra: a soft shadow is below, a hard one far above
 TONE_MAP = os.path.join("renderer", "tone_map.comp")
@@ -46,6 +46,22 @@ class EditorViewsTest(EditorCase):
         self.click("button truth")
         self.wait_for(lambda state: state["error"]["is_tracing"])
         self.wait_for(lambda state: state["error"]["rays"] > stopped)
+        self.finish()
+
+    def test_without_a_shadow_there_is_no_error_and_the_editor_rests(self):
+        scene = load(self.scene)
+        for light in scene["extensions"]["KHR_lights_punctual"]["lights"]:
+            light.setdefault("extras", {})["shadow_enabled"] = False
+        self.save(scene)
+        self.open_editor()
+        self.click("tab Error")
+        self.wait_for(lambda state: "No light" in state["error"]["refusal"])
+        picture = self.photograph()
+        self.choose("view", "error")
+        self.assertLess(self.count_different(picture, self.photograph()), 0.001)  # the picture, as there is no error
+        count = self.get_state()["pictures"]
+        self.rest()
+        self.assertEqual(self.get_state()["pictures"], count)
         self.finish()
 
     def test_two_techniques_stand_side_by_side(self):

@@ -87,6 +87,10 @@ TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
 		document.set_property(find_light(document), "light_size", 0.75);
 		CHECK(document.autosave(START)); // begins to wait
 		CHECK_FALSE(document.has_recovery());
+		document.set_autosave_interval(4 * EditorDocument::AUTOSAVE_INTERVAL);
+		CHECK(document.autosave(LATER));
+		CHECK_FALSE(document.has_recovery());
+		document.set_autosave_interval(EditorDocument::AUTOSAVE_INTERVAL);
 		CHECK(document.autosave(LATER));
 		CHECK(document.has_recovery());
 	} // as if the program had ended

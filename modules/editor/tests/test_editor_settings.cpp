@@ -23,6 +23,7 @@ TEST_CASE("[EditorSettings] what was chosen is there the next time") {
 	settings.tab = "Error";
 	settings.sample_count = 256;
 	settings.shows_penumbra = false;
+	settings.autosave_s = 60;
 	settings.add_recent("/a/b.gltf");
 	settings.save();
 	const EditorSettings again = EditorSettings::load();
@@ -32,6 +33,7 @@ TEST_CASE("[EditorSettings] what was chosen is there the next time") {
 	CHECK(again.tab == "Error");
 	CHECK(again.sample_count == 256);
 	CHECK_FALSE(again.shows_penumbra);
+	CHECK(again.autosave_s == 60);
 	CHECK(again.recent == std::vector<std::string>{ "/a/b.gltf" });
 }
 
@@ -75,12 +77,13 @@ TEST_CASE("[EditorSettings] a damaged file or a value out of range gives the def
 		CHECK(EditorSettings::load().layout.left == EditorLayout().left);
 	}
 	write(folder,
-			R"({ "left": 0.9, "right": -1, "window_width": 3, "truth_rays": 0, "tab": "Error" })");
+			R"({ "left": 0.9, "right": -1, "window_width": 3, "truth_rays": 0, "autosave_s": 0, "tab": "Error" })");
 	const EditorSettings settings = EditorSettings::load();
 	CHECK(settings.layout.left == EditorLayout().left);
 	CHECK(settings.layout.right == EditorLayout().right);
 	CHECK(settings.window_size_px == EditorSettings().window_size_px);
 	CHECK(settings.sample_count == EditorSettings().sample_count);
+	CHECK(settings.autosave_s == EditorSettings().autosave_s);
 	CHECK(settings.tab == "Error");
 }
 

@@ -83,6 +83,14 @@ std::unique_ptr<Scene> make_generated_scene() {
 	return scene;
 }
 
+/// One node of the file that is a mesh and a light.
+std::unique_ptr<Scene> load_shining_mesh(GltfTestFolder &r_folder) {
+	Json json = make_triangle(r_folder);
+	json["extensions"] = make_lamp()["extensions"];
+	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
+	return r_folder.load(json);
+}
+
 } // namespace
 
 TEST_CASE("[GltfWriter] a scene saved unchanged is the same file, value for value") {
@@ -256,10 +264,7 @@ TEST_CASE("[GltfWriter] nodes can be added, removed and hung elsewhere") {
 
 TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and removed") {
 	GltfTestFolder folder;
-	Json json = make_triangle(folder);
-	json["extensions"] = make_lamp()["extensions"];
-	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
-	const auto scene = folder.load(json);
+	const auto scene = load_shining_mesh(folder);
 	Light3D &light = get_light(*scene);
 	light.properties["light_size"] = 0.3;
 	save_gltf(*scene, folder.path / "a.gltf");
@@ -276,10 +281,7 @@ TEST_CASE("[GltfWriter] a light of a mesh node can be changed, moved away and re
 
 TEST_CASE("[GltfWriter] a light of a mesh node keeps a name of its own") {
 	GltfTestFolder folder;
-	Json json = make_triangle(folder);
-	json["extensions"] = make_lamp()["extensions"];
-	json["nodes"][0]["extensions"] = make_lamp()["nodes"][0]["extensions"];
-	const auto scene = folder.load(json);
+	const auto scene = load_shining_mesh(folder);
 	Light3D &light = get_light(*scene);
 	light.name = "Key light";
 	light.properties["light_size"] = 0.3;
