@@ -1,11 +1,33 @@
 #include "modules/editor/ui_context.h"
 
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
 
 #include <cmath>
+#include <optional>
 
 namespace gnomon {
+
+namespace {
+
+/// Where the mouse was when a button of it went down or up since the last frame. Dear ImGui, of
+/// which there is one, asks for the place once a frame: after a long one, a mouse that went on at
+/// once would have clicked on nothing.
+std::optional<ImVec2> button_position;
+std::optional<ImVec2>
+		last_position; // of the events so far; glfwGetCursorPos may tell what is still to come
+
+void note_position(GLFWwindow * /*p_window*/, double p_x, double p_y) {
+	last_position = ImVec2(static_cast<float>(p_x), static_cast<float>(p_y));
+}
+
+void note_button(
+		GLFWwindow * /*p_window*/, int /*p_button*/, int /*p_action*/, int /*p_modifiers*/) {
+	button_position = last_position;
+}
+
+} // namespace
 
 UiContext::UiContext(Window &p_window) {
 	IMGUI_CHECKVERSION();
@@ -20,6 +42,11 @@ UiContext::UiContext(Window &p_window) {
 	ImGui::StyleColorsDark();
 	ImGui::GetStyle().ScaleAllSizes(scale);
 	ImGui::GetStyle().WindowRounding = 0.0f;
+	button_position.reset();
+	last_position.reset();
+	// Dear ImGui puts its own before these, and calls them.
+	glfwSetMouseButtonCallback(p_window.get_handle(), note_button);
+	glfwSetCursorPosCallback(p_window.get_handle(), note_position);
 	ImGui_ImplGlfw_InitForOther(p_window.get_handle(), true);
 }
 
@@ -30,6 +57,10 @@ UiContext::~UiContext() {
 
 void UiContext::begin_frame() {
 	ImGui_ImplGlfw_NewFrame();
+	if (button_position) {
+		ImGui::GetIO().MousePos = *button_position;
+		button_position.reset();
+	}
 	ImGui::NewFrame();
 }
 

@@ -14,6 +14,7 @@ from command_line_case import ROOT, load_json
 from display_case import TIMEOUT_S, DisplayTest
 
 LIGHT = "Spot"
+NOWHERE = ("1100", "17")  # in the tool bar, where nothing answers to the mouse
 DRAG_STEPS = 12
 
 
@@ -86,7 +87,8 @@ class EditorCase(DisplayTest):
         self.wait_for(lambda state: state["frame"] > frame + 2 and state["is_resting"])
 
     def photograph(self, begin=0.0, end=1.0):
-        """What the viewport shows between two shares of its width, as raw bytes."""
+        """What the viewport shows between two shares of its width, as raw bytes; not what the mouse calls up there."""
+        self.press("mousemove", *NOWHERE, "sleep", "0.1")
         self.rest()
         left, top, right, bottom = (int(value) for value in self.get_state()["items"]["viewport"])
         left, right = int(left + begin * (right - left)), int(left + end * (right - left))
