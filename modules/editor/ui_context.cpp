@@ -11,12 +11,11 @@ namespace gnomon {
 
 namespace {
 
-/// Where the mouse was when a button of it went down or up since the last frame. Dear ImGui, of
-/// which there is one, asks for the place once a frame: after a long one, a mouse that went on at
-/// once would have clicked on nothing.
-std::optional<ImVec2> button_position;
-std::optional<ImVec2>
-		last_position; // of the events so far; glfwGetCursorPos may tell what is still to come
+// Dear ImGui, of which there is one, asks for the mouse's place once a frame, and gets the one that
+// it has by then, ahead of the events that were read. During a long frame a mouse that went on at
+// once would click on nothing, or drag on what it had let go. So the events' own places count.
+std::optional<ImVec2> last_position;
+std::optional<ImVec2> button_position; // when a button went down or up since the last frame
 
 void note_position(GLFWwindow * /*p_window*/, double p_x, double p_y) {
 	last_position = ImVec2(static_cast<float>(p_x), static_cast<float>(p_y));
@@ -57,10 +56,11 @@ UiContext::~UiContext() {
 
 void UiContext::begin_frame() {
 	ImGui_ImplGlfw_NewFrame();
-	if (button_position) {
-		ImGui::GetIO().MousePos = *button_position;
-		button_position.reset();
+	ImGuiIO &io = ImGui::GetIO();
+	if (last_position && ImGui::IsMousePosValid(&io.MousePos)) { // else it is not over the window
+		io.MousePos = button_position.value_or(*last_position);
 	}
+	button_position.reset();
 	ImGui::NewFrame();
 }
 
