@@ -14,7 +14,7 @@ class DisplayTest(CommandLineTest):
     def setUpClass(cls):
         read_end, write_end = os.pipe()
         cls.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1400x900x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1400x900x24", "-nolisten", "tcp", "-noreset"],
             pass_fds=[write_end],
             stderr=subprocess.DEVNULL,
         )
