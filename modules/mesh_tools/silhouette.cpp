@@ -87,9 +87,13 @@ std::vector<uint32_t> find_silhouette_edges(
 		bool is_silhouette = edge.face1 == NO_FACE;
 		if (!is_silhouette) {
 			const glm::uvec3 face0 = { edge.a, edge.b, find_third(p_topology, edge.face0, edge) };
-			const glm::uvec3 face1 = { edge.b, edge.a, find_third(p_topology, edge.face1, edge) };
-			is_silhouette = is_turned_to_light(p_topology, p_light_node, face0) !=
-					is_turned_to_light(p_topology, p_light_node, face1);
+			glm::uvec3 face1 = { edge.b, edge.a, find_third(p_topology, edge.face1, edge) };
+			if (edge.is_inconsistent) {
+				std::swap(face1.x, face1.y);
+			}
+			is_silhouette = (is_turned_to_light(p_topology, p_light_node, face0) !=
+									is_turned_to_light(p_topology, p_light_node, face1)) !=
+					edge.is_inconsistent;
 		}
 		if (is_silhouette) {
 			found.push_back(i);

@@ -1,5 +1,8 @@
 #include "modules/renderer/caster_pass.h"
 
+#include <numeric>
+#include <set>
+
 namespace gnomon {
 
 std::vector<CasterDraw> build_caster_draws(const ShadowTechnique::Inputs &p_inputs,
@@ -46,6 +49,43 @@ void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 				p_context.commands.bind_pipeline(pipeline);
 				record_caster_draws(p_context.commands, draws);
 			});
+}
+
+std::vector<uint32_t> collect_casters(
+		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices) {
+	std::set<uint32_t> instances;
+	for (uint32_t view : p_view_indices) {
+		const std::vector<uint32_t> &listed = p_inputs.casters[view].instances;
+		instances.insert(listed.begin(), listed.end());
+	}
+	return { instances.begin(), instances.end() };
+}
+
+std::vector<LightView> build_listing_views(
+		const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+	const uint32_t size_px = 64;
+	const uint32_t border_px = 1;
+	return build_light_views(p_light, p_scene, size_px, border_px);
+}
+
+std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan) {
+	std::vector<uint32_t> views(p_inputs.views.size());
+	std::iota(views.begin(), views.end(), 0u);
+	for (uint32_t view : views) {
+		r_plan.leave_out_light_view(view, "nothing is drawn from the light");
+	}
+	return collect_casters(p_inputs, views);
+}
+
+RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px) {
+	return r_graph.create_texture({ "shadow mask", Format::R16_SFLOAT, p_size_px, 1,
+			TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
+}
+
+RGTexture create_stencil_target(
+		RenderGraph &r_graph, const std::string &p_name, glm::uvec2 p_size_px) {
+	return r_graph.create_texture(
+			{ p_name, Format::D32_SFLOAT_S8_UINT, p_size_px, 1, TextureUsage::DEPTH_ATTACHMENT });
 }
 
 } // namespace gnomon

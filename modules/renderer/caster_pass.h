@@ -34,4 +34,22 @@ void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 		const ShadowTechnique::Inputs &p_inputs, const LightView &p_view,
 		const CasterList &p_casters, RGTexture p_target, uint32_t p_layer);
 
+/// The casters of all views that are listed in p_view_indices, each once, ascending.
+std::vector<uint32_t> collect_casters(
+		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices);
+
+// For techniques that draw nothing from the light, but have to know which casters matter.
+
+/// Views for ShadowTechnique::get_light_views that only list casters.
+std::vector<LightView> build_listing_views(
+		const LightSnapshot &p_light, const SceneSnapshot &p_scene);
+/// Leaves out all of the light's views, and returns their casters, ascending.
+std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
+
+/// A mask that is drawn into: R16_SFLOAT.
+RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px);
+/// A D32_SFLOAT_S8_UINT target.
+RGTexture create_stencil_target(
+		RenderGraph &r_graph, const std::string &p_name, glm::uvec2 p_size_px);
+
 } // namespace gnomon

@@ -52,7 +52,8 @@ std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topol
 		record.opposite0 = find_opposite(p_topology, edge.face0, edge.a, edge.b);
 		record.opposite1 = edge.face1 == NO_FACE
 				? TOPOLOGY_NO_VERTEX
-				: find_opposite(p_topology, edge.face1, edge.a, edge.b);
+				: find_opposite(p_topology, edge.face1, edge.a, edge.b) |
+						(edge.is_inconsistent ? TOPOLOGY_EDGE_INCONSISTENT : 0);
 		records.push_back(record);
 	}
 	return records;
@@ -67,6 +68,8 @@ std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology) {
 				flags[edge.face0] |= TOPOLOGY_FACE_OWNS_EDGE << corner;
 				flags[edge.face0] |=
 						edge.face1 == NO_FACE ? TOPOLOGY_FACE_HAS_BOUNDARY << corner : 0;
+				flags[edge.face0] |=
+						edge.is_inconsistent ? TOPOLOGY_FACE_HAS_INCONSISTENT << corner : 0;
 			}
 		}
 	}
@@ -99,7 +102,8 @@ GpuTopology build_gpu_topology(
 	gpu.normals = upload("welded normals", vertex_usage, normals);
 	gpu.edges = upload("edges", BufferUsage::STORAGE, build_edge_records(topology));
 	gpu.face_flags = upload("face flags", BufferUsage::STORAGE, build_face_flags(topology));
-	gpu.adjacency_indices = upload("adjacency", BufferUsage::INDEX, topology.adjacency_indices);
+	gpu.adjacency_indices = upload(
+			"adjacency", BufferUsage::INDEX | BufferUsage::STORAGE, topology.adjacency_indices);
 	gpu.edge_count = static_cast<uint32_t>(topology.edges.size());
 	gpu.adjacency_index_count = static_cast<uint32_t>(topology.adjacency_indices.size());
 	return gpu;

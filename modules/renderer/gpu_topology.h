@@ -16,7 +16,7 @@ struct GpuTopology {
 	OwnedBuffer normals;		   // VERTEX | STORAGE, vec4; zero where the faces cancel
 	OwnedBuffer edges;			   // STORAGE, shader::TopologyEdge, see order_edges_by_face
 	OwnedBuffer face_flags;		   // STORAGE, one word per face, TOPOLOGY_FACE_*
-	OwnedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
+	OwnedBuffer adjacency_indices; // INDEX | STORAGE, six per face, see MeshTopology
 	uint32_t edge_count = 0;
 	uint32_t adjacency_index_count = 0;
 	std::shared_ptr<const MeshTopology> topology;

@@ -1,6 +1,7 @@
 #include "modules/rendering_device/access.h"
 
 #include "modules/core/error.h"
+#include "modules/rendering_device/formats.h"
 
 namespace gnomon {
 
@@ -86,6 +87,20 @@ const AccessScope &get_access_scope(Access p_access) {
 
 VkAccessFlags2 get_write_access(Access p_access) {
 	return get_access_scope(p_access).access & WRITES;
+}
+
+VkImageLayout get_layout(VkImageLayout p_layout, Format p_format) {
+	if (!has_stencil(p_format)) {
+		return p_layout;
+	}
+	switch (p_layout) {
+		case VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL:
+			return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+		case VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL:
+			return VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+		default:
+			return p_layout;
+	}
 }
 
 Dependency compute_dependency(const Barrier &p_barrier) {

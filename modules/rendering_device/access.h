@@ -26,5 +26,7 @@ struct Dependency {
 	bool is_needed = true; // false: the accesses need no barrier between them
 };
 Dependency compute_dependency(const Barrier &p_barrier);
+/// The layout of an access, for this format: an attachment with stencil has layouts of its own.
+VkImageLayout get_layout(VkImageLayout p_layout, Format p_format);
 
 } // namespace gnomon

@@ -35,19 +35,20 @@ void CommandList::Impl::push_barrier(const Barrier &p_barrier,
 		TextureResource &texture = device->textures.get(p_barrier.texture);
 		GNOMON_ASSERT(dependency.new_layout != VK_IMAGE_LAYOUT_UNDEFINED, "texture '",
 				texture.desc.name, "' cannot have access ", static_cast<int>(p_barrier.after));
-		texture.recorded_layout = dependency.new_layout;
+		const Format format = texture.desc.format;
+		texture.recorded_layout = get_layout(dependency.new_layout, format);
 		if (dependency.is_needed) {
 			r_images.push_back({ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
 					.srcStageMask = dependency.source_stages,
 					.srcAccessMask = dependency.source_access,
 					.dstStageMask = dependency.target_stages,
 					.dstAccessMask = dependency.target_access,
-					.oldLayout = dependency.old_layout,
-					.newLayout = dependency.new_layout,
+					.oldLayout = get_layout(dependency.old_layout, format),
+					.newLayout = get_layout(dependency.new_layout, format),
 					.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
 					.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
 					.image = texture.image,
-					.subresourceRange = { .aspectMask = get_aspect(texture.desc.format),
+					.subresourceRange = { .aspectMask = get_aspect(format),
 							.levelCount = 1,
 							.layerCount = VK_REMAINING_ARRAY_LAYERS } });
 		}

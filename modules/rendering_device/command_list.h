@@ -31,6 +31,8 @@ public:
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
 	/// Nothing outside is drawn; the next set_viewport covers all of it again.
 	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
+	/// Of the pipelines with has_depth_bounds; each begin_rendering sets 0 to 1.
+	void set_depth_bounds(float p_least, float p_greatest);
 	void set_cull_mode(CullMode p_mode);
 	/// Mirrored transforms wind their front faces the other way.
 	enum class Winding { NORMAL, MIRRORED };

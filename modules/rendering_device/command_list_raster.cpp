@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/rendering_device/access.h"
 #include "modules/rendering_device/formats.h"
 #include "modules/rendering_device/rendering_device_impl.h"
 
@@ -30,12 +31,13 @@ VkClearColorValue make_clear_value(Format p_format, glm::vec4 p_value) {
 	return value;
 }
 
-std::string describe_formats(const std::vector<Format> &p_formats, bool p_has_depth) {
+std::string describe_formats(
+		const std::vector<Format> &p_formats, const std::optional<Format> &p_depth) {
 	std::string description;
 	for (const Format format : p_formats) {
 		description += text(get_format_name(format), " ");
 	}
-	return description + (p_has_depth ? "with depth" : "without depth");
+	return description + (p_depth ? text("with ", get_format_name(*p_depth)) : "without depth");
 }
 
 } // namespace
@@ -78,7 +80,7 @@ void CommandList::begin_rendering_of_size(
 				"the swapchain stores BGRA; draw into a texture and blit_texture it");
 	}
 	VkRenderingAttachmentInfo depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
-	impl.has_target_depth = p_depth != nullptr;
+	impl.target_depth_format.reset();
 	impl.is_target_depth_read_only = false;
 	if (p_depth) {
 		TextureResource &texture = device.textures.get(p_depth->texture);
@@ -87,31 +89,37 @@ void CommandList::begin_rendering_of_size(
 				p_size_px.x, " x ", p_size_px.y);
 		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::DEPTH_ATTACHMENT), "target '",
 				texture.desc.name, "' lacks the usage DEPTH_ATTACHMENT");
-		impl.is_target_depth_read_only =
-				texture.recorded_layout == VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL;
+		const Format format = texture.desc.format;
+		impl.target_depth_format = format;
+		const VkImageLayout read_only = get_layout(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
+		impl.is_target_depth_read_only = texture.recorded_layout == read_only;
 		GNOMON_ASSERT(!impl.is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
 				texture.desc.name, "' has Access::DEPTH_READ and must be kept");
 		depth.imageView = device.get_view(texture, p_depth->layer, false);
 		depth.imageLayout = impl.is_target_depth_read_only
-				? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
-				: VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+				? read_only
+				: get_layout(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
 		depth.loadOp = get_load_op(p_depth->load);
 		// Storing counts as a write, also of what was only tested against.
 		depth.storeOp = impl.is_target_depth_read_only ? VK_ATTACHMENT_STORE_OP_NONE
 													   : VK_ATTACHMENT_STORE_OP_STORE;
 		depth.clearValue.depthStencil.depth = p_depth->clear;
 	}
+	const bool has_target_stencil =
+			impl.target_depth_format && has_stencil(*impl.target_depth_format);
 	const VkRenderingInfo info = { .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
 		.renderArea = { .extent = { p_size_px.x, p_size_px.y } },
 		.layerCount = 1,
 		.colorAttachmentCount = static_cast<uint32_t>(colors.size()),
 		.pColorAttachments = colors.data(),
-		.pDepthAttachment = p_depth ? &depth : nullptr };
+		.pDepthAttachment = p_depth ? &depth : nullptr,
+		.pStencilAttachment = has_target_stencil ? &depth : nullptr };
 	vkCmdBeginRendering(impl.commands, &info);
 	impl.is_rendering = true;
 	set_viewport(glm::uvec2(0), p_size_px);
 	set_cull_mode(CullMode::NONE);
 	set_winding(Winding::NORMAL);
+	set_depth_bounds(0.0f, 1.0f);
 }
 
 void CommandList::end_rendering() {
@@ -140,6 +148,13 @@ void CommandList::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
 									   static_cast<int32_t>(p_offset_px.y) },
 		{ p_size_px.x, p_size_px.y } };
 	vkCmdSetScissor(impl.commands, 0, 1, &scissor);
+}
+
+void CommandList::set_depth_bounds(float p_least, float p_greatest) {
+	impl.check_recording("set_depth_bounds");
+	GNOMON_ASSERT(p_least >= 0.0f && p_least <= p_greatest && p_greatest <= 1.0f, "depth bounds ",
+			p_least, " to ", p_greatest);
+	vkCmdSetDepthBounds(impl.commands, p_least, p_greatest);
 }
 
 void CommandList::set_cull_mode(CullMode p_mode) {
@@ -183,10 +198,10 @@ void CommandList::Impl::prepare_draw(const char *p_call) const {
 	GNOMON_ASSERT(pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS, p_call,
 			" with compute pipeline '", pipeline->name, "'");
 	GNOMON_ASSERT(pipeline->color_formats == target_color_formats &&
-					pipeline->has_depth == has_target_depth,
+					pipeline->depth_format == target_depth_format,
 			"pipeline '", pipeline->name, "' draws into ",
-			describe_formats(pipeline->color_formats, pipeline->has_depth), ", the targets are ",
-			describe_formats(target_color_formats, has_target_depth));
+			describe_formats(pipeline->color_formats, pipeline->depth_format), ", the targets are ",
+			describe_formats(target_color_formats, target_depth_format));
 	GNOMON_ASSERT(!is_target_depth_read_only || !pipeline->writes_depth, "pipeline '",
 			pipeline->name, "' writes depth, the depth target has Access::DEPTH_READ");
 	GNOMON_ASSERT(bound_vertex_buffer_count >= pipeline->vertex_buffer_count, "pipeline '",

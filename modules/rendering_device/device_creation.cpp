@@ -38,6 +38,7 @@ void choose_features(const FeatureChain &p_present, const DeviceOptions::Without
 	VkPhysicalDeviceFeatures &wanted = r_wanted.v10.features;
 	wanted.geometryShader = !p_without.geometry_shader && present.geometryShader;
 	wanted.depthClamp = !p_without.depth_clamp && present.depthClamp;
+	wanted.depthBounds = !p_without.depth_bounds && present.depthBounds;
 	wanted.independentBlend = present.independentBlend;
 	wanted.fragmentStoresAndAtomics =
 			!p_without.fragment_stores && present.fragmentStoresAndAtomics;
@@ -124,6 +125,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	const VkPhysicalDeviceFeatures &enabled = wanted.v10.features;
 	features.geometry_shader = enabled.geometryShader;
 	features.depth_clamp = enabled.depthClamp;
+	features.depth_bounds = enabled.depthBounds;
 	features.conditional_rendering = wanted.conditional.conditionalRendering;
 	features.precise_occlusion_query = enabled.occlusionQueryPrecise;
 	features.fragment_stores = enabled.fragmentStoresAndAtomics;

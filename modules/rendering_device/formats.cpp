@@ -26,8 +26,9 @@ const FormatRow FORMATS[] = {
 	{ "RGBA16_SFLOAT", VK_FORMAT_R16G16B16A16_SFLOAT, 8 },
 	{ "RGBA32_SFLOAT", VK_FORMAT_R32G32B32A32_SFLOAT, 16 },
 	{ "D32_SFLOAT", VK_FORMAT_D32_SFLOAT, 4 },
+	{ "D32_SFLOAT_S8_UINT", VK_FORMAT_D32_SFLOAT_S8_UINT, 8 },
 };
-static_assert(std::size(FORMATS) == static_cast<size_t>(Format::D32_SFLOAT) + 1);
+static_assert(std::size(FORMATS) == static_cast<size_t>(Format::D32_SFLOAT_S8_UINT) + 1);
 
 struct TextureUsageRow {
 	TextureUsage usage;
@@ -83,7 +84,11 @@ VkFormat get_vulkan_format(Format p_format) {
 }
 
 bool is_depth_format(Format p_format) {
-	return p_format == Format::D32_SFLOAT;
+	return p_format == Format::D32_SFLOAT || has_stencil(p_format);
+}
+
+bool has_stencil(Format p_format) {
+	return p_format == Format::D32_SFLOAT_S8_UINT;
 }
 
 bool is_uint_format(Format p_format) {
@@ -91,6 +96,9 @@ bool is_uint_format(Format p_format) {
 }
 
 VkImageAspectFlags get_aspect(Format p_format) {
+	if (has_stencil(p_format)) {
+		return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+	}
 	return is_depth_format(p_format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 

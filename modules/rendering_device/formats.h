@@ -7,6 +7,7 @@ namespace gnomon {
 
 VkFormat get_vulkan_format(Format p_format);
 bool is_depth_format(Format p_format);
+bool has_stencil(Format p_format);
 bool is_uint_format(Format p_format);
 VkImageAspectFlags get_aspect(Format p_format);
 VkImageUsageFlags get_vulkan_usage(TextureUsage p_usage);

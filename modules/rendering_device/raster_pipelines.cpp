@@ -6,6 +6,15 @@ namespace gnomon {
 
 namespace {
 
+std::string describe(const StencilFace &p_face) {
+	return text(" ", static_cast<int>(p_face.compare), ":", static_cast<int>(p_face.fail), ":",
+			static_cast<int>(p_face.depth_fail), ":", static_cast<int>(p_face.pass));
+}
+
+std::string describe(const StencilTest &p_test) {
+	return describe(p_test.front) + describe(p_test.back) + text(" ", p_test.reference);
+}
+
 /// Everything but the name, which changes nothing.
 std::string describe(const RasterPipelineDesc &p_desc) {
 	std::string description = text(p_desc.vertex_shader, " ", p_desc.geometry_shader, " ",
@@ -27,7 +36,8 @@ std::string describe(const RasterPipelineDesc &p_desc) {
 			text(" blend ", static_cast<int>(p_desc.blend), " depth ", p_desc.has_depth,
 					p_desc.writes_depth, p_desc.clamps_depth, " ",
 					static_cast<int>(p_desc.depth_compare), " ", p_desc.depth_bias_constant, " ",
-					p_desc.depth_bias_slope);
+					p_desc.depth_bias_slope, " bounds ", p_desc.has_depth_bounds, " stencil ",
+					p_desc.has_stencil, p_desc.has_stencil ? describe(p_desc.stencil) : "");
 }
 
 VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_format) {
@@ -51,6 +61,25 @@ VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_
 		state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_MAX;
 	}
 	return state;
+}
+
+VkStencilOpState make_stencil_state(const StencilFace &p_face, uint32_t p_reference) {
+	const uint32_t all = 0xff; // CompareOp and StencilOp have Vulkan's order
+	return { static_cast<VkStencilOp>(p_face.fail), static_cast<VkStencilOp>(p_face.pass),
+		static_cast<VkStencilOp>(p_face.depth_fail), static_cast<VkCompareOp>(p_face.compare), all,
+		all, p_reference };
+}
+
+bool may_write(const StencilFace &p_face) {
+	return p_face.fail != StencilOp::KEEP || p_face.depth_fail != StencilOp::KEEP ||
+			p_face.pass != StencilOp::KEEP;
+}
+
+std::optional<Format> get_depth_format(const RasterPipelineDesc &p_desc) {
+	if (!p_desc.has_depth) {
+		return std::nullopt;
+	}
+	return p_desc.has_stencil ? Format::D32_SFLOAT_S8_UINT : Format::D32_SFLOAT;
 }
 
 VkPrimitiveTopology get_vulkan_topology(Topology p_topology) {
@@ -80,6 +109,10 @@ void RenderingDevice::Impl::check_raster_features(const RasterPipelineDesc &p_de
 	if (p_desc.clamps_depth && !features.depth_clamp) {
 		fail("Pipeline '", p_desc.name, "' needs depth clamping, which device \"",
 				physical.info.name, "\" lacks. Choose another method or another device.");
+	}
+	if (p_desc.has_depth_bounds && !features.depth_bounds) {
+		fail("Pipeline '", p_desc.name, "' needs depth bounds, which device \"", physical.info.name,
+				"\" lacks. Choose another method or another device.");
 	}
 	for (const Format format : p_desc.color_formats) {
 		VkFormatProperties properties;
@@ -144,7 +177,12 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
 		.depthTestEnable = p_desc.has_depth,
 		.depthWriteEnable = p_desc.has_depth && p_desc.writes_depth,
-		.depthCompareOp = static_cast<VkCompareOp>(p_desc.depth_compare) // same order as CompareOp
+		.depthCompareOp = static_cast<VkCompareOp>(p_desc.depth_compare), // same order as CompareOp
+		.depthBoundsTestEnable = p_desc.has_depth_bounds,
+		.stencilTestEnable = p_desc.has_stencil,
+		.front = make_stencil_state(p_desc.stencil.front, p_desc.stencil.reference),
+		.back = make_stencil_state(p_desc.stencil.back, p_desc.stencil.reference),
+		.maxDepthBounds = 1.0f
 	};
 	std::vector<VkPipelineColorBlendAttachmentState> blend_states;
 	std::vector<VkFormat> color_formats;
@@ -158,17 +196,20 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 		.pAttachments = blend_states.data()
 	};
 	const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE };
+		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BOUNDS };
 	const VkPipelineDynamicStateCreateInfo dynamic = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
 		.dynamicStateCount = static_cast<uint32_t>(std::size(dynamic_states)),
 		.pDynamicStates = dynamic_states
 	};
+	const std::optional<Format> depth_format = get_depth_format(p_desc);
+	const VkFormat depth = depth_format ? get_vulkan_format(*depth_format) : VK_FORMAT_UNDEFINED;
 	const VkPipelineRenderingCreateInfo targets = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
 		.colorAttachmentCount = static_cast<uint32_t>(color_formats.size()),
 		.pColorAttachmentFormats = color_formats.data(),
-		.depthAttachmentFormat = p_desc.has_depth ? VK_FORMAT_D32_SFLOAT : VK_FORMAT_UNDEFINED
+		.depthAttachmentFormat = depth,
+		.stencilAttachmentFormat = p_desc.has_stencil ? depth : VK_FORMAT_UNDEFINED
 	};
 	const VkGraphicsPipelineCreateInfo info = {
 		.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
@@ -192,6 +233,8 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 }
 
 PipelineResource RenderingDevice::Impl::make_pipeline(const RasterPipelineDesc &p_desc) {
+	GNOMON_ASSERT(p_desc.has_depth || !p_desc.has_stencil, "pipeline '", p_desc.name,
+			"' has stencil without depth");
 	check_raster_features(p_desc);
 	PipelineStages stages(*this, p_desc.constants);
 	stages.add(p_desc.vertex_shader, VK_SHADER_STAGE_VERTEX_BIT);
@@ -206,8 +249,11 @@ PipelineResource RenderingDevice::Impl::make_pipeline(const RasterPipelineDesc &
 	pipeline.desc = p_desc;
 	pipeline.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
 	pipeline.color_formats = p_desc.color_formats;
-	pipeline.has_depth = p_desc.has_depth;
-	pipeline.writes_depth = p_desc.has_depth && p_desc.writes_depth;
+	pipeline.depth_format = get_depth_format(p_desc);
+	pipeline.writes_depth = p_desc.has_depth &&
+			(p_desc.writes_depth ||
+					(p_desc.has_stencil &&
+							(may_write(p_desc.stencil.front) || may_write(p_desc.stencil.back))));
 	pipeline.vertex_buffer_count = static_cast<uint32_t>(p_desc.vertex_strides_bytes.size());
 	try {
 		create_layout(pipeline, stages.get_reflected());

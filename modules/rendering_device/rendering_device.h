@@ -27,6 +27,7 @@ struct DeviceOptions {
 	struct Without {
 		bool geometry_shader = false;
 		bool depth_clamp = false;
+		bool depth_bounds = false;
 		bool fragment_stores = false;
 		bool conditional_rendering = false;
 		bool subgroup_operations = false;
@@ -50,6 +51,7 @@ struct DeviceInfo {
 struct DeviceFeatures {
 	bool geometry_shader = false;
 	bool depth_clamp = false;
+	bool depth_bounds = false;
 	bool conditional_rendering = false;
 	bool precise_occlusion_query = false;
 	bool fragment_stores = false;

@@ -13,6 +13,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <variant>
 
 namespace gnomon {
@@ -69,8 +70,8 @@ struct PipelineResource {
 	glm::uvec3 local_size = glm::uvec3(1);
 	// Of raster pipelines, compared with the targets at each draw.
 	std::vector<Format> color_formats;
-	bool has_depth = false;
-	bool writes_depth = false;
+	std::optional<Format> depth_format;
+	bool writes_depth = false; // or stencil
 	uint32_t vertex_buffer_count = 0;
 	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc; // what it was made of
 };
@@ -114,7 +115,7 @@ struct CommandList::Impl {
 	bool is_rendering = false;
 	bool is_conditional = false;
 	std::vector<Format> target_color_formats;
-	bool has_target_depth = false;
+	std::optional<Format> target_depth_format;
 	bool is_target_depth_read_only = false;
 	const PipelineResource *pipeline = nullptr;
 	bool are_resources_bound = false;

@@ -36,6 +36,7 @@ enum class Format {
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
 	D32_SFLOAT,
+	D32_SFLOAT_S8_UINT, // as an attachment only
 };
 uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
@@ -114,6 +115,29 @@ struct Binding {
 };
 
 enum class CompareOp { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS };
+/// What happens to a stencil value, in Vulkan's order. WRAP: 255 + 1 is 0.
+enum class StencilOp {
+	KEEP,
+	ZERO,
+	REPLACE,
+	INCREMENT_CLAMP,
+	DECREMENT_CLAMP,
+	INVERT,
+	INCREMENT_WRAP,
+	DECREMENT_WRAP
+};
+/// Of one side of the triangles.
+struct StencilFace {
+	CompareOp compare = CompareOp::ALWAYS; // of StencilTest::reference with the stored value
+	StencilOp fail = StencilOp::KEEP;
+	StencilOp depth_fail = StencilOp::KEEP;
+	StencilOp pass = StencilOp::KEEP;
+};
+struct StencilTest {
+	StencilFace front;
+	StencilFace back;
+	uint32_t reference = 0;
+};
 enum class CullMode { NONE, FRONT, BACK };
 enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY, TRIANGLE_STRIP, LINES, POINTS };
 enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
@@ -151,9 +175,13 @@ struct RasterPipelineDesc {
 	std::vector<Format> color_formats;
 	BlendMode blend = BlendMode::OFF; // all colour targets alike
 	bool has_depth = true;			  // a D32_SFLOAT attachment is bound
+	bool has_stencil = false;		  // with has_depth: it is a D32_SFLOAT_S8_UINT one
+	StencilTest stencil;
 	bool writes_depth = true;
 	CompareOp depth_compare = CompareOp::LESS;
 	bool clamps_depth = false; // depth clamp instead of near and far clipping
+	/// Only where the depth that is there lies in CommandList::set_depth_bounds.
+	bool has_depth_bounds = false;
 	float depth_bias_constant = 0.0f;
 	float depth_bias_slope = 0.0f;
 };
@@ -169,7 +197,7 @@ struct ColorTarget {
 struct DepthTarget {
 	TextureRID texture;
 	LoadOp load = LoadOp::CLEAR;
-	float clear = 1.0f;
+	float clear = 1.0f; // the stencil, where there is one, to 0
 	uint32_t layer = 0;
 };
 

@@ -20,11 +20,11 @@ struct FinDraw {
 };
 
 std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
-		const FinCasters &p_casters) {
+		const SilhouetteCasters &p_casters) {
 	std::vector<FinDraw> draws;
 	const LightView &view = p_inputs.views[p_view_index];
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
-		const FinCaster *caster = p_casters.find(index);
+		const SilhouetteCaster *caster = p_casters.find(index);
 		if (!caster) {
 			continue;
 		}
@@ -35,7 +35,8 @@ std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32
 		draw.push.view_from_node = glm::mat4(view.view_from_world * world_from_node);
 		draw.push.light_node = caster->light_node;
 		draw.push.first_in_list = caster->first_in_list;
-		draw.push.normal_sign = caster->normal_sign;
+		draw.push.normal_sign =
+				compute_normal_sign(*caster->gpu->topology, p_inputs.scene.instances[index]);
 		draw.push.padding0 = 0;
 		draw.push.padding1 = 0;
 		draws.push_back(draw);
@@ -72,6 +73,20 @@ RasterPipelineDesc make_pipeline_desc(
 
 } // namespace
 
+uint32_t count_zero_normals(const SilhouetteCasters &p_casters) {
+	uint32_t count = 0;
+	for (const SilhouetteCaster &caster : p_casters.casters) {
+		count += caster.gpu->topology->counts.zero_normal_count;
+	}
+	return count;
+}
+
+float compute_normal_sign(const MeshTopology &p_topology, const InstanceSnapshot &p_instance) {
+	const bool is_inside_out =
+			p_topology.mesh_class == MeshClass::CLOSED && p_topology.signed_volume_m3 < 0;
+	return p_instance.is_mirrored() != is_inside_out ? -1.0f : 1.0f;
+}
+
 uint32_t get_vertices_per_edge(const FinsSettings &p_settings) {
 	return VERTICES_PER_HALF *
 			((p_settings.outer_width_m > 0 ? 1 : 0) + (p_settings.inner_width_m > 0 ? 1 : 0));
@@ -103,8 +118,8 @@ shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inp
 }
 
 void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		uint32_t p_view_index, const FinsSettings &p_settings, const FinCasters &p_casters,
-		const EdgeLists &p_lists, const FinTargets &p_targets) {
+		uint32_t p_view_index, const FinsSettings &p_settings, const SilhouetteCasters &p_casters,
+		const SilhouetteLists &p_lists, const FinTargets &p_targets) {
 	const bool is_geometry_shader = p_settings.method == FinMethod::GEOMETRY_SHADER;
 	const RGBuffer constants = r_graph.upload_constants(
 			"fins view", compute_fins_view_constants(p_inputs, p_view_index, p_settings));
@@ -153,8 +168,8 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			if (is_geometry_shader) {
 				commands.draw_indexed(draw.gpu->adjacency_index_count);
 			} else {
-				commands.draw_indirect(
-						p_context.get(p_lists.draws), draw.draw_index * sizeof(shader::FinsDraw));
+				commands.draw_indirect(p_context.get(p_lists.draws),
+						draw.draw_index * sizeof(shader::SilhouetteDraw));
 			}
 		}
 	});

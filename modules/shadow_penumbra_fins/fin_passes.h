@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/shadow_penumbra_fins/edge_passes.h"
+#include "modules/renderer/silhouette_lists.h"
 #include "modules/shadow_penumbra_fins/fins_settings.h"
 
 namespace gnomon {
@@ -18,10 +18,17 @@ struct FinTargets {
 shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, const FinsSettings &p_settings);
 
-/// A pass that draws one view's fins. p_lists: with FinMethod::COMPUTE, from add_edge_passes.
+/// A pass that draws one view's fins. p_lists: with FinMethod::COMPUTE, from add_silhouette_passes.
 void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		uint32_t p_view_index, const FinsSettings &p_settings, const FinCasters &p_casters,
-		const EdgeLists &p_lists, const FinTargets &p_targets);
+		uint32_t p_view_index, const FinsSettings &p_settings, const SilhouetteCasters &p_casters,
+		const SilhouetteLists &p_lists, const FinTargets &p_targets);
+
+/// Vertices of the casters where fins end in the edge: the normals of their faces cancel.
+uint32_t count_zero_normals(const SilhouetteCasters &p_casters);
+
+/// -1 where normals that are transformed by cofactors point into the solid: in mirrored instances,
+/// and in closed meshes that are modelled inside out (not in both).
+float compute_normal_sign(const MeshTopology &p_topology, const InstanceSnapshot &p_instance);
 
 /// 6 for each half that has a width, as fin_inc.glsl has it.
 uint32_t get_vertices_per_edge(const FinsSettings &p_settings);

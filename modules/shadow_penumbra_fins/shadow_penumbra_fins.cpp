@@ -97,7 +97,9 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 		r_plan.leave_out("fins", "r and t are 0: a plain shadow map");
 		return;
 	}
-	fin_casters = build_fin_casters(p_inputs, drawn_views);
+	fin_casters = build_silhouette_casters(
+			p_inputs, collect_casters(p_inputs, drawn_views), get_vertices_per_edge(settings));
+	const uint32_t zero_normal_count = count_zero_normals(fin_casters);
 	r_plan.run(settings.method == FinMethod::GEOMETRY_SHADER ? "fins by geometry shader"
 															 : "fins by compute");
 	if (settings.has_fins() && settings.outer_width_m == 0) {
@@ -106,8 +108,8 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 	if (has_inner_half && settings.has_fins() && settings.inner_width_m == 0) {
 		r_plan.leave_out("inner fins", "t is 0");
 	}
-	if (fin_casters.zero_normal_count > 0) {
-		r_plan.leave_out(text("fins at ", fin_casters.zero_normal_count, " vertices"),
+	if (zero_normal_count > 0) {
+		r_plan.leave_out(text("fins at ", zero_normal_count, " vertices"),
 				"the normals of their faces cancel");
 	}
 	if (fin_casters.flat_instance_count > 0) {
@@ -132,8 +134,7 @@ void ShadowPenumbraFins::at_light_view(
 	// What is a silhouette depends on the light's place alone: its views share one list.
 	if (settings.method == FinMethod::COMPUTE && settings.has_fins() && !edge_lists.list &&
 			!fin_casters.casters.empty()) {
-		edge_lists = add_edge_passes(
-				r_graph, p_inputs.device, fin_casters, get_vertices_per_edge(settings));
+		edge_lists = add_silhouette_passes(r_graph, p_inputs.device, fin_casters);
 	}
 	add_fin_pass(
 			r_graph, p_inputs, p_view_index, settings, fin_casters, edge_lists, maps.get_targets());
@@ -214,9 +215,9 @@ void ShadowPenumbraFins::get_debug_views(std::vector<DebugView> &r_views) const 
 
 std::vector<std::string> ShadowPenumbraFins::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "peel.frag", "peel_telling.frag", "layers.frag", "find_edges.comp",
-				 "list_edges.comp", "fins.vert", "fins.geom", "edge_fins.vert", "fins.frag",
-				 "resolve.comp", "cases.comp", "hard.comp" }) {
+	for (const char *name :
+			{ "peel.frag", "peel_telling.frag", "layers.frag", "fins.vert", "fins.geom",
+					"edge_fins.vert", "fins.frag", "resolve.comp", "cases.comp", "hard.comp" }) {
 		files.push_back(text("shadow_penumbra_fins/", name));
 	}
 	return files;

@@ -53,8 +53,8 @@ private:
 	// This frame.
 	FinsSettings settings;
 	bool draws_fins = false;
-	FinCasters fin_casters;
-	EdgeLists edge_lists;
+	SilhouetteCasters fin_casters;
+	SilhouetteLists edge_lists;
 	RGBuffer layer_texels; // see add_layer_passes
 	RGTexture cases;
 	glm::vec2 layer_range = glm::vec2(0.0f, 1.0f); // depths that the debug views show

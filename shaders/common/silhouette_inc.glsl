@@ -32,6 +32,16 @@ bool is_turned_to_light(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c)
 	return side > 0.0;
 }
 
+/// Is the edge a -> b between two faces a silhouette, whose first face, which winds a -> b, is turned
+/// to the light or not? The second face is b a c; where it is inconsistent a b c, with its other side
+/// for its own. p_ids: of a, b, c.
+bool is_edge_silhouette(vec4 p_light, bool p_is_first_turned, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c,
+		bool p_is_inconsistent) {
+	return p_is_inconsistent
+			? p_is_first_turned == is_turned_to_light(p_light, p_ids, p_a, p_b, p_c)
+			: p_is_first_turned != is_turned_to_light(p_light, p_ids.yxz, p_b, p_a, p_c);
+}
+
 /// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:
 /// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
 /// Each edge of the mesh belongs to one face, so that nobody draws it twice.
@@ -47,9 +57,10 @@ uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_posi
 		const uint b = (a + 2u) % 6u;
 		bool is_silhouette = (p_flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) != 0u;
 		if (!is_silhouette) {
-			is_silhouette = is_face_turned !=
-					is_turned_to_light(p_light, uvec3(p_ids[b], p_ids[a], p_ids[a + 1u]),
-							p_positions[b], p_positions[a], p_positions[a + 1u]);
+			const uint c = a + 1u;
+			is_silhouette = is_edge_silhouette(p_light, is_face_turned,
+					uvec3(p_ids[a], p_ids[b], p_ids[c]), p_positions[a], p_positions[b], p_positions[c],
+					(p_flags & (TOPOLOGY_FACE_HAS_INCONSISTENT << edge)) != 0u);
 		}
 		const bool is_own = (p_flags & (TOPOLOGY_FACE_OWNS_EDGE << edge)) != 0u;
 		found |= is_own && is_silhouette ? 1u << edge : 0u;

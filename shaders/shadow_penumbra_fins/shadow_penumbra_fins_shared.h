@@ -4,22 +4,11 @@
 #include "shared/shared_begin.h"
 
 #define FINS_MAX_LAYERS 3
-// An edge word holds one bit for each of 32 edges; a block counts the silhouettes of 64 words.
-#define FINS_EDGES_PER_WORD 32
-#define FINS_WORDS_PER_BLOCK 64
 
 // peel.frag, peel_telling.frag and layers.frag
 #define PEEL_BINDING_NEARER 0
 #define PEEL_BINDING_FOUND 1
 #define LAYERS_BINDING_TEXELS 0
-
-// find_edges.comp and list_edges.comp
-#define EDGES_BINDING_POSITIONS 0
-#define EDGES_BINDING_EDGES 1
-#define EDGES_BINDING_WORDS 2
-#define EDGES_BINDING_BLOCKS 3
-#define EDGES_BINDING_LIST 4
-#define EDGES_BINDING_DRAWS 5
 
 // fins.vert, fins.geom, edge_fins.vert, fins.frag
 #define FINS_BINDING_CONSTANTS 0
@@ -75,29 +64,6 @@ struct SHARED_ALIGN FinsPush {
 	uint padding1;
 };
 SHARED_SIZE(FinsPush, 96);
-
-/// Push constants of find_edges.comp and list_edges.comp: one caster.
-struct SHARED_ALIGN EdgesPush {
-	vec4 light_node;
-	uint edge_count;
-	uint first_word;
-	uint first_block;
-	uint first_in_list;
-	uint draw_index;
-	uint vertices_per_edge;
-	uint padding0;
-	uint padding1;
-};
-SHARED_SIZE(EdgesPush, 48);
-
-/// VkDrawIndirectCommand.
-struct SHARED_ALIGN FinsDraw {
-	uint vertex_count;
-	uint instance_count;
-	uint first_vertex;
-	uint first_instance;
-};
-SHARED_SIZE(FinsDraw, 16);
 
 /// Push constants of resolve.comp, cases.comp and hard.comp.
 struct SHARED_ALIGN FinsResolvePush {

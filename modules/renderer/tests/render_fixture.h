@@ -34,8 +34,8 @@ inline glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0.1, 1.0, 0.07)));
 }
 
-/// A box above a ground plate, one light of the given type, a camera that sees the shadow. All
-/// lengths are multiplied by p_scale and everything is moved by p_origin.
+/// A box above a ground plate that is declared to be flat, one light of the given type, a camera
+/// that sees the shadow. All lengths are multiplied by p_scale and everything is moved by p_origin.
 struct SmallScene {
 	Scene scene;
 	Camera3D *camera = nullptr;
@@ -50,6 +50,7 @@ struct SmallScene {
 		ground = &add_mesh(scene, "Ground",
 				make_box_mesh("ground", scale * glm::vec3(3.0f, 0.2f, 3.0f)),
 				p_origin + p_scale * glm::dvec3(0, -0.2, 0));
+		ground->is_planar_receiver = true;
 		box = &add_mesh(scene, "Box", make_box_mesh("box", scale * glm::vec3(0.5f, 0.3f, 0.4f)),
 				p_origin + p_scale * glm::dvec3(0, 1.0, 0));
 		auto new_camera = std::make_unique<Camera3D>();

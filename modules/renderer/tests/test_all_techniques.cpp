@@ -86,6 +86,7 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
 		make_cheap(*scene.light);
+		scene.box->is_planar_receiver = true; // as the ground
 		// Wide and near the light; below it are all other receivers.
 		add_mesh(
 				scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }), { 0, 3.7, 0 });

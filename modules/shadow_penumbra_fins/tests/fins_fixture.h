@@ -142,11 +142,11 @@ struct FinsFixture : RenderFixture {
 				r_graph.create_texture({ "penumbra depth", Format::D32_SFLOAT, size_px, 1,
 						usage | TextureUsage::DEPTH_ATTACHMENT }),
 				layers[0], layers[1] };
-			const FinCasters casters = build_fin_casters(p_inputs, { 0 });
-			EdgeLists lists;
+			const SilhouetteCasters casters = build_silhouette_casters(
+					p_inputs, collect_casters(p_inputs, { 0 }), get_vertices_per_edge(p_settings));
+			SilhouetteLists lists;
 			if (p_settings.method == FinMethod::COMPUTE) {
-				lists = add_edge_passes(
-						r_graph, *device, casters, get_vertices_per_edge(p_settings));
+				lists = add_silhouette_passes(r_graph, *device, casters);
 			}
 			add_fin_pass(r_graph, p_inputs, 0, p_settings, casters, lists, targets);
 			read_back(r_graph, targets.color, 0, maps.color);

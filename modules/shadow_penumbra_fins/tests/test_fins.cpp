@@ -89,22 +89,22 @@ TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in orde
 			}
 		}
 		const FinsFixture::Frame frame = fixture.make_frame(scene, 32);
-		FinCasters casters;
+		SilhouetteCasters casters;
 		std::vector<uint8_t> list_bytes;
 		std::vector<uint8_t> draw_bytes;
 		fixture.run(frame, [&](RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
-			casters = build_fin_casters(p_inputs, { 0 });
-			const EdgeLists lists = add_edge_passes(r_graph, *fixture.device, casters, 12);
+			casters = build_silhouette_casters(p_inputs, collect_casters(p_inputs, { 0 }), 12);
+			const SilhouetteLists lists = add_silhouette_passes(r_graph, *fixture.device, casters);
 			FinsFixture::read_back(
 					r_graph, lists.list, casters.edge_count * sizeof(uint32_t), list_bytes);
 			FinsFixture::read_back(r_graph, lists.draws,
-					casters.casters.size() * sizeof(shader::FinsDraw), draw_bytes);
+					casters.casters.size() * sizeof(shader::SilhouetteDraw), draw_bytes);
 		});
 		const auto list = FinsFixture::cast<uint32_t>(list_bytes);
-		const auto draws = FinsFixture::cast<shader::FinsDraw>(draw_bytes);
+		const auto draws = FinsFixture::cast<shader::SilhouetteDraw>(draw_bytes);
 		REQUIRE(draws.size() == frame.scene->instances.size());
 		for (size_t caster = 0; caster < draws.size(); ++caster) {
-			const FinCaster &item = casters.casters[caster];
+			const SilhouetteCaster &item = casters.casters[caster];
 			const MeshTopology &topology = *item.gpu->topology;
 			const auto silhouette = find_silhouette_edges(topology, item.light_node);
 			std::vector<uint32_t> expected; // places in the GPU's order
@@ -256,7 +256,8 @@ TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and not
 	const SmallScene scene = make_scene(share("two-sided", sheet));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, 0.2f);
 	fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
-		CHECK(build_fin_casters(p_inputs, { 0 }).zero_normal_count == 4);
+		CHECK(count_zero_normals(build_silhouette_casters(
+					  p_inputs, collect_casters(p_inputs, { 0 }), 12)) == 4);
 	});
 	const auto maps = fixture.draw_fins(frame, make_settings(0.2f, 0.2f, FinMethod::COMPUTE));
 	for (uint16_t half : FinsFixture::cast<uint16_t>(maps.color)) {

@@ -1,25 +1,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/ordered_list_inc.glsl"
-#include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
+#include "shared/silhouette_shared.h"
 
 // Writes one caster's silhouette edges into a list, in their own order, so that the picture never
 // depends on scheduling, and the arguments of the draw that follows. One invocation per word.
-layout(local_size_x = FINS_WORDS_PER_BLOCK) in;
-layout(std430, set = 0, binding = EDGES_BINDING_WORDS) readonly buffer Words {
+layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) readonly buffer Words {
 	uint edge_words[];
 };
-layout(std430, set = 0, binding = EDGES_BINDING_BLOCKS) readonly buffer Blocks {
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_BLOCKS) readonly buffer Blocks {
 	uint block_counts[];
 };
-layout(std430, set = 0, binding = EDGES_BINDING_LIST) writeonly buffer List {
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_LIST) writeonly buffer List {
 	uint edge_list[];
 };
-layout(std430, set = 0, binding = EDGES_BINDING_DRAWS) writeonly buffer Draws {
-	FinsDraw draws[];
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_DRAWS) writeonly buffer Draws {
+	SilhouetteDraw draws[];
 };
 layout(push_constant) uniform Push {
-	EdgesPush push;
+	SilhouettePush push;
 };
 
 uint load_list_word(uint p_index) {
@@ -32,19 +32,19 @@ uint load_list_block(uint p_index) {
 
 void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
-	const uint word_count = (push.edge_count + FINS_EDGES_PER_WORD - 1u) / FINS_EDGES_PER_WORD;
-	const uint first_word = gl_WorkGroupID.x * FINS_WORDS_PER_BLOCK;
-	uint place = find_list_place(FINS_WORDS_PER_BLOCK, push.first_block,
+	const uint word_count = (push.edge_count + SILHOUETTE_EDGES_PER_WORD - 1u) / SILHOUETTE_EDGES_PER_WORD;
+	const uint first_word = gl_WorkGroupID.x * SILHOUETTE_WORDS_PER_BLOCK;
+	uint place = find_list_place(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
 			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}
 	for (uint bits = edge_words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
 		const uint bit = uint(findLSB(bits));
-		edge_list[push.first_in_list + place] = word_index * FINS_EDGES_PER_WORD + bit;
+		edge_list[push.first_in_list + place] = word_index * SILHOUETTE_EDGES_PER_WORD + bit;
 		++place;
 	}
 	if (word_index + 1u == word_count) {
-		draws[push.draw_index] = FinsDraw(place * push.vertices_per_edge, 1u, 0u, 0u);
+		draws[push.draw_index] = SilhouetteDraw(place * push.vertices_per_edge, 1u, 0u, 0u);
 	}
 }

@@ -1,0 +1,171 @@
+#include "modules/shadow_planar/planar_passes.h"
+
+#include "modules/core/text.h"
+#include "modules/renderer/caster_pass.h"
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/mesh_store.h"
+
+#include "shadow_planar/shadow_planar_shared.h"
+
+namespace gnomon {
+
+namespace {
+
+const double RECEIVER_OFFSET = 5e-5; // of S; as receiver_inc.glsl has it
+const float SAME_PLANE = 1e-5f;		 // of S: a pixel so near to the plane lies in it
+const float SAME_PLANE_PER_DISTANCE = 2e-6f;
+
+/// As in renderer/receivers: what the shaders read of the G-buffer.
+void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) {
+	r_pass.reads(p_inputs.frame, Access::UNIFORM_READ)
+			.reads(p_inputs.depth, Access::SHADER_READ_FRAGMENT)
+			.reads(p_inputs.geometric_normal, Access::SHADER_READ_FRAGMENT)
+			.reads(p_inputs.receivers, Access::SHADER_READ_FRAGMENT);
+}
+
+/// Camera-relative.
+glm::dvec4 make_plane(const ShadowTechnique::Inputs &p_inputs, const ReceiverPlane &p_plane) {
+	return { p_plane.normal_world,
+		p_plane.offset_m + glm::dot(p_plane.normal_world, p_inputs.scene.camera.position_world) };
+}
+
+/// The plane through moved receivers.
+glm::dvec4 move_plane(const ShadowTechnique::Inputs &p_inputs, const glm::dvec4 &p_plane) {
+	return p_plane - glm::dvec4(0, 0, 0, RECEIVER_OFFSET * p_inputs.scene.scene_size_m);
+}
+
+struct PlanarDraw {
+	const GpuMesh *mesh = nullptr;
+	shader::PlanarPush push;
+};
+
+std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
+		const glm::dvec4 &p_plane, const std::vector<uint32_t> &p_casters) {
+	const SceneSnapshot &scene = p_inputs.scene;
+	const LightSnapshot &light = p_inputs.light;
+	const bool is_point = light.type != LightType::DIRECTIONAL;
+	const glm::dvec4 light_place = is_point
+			? glm::dvec4(light.position_world - scene.camera.position_world, 1.0)
+			: glm::dvec4(-light.get_direction_world(), 0.0);
+	const double light_height = glm::dot(p_plane, light_place);
+	// p -> (plane . light) p - (plane . p) light
+	const glm::dmat4 flatten =
+			glm::dmat4(1.0) * light_height - glm::outerProduct(light_place, p_plane);
+	const LightView camera = make_camera_view(scene.camera, p_inputs.size_px);
+	const glm::dmat4 clip_from_relative = camera.compute_clip_from_view() *
+			glm::dmat4(glm::dmat3(camera.view_from_world)) * flatten;
+	std::vector<PlanarDraw> draws;
+	for (uint32_t index : p_casters) {
+		const InstanceSnapshot &instance = scene.instances[index];
+		glm::dmat4 relative_from_node = instance.world_from_node;
+		relative_from_node[3] -= glm::dvec4(scene.camera.position_world, 0.0);
+		PlanarDraw draw;
+		draw.mesh = &p_inputs.meshes.get(instance.mesh);
+		draw.push.clip_from_node = glm::mat4(clip_from_relative * relative_from_node);
+		draw.push.plane_node = glm::vec4(glm::transpose(relative_from_node) * p_plane);
+		// Beyond the light nothing is hidden; a sun has no beyond.
+		draw.push.greatest_height_m = is_point ? static_cast<float>(light_height) : 1e30f;
+		draws.push_back(draw);
+	}
+	return draws;
+}
+
+RasterPipelineDesc make_screen_desc(const char *p_name, const char *p_fragment_shader) {
+	RasterPipelineDesc desc;
+	desc.name = p_name;
+	desc.vertex_shader = "renderer/screen.vert";
+	desc.fragment_shader = p_fragment_shader;
+	desc.has_stencil = true;
+	desc.depth_compare = CompareOp::ALWAYS;
+	desc.writes_depth = false;
+	return desc;
+}
+
+} // namespace
+
+PlanarTargets add_lit_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
+	PlanarTargets targets;
+	targets.mask = create_drawn_mask(r_graph, p_inputs.size_px);
+	targets.stencil = create_stencil_target(r_graph, "planar stencil", p_inputs.size_px);
+	RasterPipelineDesc desc;
+	desc.name = "lit receivers";
+	desc.vertex_shader = "renderer/screen.vert";
+	desc.fragment_shader = "shadow_planar/lit.frag";
+	desc.color_formats = { Format::R16_SFLOAT };
+	desc.has_depth = false;
+	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
+	const RGTexture receivers = p_inputs.receivers;
+	r_graph.add_pass("lit receivers")
+			.reads(receivers, Access::SHADER_READ_FRAGMENT)
+			.color(targets.mask)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.bind_resources(
+						{ { PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
+				p_context.commands.draw(3);
+			});
+	return targets;
+}
+
+void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const ReceiverPlane &p_plane, uint32_t p_plane_index,
+		const std::vector<uint32_t> &p_casters, const PlanarTargets &p_targets) {
+	const glm::dvec4 plane = make_plane(p_inputs, p_plane);
+	RasterPipelineDesc seen_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
+	seen_desc.stencil.front.pass = seen_desc.stencil.back.pass = StencilOp::REPLACE;
+	seen_desc.stencil.reference = 1;
+	const PipelineRID seen_pipeline = p_inputs.device.get_raster_pipeline(seen_desc);
+	shader::PlanePush seen_push = {};
+	seen_push.plane = glm::vec4(plane);
+	seen_push.tolerance_m = SAME_PLANE * static_cast<float>(p_inputs.scene.scene_size_m);
+	seen_push.tolerance_per_distance = SAME_PLANE_PER_DISTANCE;
+	const RGBuffer frame = p_inputs.frame;
+	const RGTexture depth = p_inputs.depth;
+	const RGTexture normal = p_inputs.geometric_normal;
+	const RGTexture receivers = p_inputs.receivers;
+	PassBuilder seen = r_graph.add_pass(text("plane ", p_plane_index));
+	read_gbuffer(seen, p_inputs);
+	seen.depth(p_targets.stencil, LoadOp::CLEAR, 0.0f).execute([=](PassContext &p_context) {
+		CommandList &commands = p_context.commands;
+		commands.bind_pipeline(seen_pipeline);
+		commands.bind_resources({ { PLANAR_BINDING_FRAME, p_context.get(frame) },
+				{ PLANAR_BINDING_DEPTH, p_context.get(depth) },
+				{ PLANAR_BINDING_NORMAL, p_context.get(normal) },
+				{ PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
+		commands.push_constants(seen_push);
+		commands.draw(3);
+	});
+
+	RasterPipelineDesc desc;
+	desc.name = "flattened casters";
+	desc.vertex_shader = "shadow_planar/flatten.vert";
+	desc.fragment_shader = "shadow_planar/flatten.frag";
+	desc.attributes = get_position_attributes();
+	desc.vertex_strides_bytes = { sizeof(glm::vec3) };
+	desc.color_formats = { Format::R16_SFLOAT };
+	desc.has_stencil = true;
+	// What is dark once is not drawn again.
+	desc.stencil.front = { CompareOp::EQUAL, StencilOp::KEEP, StencilOp::KEEP, StencilOp::ZERO };
+	desc.stencil.back = desc.stencil.front;
+	desc.stencil.reference = 1;
+	desc.depth_compare = CompareOp::ALWAYS;
+	desc.writes_depth = false;
+	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
+	r_graph.add_pass(text("casters on plane ", p_plane_index))
+			.color(p_targets.mask, LoadOp::KEEP)
+			.depth(p_targets.stencil, LoadOp::KEEP)
+			.execute([draws = build_draws(p_inputs, move_plane(p_inputs, plane), p_casters),
+							 pipeline](PassContext &p_context) {
+				CommandList &commands = p_context.commands;
+				commands.bind_pipeline(pipeline);
+				for (const PlanarDraw &draw : draws) {
+					const BufferRID positions[] = { draw.mesh->positions.get() };
+					commands.push_constants(draw.push);
+					commands.bind_vertex_buffers(positions);
+					commands.bind_index_buffer(draw.mesh->indices.get());
+					commands.draw_indexed(draw.mesh->index_count);
+				}
+			});
+}
+
+} // namespace gnomon

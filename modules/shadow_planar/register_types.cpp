@@ -1,0 +1,23 @@
+#include "modules/shadow_planar/register_types.h"
+
+#include "modules/renderer/shadow_registry.h"
+#include "modules/shadow_planar/shadow_planar.h"
+
+namespace gnomon {
+
+void initialize_shadow_planar_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowRegistry::add({ "planar", "Planar shadows, on declared planes alone", "Blinn 1988",
+			"#637939", [] { return std::make_unique<ShadowPlanar>(); } });
+}
+
+void uninitialize_shadow_planar_module(ModuleLevel p_level) {
+	if (p_level != ModuleLevel::FEATURES) {
+		return;
+	}
+	ShadowRegistry::remove("planar");
+}
+
+} // namespace gnomon

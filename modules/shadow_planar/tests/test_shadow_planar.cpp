@@ -1,0 +1,140 @@
+#include "modules/renderer/tests/hard_truth.h"
+#include "modules/shadow_planar/receiver_planes.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+
+RenderResult render_planar(
+		RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_leave_out = true) {
+	RenderRequest request;
+	request.scene = p_scene.snap();
+	request.size_px = glm::uvec2(128);
+	request.technique_override = "planar";
+	request.mask_light = p_scene.light->name;
+	request.wants_mask = true;
+	request.wants_surfaces = true;
+	request.may_leave_out = p_may_leave_out;
+	RenderResult result = r_fixture.renderer->render(request);
+	CHECK(is_valid_mask(result));
+	return result;
+}
+
+/// Surfaces at the height of the floor's top.
+HardDifference compare_floor(const SmallScene &p_scene, const RenderResult &p_frame) {
+	const double camera_height = p_scene.snap()->camera.position_world.y;
+	return HardTruth(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
+		return std::abs(p_surface.position.y + camera_height) < 1e-3 &&
+				p_surface.geometric_normal.y > 0.99f;
+	});
+}
+
+void check_floor(const SmallScene &p_scene, const RenderResult &p_frame) {
+	const HardDifference difference = compare_floor(p_scene, p_frame);
+	CHECK(difference.receiver_count > 3000);
+	CHECK(difference.hidden_count > 50);
+	CHECK(difference.wrong_count <= difference.receiver_count / 1000);
+	CHECK(difference.unexplained_count == 0);
+}
+
+bool has_line(const RenderResult &p_frame, const char *p_text) {
+	return p_frame.plan.to_text().find(p_text) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of rays") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		add_mesh(scene.scene, "Upper", make_box_mesh("upper", glm::vec3(0.3f, 0.1f, 0.2f)),
+				{ 0.2, 1.8, 0.1 }); // shades what the box shades, in part
+		const RenderResult frame = render_planar(fixture, scene);
+		check_floor(scene, frame);
+		CHECK(has_line(frame, "planes: "));
+		CHECK(has_line(frame, "shadows on 2 other meshes"));
+		CHECK(render_planar(fixture, scene, false).visibility == frame.visibility);
+	}
+}
+
+TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide nothing") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	const RenderResult before = render_planar(fixture, scene);
+	add_mesh(scene.scene, "Cellar", make_box_mesh("cellar", glm::vec3(0.6f, 0.1f, 0.6f)),
+			{ 0.6, -1.0, 0.4 });
+	add_mesh(scene.scene, "Ceiling", make_box_mesh("ceiling", glm::vec3(2.0f, 0.1f, 2.0f)),
+			{ 0, 5.0, 0 });
+	CHECK(render_planar(fixture, scene).visibility == before.visibility);
+	// Through the floor, and from below the light to above it.
+	add_mesh(scene.scene, "Post", make_box_mesh("post", glm::vec3(0.1f, 6.0f, 0.1f)),
+			{ -0.8, 0, -0.6 });
+	check_floor(scene, render_planar(fixture, scene));
+}
+
+TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit says so") {
+	RenderFixture fixture;
+	SmallScene undeclared;
+	undeclared.ground->is_planar_receiver = false;
+	const RenderResult none = render_planar(fixture, undeclared);
+	CHECK(has_line(none, "no node has shadow_planar_receiver"));
+	CHECK(compute_mask_difference(none, none) == 0);
+	CHECK(std::count(none.visibility.begin(), none.visibility.end(), 1.0f) >=
+			ptrdiff_t(count_receivers(none)));
+	// A floor that is a ball.
+	SmallScene curved;
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (uint32_t step = 0; step <= 100; ++step) {
+		const float angle = 0.0314159f * float(step);
+		positions.push_back({ 3 * std::cos(angle), 0.3f * std::sin(angle), -3 });
+		positions.push_back({ 3 * std::cos(angle), 0.3f * std::sin(angle), 3 });
+		if (step > 0) {
+			const uint32_t a = 2 * step - 2;
+			indices.insert(indices.end(), { a, a + 2, a + 1, a + 2, a + 3, a + 1 });
+		}
+	}
+	curved.ground->surfaces[0].mesh = make_mesh("arch", positions, {}, indices);
+	CHECK(has_line(render_planar(fixture, curved), "they are curved"));
+}
+
+TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the distance from the "
+		  "origin") {
+	RenderFixture fixture;
+	const RenderResult first = render_planar(fixture, SmallScene());
+	for (const double scale : { 1e-3, 1e3 }) {
+		CAPTURE(scale);
+		CHECK(compute_mask_difference(
+					  first, render_planar(fixture, SmallScene(LightType::SPOT, scale))) < 2e-4);
+	}
+	CHECK(compute_mask_difference(first,
+				  render_planar(fixture,
+						  SmallScene(LightType::SPOT, 1.0, glm::dvec3(1e5, -1e5, 1e5)))) < 2e-4);
+}
+
+TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
+	SmallScene scene(LightType::OMNI);
+	const auto snapshot = scene.snap();
+	const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
+	REQUIRE(found.planes.size() == 1); // of a floor's box only the top is turned to the light
+	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0));
+	CHECK(found.planes[0].normal_world.y == doctest::Approx(1.0));
+	CHECK(found.planes[0].offset_m == doctest::Approx(0.0));
+	CHECK(compute_light_height(found.planes[0], snapshot->lights[0]) == doctest::Approx(4.0));
+	// Beside a block the light sees a side of it too.
+	scene.box->is_planar_receiver = true;
+	const auto both = scene.snap();
+	CHECK(find_receiver_planes(*both, both->lights[0]).planes.size() == 4);
+	// A light below the floor lights its lower side.
+	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, -3, 0.1));
+	scene.box->is_planar_receiver = false;
+	const auto below = scene.snap();
+	const ReceiverPlanes lower = find_receiver_planes(*below, below->lights[0]);
+	REQUIRE(lower.planes.size() == 1);
+	CHECK(lower.planes[0].normal_world.y == doctest::Approx(-1.0));
+}

@@ -1,0 +1,67 @@
+#include "modules/shadow_volume/cpu_volumes.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// Appends corners of one mesh.
+struct VolumeBuilder {
+	const MeshTopology &topology;
+	std::vector<glm::vec4> corners;
+
+	void add_corner(uint32_t p_vertex, bool p_is_far) {
+		corners.emplace_back(topology.welded_positions_node[p_vertex], p_is_far ? 0.0f : 1.0f);
+	}
+	void add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, bool p_is_far) {
+		add_corner(p_a, p_is_far);
+		add_corner(p_b, p_is_far);
+		add_corner(p_c, p_is_far);
+	}
+	/// From the edge to infinity; the surface that is turned to the light winds p_from -> p_to.
+	void add_side(uint32_t p_from, uint32_t p_to) {
+		add_corner(p_from, false);
+		add_corner(p_from, true);
+		add_corner(p_to, false);
+		add_corner(p_to, false);
+		add_corner(p_from, true);
+		add_corner(p_to, true);
+	}
+};
+
+} // namespace
+
+std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
+		const glm::dvec4 &p_light_node, bool p_is_robust, bool p_has_near_cap, bool p_has_far_cap) {
+	VolumeBuilder builder{ p_topology, {} };
+	if (!std::isfinite(glm::dot(p_light_node, glm::dvec4(1.0)))) {
+		return {};
+	}
+	const Silhouette silhouette = build_silhouette(p_topology, p_light_node);
+	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
+		const bool is_facing = silhouette.is_facing[face] != 0;
+		if (!is_facing && !p_is_robust) {
+			continue;
+		}
+		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
+		const uint32_t b = corners[is_facing ? 1 : 2];
+		const uint32_t c = corners[is_facing ? 2 : 1];
+		if (p_has_near_cap) {
+			builder.add_triangle(corners[0], b, c, false);
+		}
+		if (p_has_far_cap) {
+			builder.add_triangle(corners[0], c, b, true);
+		}
+	}
+	// A closed mesh that is taken as open has both sides of each edge.
+	const uint32_t times = p_is_robust && p_topology.mesh_class == MeshClass::CLOSED ? 2 : 1;
+	for (const SilhouetteEdge &edge : silhouette.edges) {
+		for (uint32_t i = 0; i < edge.weight * times; ++i) {
+			builder.add_side(edge.from, edge.to);
+		}
+	}
+	return builder.corners;
+}
+
+} // namespace gnomon

@@ -1,0 +1,63 @@
+#include "modules/shadow_volume/shadow_volume.h"
+
+#include "modules/core/text.h"
+#include "modules/renderer/lighting.h"
+#include "modules/shadow_volume/volume_passes.h"
+
+namespace gnomon {
+
+void ShadowVolume::get_light_properties(PropertyList &r_list) const {
+	add_volume_properties(id, is_on_cpu, r_list);
+}
+
+void ShadowVolume::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		const PropertyValues & /*p_properties*/, std::vector<LightView> &r_views) const {
+	r_views = build_listing_views(p_light, p_scene);
+}
+
+void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
+	settings = read_volume_settings(id, is_on_cpu, p_inputs);
+	casters = build_volume_casters(p_inputs, settings, list_casters(p_inputs, r_plan));
+	const size_t count = casters.casters.size();
+	const auto report = [&](size_t p_count, const char *p_what) {
+		if (p_count > 0) {
+			r_plan.run(text(p_what, ", casters: ", p_count));
+		}
+	};
+	report(count - casters.z_fail_count, "volumes by z-pass");
+	report(casters.z_fail_count, "volumes by z-fail");
+	report(casters.robust_count, "robust volumes");
+	if (casters.unseen_count > 0) {
+		r_plan.leave_out(text("volumes of ", casters.unseen_count, " casters"),
+				"their shadows lie outside the picture");
+	}
+	if (casters.flat_count > 0) {
+		r_plan.leave_out(
+				text("volumes of ", casters.flat_count, " casters"), "a scale of theirs is 0");
+	}
+	if (casters.group_count > 1) {
+		r_plan.run(text("groups that the stencil can count: ", casters.group_count));
+	}
+}
+
+RGTexture ShadowVolume::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
+	if (casters.casters.empty() && p_inputs.may_leave_out) {
+		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
+	}
+	const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);
+	if (!casters.casters.empty()) {
+		add_volume_passes(r_graph, p_inputs, settings, casters, targets);
+	}
+	return targets.mask;
+}
+
+std::vector<std::string> ShadowVolume::get_shader_files() const {
+	std::vector<std::string> files;
+	for (const char *name : { "receivers.frag", "hidden.frag", "volumes.vert", "volumes.geom",
+				 "sides.vert", "caps.vert", "corners.vert" }) {
+		files.push_back(text("shadow_volume/", name));
+	}
+	return files;
+}
+
+} // namespace gnomon

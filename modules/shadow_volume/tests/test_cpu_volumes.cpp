@@ -1,0 +1,95 @@
+#include "modules/mesh_tools/tests/test_meshes.h"
+#include "modules/shadow_volume/cpu_volumes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+using namespace gnomon;
+
+namespace {
+
+/// Every mesh class, with its name.
+std::map<std::string, Mesh> make_meshes() {
+	Mesh flipped = test_meshes::make_cube(); // one face winds the other way
+	std::swap(flipped.indices[0], flipped.indices[1]);
+	Mesh fan = test_meshes::make( // three faces at one edge
+			{ { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0.2f }, { -1, 0, 0.4f }, { 0.1f, 0, -1 } },
+			{ 0, 1, 2, 0, 1, 3, 1, 0, 4 });
+	return { { "cube", test_meshes::make_cube() }, { "sphere", test_meshes::make_sphere(3) },
+		{ "torus", test_meshes::make_torus(12, 8) }, { "quad", test_meshes::make_quad() },
+		{ "moebius", test_meshes::make_moebius(9) }, { "soup", test_meshes::make_soup(3, 30, 60) },
+		{ "flipped face", flipped }, { "fan", fan } };
+}
+
+using Corner = std::array<float, 4>;
+
+/// Corners where rays end are one point when the light is at infinity.
+Corner make_key(const glm::vec4 &p_corner, bool p_is_directional) {
+	return p_is_directional && p_corner.w == 0
+			? Corner{ 0, 0, 0, 0 }
+			: Corner{ p_corner.x, p_corner.y, p_corner.z, p_corner.w };
+}
+
+/// Edges that are not gone along as often one way as the other: none when the surface is closed.
+size_t count_open_edges(const std::vector<glm::vec4> &p_corners, bool p_is_directional) {
+	std::map<std::pair<Corner, Corner>, int> counts;
+	for (size_t first = 0; first < p_corners.size(); first += 3) {
+		for (size_t i = 0; i < 3; ++i) {
+			const Corner a = make_key(p_corners[first + i], p_is_directional);
+			const Corner b = make_key(p_corners[first + (i + 1) % 3], p_is_directional);
+			if (a < b) {
+				++counts[{ a, b }];
+			} else if (b < a) {
+				--counts[{ b, a }];
+			}
+		}
+	}
+	return size_t(std::count_if(
+			counts.begin(), counts.end(), [](const auto &p_entry) { return p_entry.second != 0; }));
+}
+
+} // namespace
+
+TEST_CASE("[ShadowVolume] the volume of every kind of mesh is closed, from every side") {
+	for (const auto &[name, mesh] : make_meshes()) {
+		CAPTURE(name);
+		const MeshTopology topology = build_topology(mesh);
+		for (const glm::dvec4 &light : { glm::dvec4(3, 5, 2, 1), glm::dvec4(-4, 0.3, 1, 1),
+					 glm::dvec4(0.1, -0.2, 0.15, 1), glm::dvec4(0, 1, 0, 0),
+					 glm::dvec4(0.3, -0.5, 0.8, 0), glm::dvec4(2, 1, 0.5, 1) }) {
+			CAPTURE(light.x);
+			const bool is_robust = topology.is_double_sided();
+			const auto corners = build_cpu_volume(topology, light, is_robust, true, true);
+			CHECK(corners.size() % 3 == 0);
+			CHECK(count_open_edges(corners, light.w == 0) == 0);
+			// Taken as open, every mesh has a closed volume too.
+			const auto robust = build_cpu_volume(topology, light, true, true, true);
+			CHECK(robust.size() > 0);
+			CHECK(count_open_edges(robust, light.w == 0) == 0);
+			// Without caps it has the same sides.
+			const auto sides = build_cpu_volume(topology, light, is_robust, false, false);
+			CHECK((sides.size() < corners.size() || corners.empty())); // empty: seen from inside
+			CHECK(sides.size() % 6 == 0);
+		}
+	}
+}
+
+TEST_CASE("[ShadowVolume] a cube seen from a corner has six sides and three faces") {
+	const MeshTopology topology = build_topology(test_meshes::make_cube());
+	const glm::dvec4 light(4, 5, 6, 1);
+	CHECK(build_cpu_volume(topology, light, false, false, false).size() == 6 * 6);
+	CHECK(build_cpu_volume(topology, light, false, true, false).size() == 6 * 6 + 6 * 3);
+	CHECK(build_cpu_volume(topology, light, false, true, true).size() == 6 * 6 + 2 * 6 * 3);
+	// Robust: both sides of each edge, all faces.
+	CHECK(build_cpu_volume(topology, light, true, true, true).size() == 2 * 6 * 6 + 2 * 12 * 3);
+}
+
+TEST_CASE("[ShadowVolume] a light that is nowhere has no volume") {
+	const MeshTopology topology = build_topology(test_meshes::make_cube());
+	for (const double value : { double(NAN), double(INFINITY) }) {
+		CHECK(build_cpu_volume(topology, glm::dvec4(value, 0, 0, 1), true, true, true).empty());
+	}
+}

@@ -1,0 +1,140 @@
+// Whole frames against rays, and each way to make and count volumes against the others.
+
+#include "modules/shadow_volume/tests/volume_fixture.h"
+
+using namespace gnomon;
+
+namespace {
+
+const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
+
+/// p_most_wrong: of so many receivers one may be wrong, at the shadow's border.
+void check_against_rays(
+		const SmallScene &p_scene, const RenderResult &p_frame, size_t p_most_wrong = 1000) {
+	const HardDifference difference = HardTruth(p_scene).compare(p_frame);
+	CHECK(difference.receiver_count > 3000);
+	CHECK(difference.hidden_count > 50);
+	CHECK(difference.wrong_count <= difference.receiver_count / p_most_wrong);
+	CHECK(difference.unexplained_count == 0);
+}
+
+/// Meshes of every class about the box, some of which shade each other.
+void add_meshes(SmallScene &r_scene) {
+	const auto add = [&](const char *p_name, const Mesh &p_mesh, const glm::dvec3 &p_place,
+							 double p_scale) {
+		MeshInstance3D &node = add_mesh(r_scene.scene, p_name, share_mesh(p_name, p_mesh), p_place);
+		node.parent_from_node = glm::rotate(
+				glm::scale(node.parent_from_node, glm::dvec3(p_scale)), 0.7, { 0.3, 1, 0.2 });
+	};
+	add("sphere", test_meshes::make_sphere(3), { -0.9, 0.8, 0.4 }, 0.3);
+	add("sheet", test_meshes::make_quad(), { 0.9, 0.9, 0.3 }, 0.5);
+	add("moebius", test_meshes::make_moebius(12), { 0.2, 1.8, -0.9 }, 0.4);
+	add("soup", test_meshes::make_soup(5, 20, 24), { -0.6, 0.7, -0.8 }, 0.3);
+	Mesh inside_out = test_meshes::make_cube();
+	for (size_t first = 0; first < inside_out.indices.size(); first += 3) {
+		std::swap(inside_out.indices[first], inside_out.indices[first + 1]);
+	}
+	add("inside out", inside_out, { -1.4, 0.5, -0.2 }, 0.2);
+}
+
+MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
+	MeshInstance3D &node = add_mesh(r_scene.scene, "Mirrored",
+			make_box_mesh("mirrored", glm::vec3(0.2f, 0.3f, 0.25f)), { 0.9, 0.7, -0.5 });
+	node.parent_from_node = glm::scale(node.parent_from_node, glm::dvec3(-1, 1, 1));
+	return node;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][ShadowVolume] the mask is that of rays, for every light and class of mesh") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		check_against_rays(scene, render_volumes(fixture, scene));
+		add_meshes(scene);
+		add_mirrored_box(scene);
+		check_against_rays(scene, render_volumes(fixture, scene));
+	}
+}
+
+TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same mask") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		add_meshes(scene);
+		add_mirrored_box(scene);
+		const RenderResult first = render_volumes(fixture, scene);
+		const auto check_same = [&](const RenderResult &p_other) {
+			CHECK(p_other.visibility == first.visibility);
+		};
+		for (const char *extrusion : { "geometry_shader", "compute" }) {
+			CAPTURE(std::string(extrusion));
+			for (const char *count : { "auto", "z_pass", "z_fail" }) {
+				CAPTURE(std::string(count));
+				check_same(render_volumes(fixture, scene,
+						{ { "extrusion", std::string(extrusion) },
+								{ "method", std::string(count) } }));
+			}
+			check_same(render_volumes(fixture, scene,
+					{ { "extrusion", std::string(extrusion) },
+							{ "robust", std::string("always") } }));
+			check_same(render_volumes(fixture, scene,
+					{ { "extrusion", std::string(extrusion) }, { "scissor", false } }));
+		}
+		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128), false));
+		// In double a face in the light's plane may be decided otherwise.
+		const RenderResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
+		CHECK(compute_mask_difference(first, on_cpu) < 1e-4);
+		check_against_rays(scene, on_cpu);
+	}
+}
+
+TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its border") {
+	RenderFixture fixture;
+	SmallScene scene;
+	add_meshes(scene);
+	size_t z_fail_count = 0;
+	for (int step = 0; step < 24; ++step) {
+		CAPTURE(step);
+		// Through the box's shadow and the box itself.
+		const double way = -1.0 + step / 12.0;
+		scene.camera->parent_from_node =
+				look_at({ -0.3 + 1.2 * way, 0.5 + 0.1 * step, -0.1 + way }, { 0.6, 0, 1.4 - way });
+		const RenderResult frame = render_volumes(fixture, scene);
+		z_fail_count += frame.plan.to_text().find("by z-fail") != std::string::npos ? 1 : 0;
+		const HardDifference difference = HardTruth(scene).compare(frame);
+		CHECK(difference.wrong_count <= difference.receiver_count / 500);
+		CHECK(difference.unexplained_count == 0);
+	}
+	CHECK(z_fail_count > 5);
+}
+
+TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of its faces") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	const auto place_light = [&](const glm::dvec3 &p_place) {
+		scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), p_place);
+	};
+	place_light({ 0.05, 1.02, 0.03 }); // all is hidden
+	const RenderResult inside = render_volumes(fixture, scene);
+	CHECK(HardTruth(scene).compare(inside).wrong_count == 0);
+	CHECK(HardTruth(scene).compare(inside).hidden_count == count_receivers(inside));
+	place_light({ 0.5, 3.0, 0.4 }); // above an edge of the box
+	check_against_rays(scene, render_volumes(fixture, scene));
+	place_light({ 2.0, 1.3, 0.0 }); // in the plane of its top
+	check_against_rays(scene, render_volumes(fixture, scene));
+}
+
+TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the other") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const auto sheet = make_box_mesh("sheet", glm::vec3(0.5f, 0.001f, 0.4f));
+	for (int index = 0; index < 255; ++index) { // with the box 256: a count that wraps to 0
+		add_mesh(scene.scene, text("Sheet ", index), sheet, { 0, 1.4 + 0.004 * index, 0 });
+	}
+	const RenderResult frame = render_volumes(fixture, scene);
+	check_against_rays(scene, frame, 500); // the border is long: each sheet has one
+	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
+}

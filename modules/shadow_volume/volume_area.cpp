@@ -1,0 +1,199 @@
+#include "modules/shadow_volume/volume_area.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const size_t CORNER_COUNT = 8;
+const double MARGIN_PX = 1.0; // for the rasteriser's rounding
+// Boxes are grown by these parts of the near distance and of their own size.
+const double MARGIN_PER_NEAR = 1e-3;
+const double MARGIN_PER_BOX = 1e-5;
+
+using Corners = std::array<glm::dvec3, CORNER_COUNT>;
+
+Corners compute_corners_view(const Bounds &p_box_world, const LightView &p_camera) {
+	Corners corners;
+	for (size_t i = 0; i < CORNER_COUNT; ++i) {
+		const glm::dvec3 corner_world((i & 1) != 0 ? p_box_world.maximum.x : p_box_world.minimum.x,
+				(i & 2) != 0 ? p_box_world.maximum.y : p_box_world.minimum.y,
+				(i & 4) != 0 ? p_box_world.maximum.z : p_box_world.minimum.z);
+		corners[i] = glm::dvec3(p_camera.view_from_world * glm::dvec4(corner_world, 1.0));
+	}
+	return corners;
+}
+
+/// Least distance from the light's centre to the box; 0 inside.
+double compute_distance_m(const Bounds &p_box_world, const glm::dvec3 &p_point_world) {
+	const glm::dvec3 nearest = glm::clamp(p_point_world, p_box_world.minimum, p_box_world.maximum);
+	return glm::length(nearest - p_point_world);
+}
+
+/// Collects projected points.
+struct Projection {
+	const LightView &camera;
+	glm::dvec2 minimum = glm::dvec2(1e300);
+	glm::dvec2 maximum = glm::dvec2(-1e300);
+	double least_depth = 1.0;
+	double greatest_depth = 0.0;
+
+	/// A point of homogeneous view space with z >= near w, w >= 0.
+	void add(const glm::dvec4 &p_point) {
+		for (int axis = 0; axis < 2; ++axis) {
+			const double limit = p_point.z * camera.half_extent[axis];
+			const double ndc = std::abs(p_point[axis]) < 1e6 * limit ? p_point[axis] / limit
+					: p_point[axis] < 0								 ? -1e6
+																	 : 1e6;
+			minimum[axis] = std::min(minimum[axis], ndc);
+			maximum[axis] = std::max(maximum[axis], ndc);
+		}
+		const double depth = p_point.z > 0 ? camera.near_m * p_point.w / p_point.z : 1.0;
+		least_depth = std::min(least_depth, depth);
+		greatest_depth = std::max(greatest_depth, depth);
+	}
+};
+
+VolumeArea make_area(const Projection &p_projection, glm::uvec2 p_size_px) {
+	VolumeArea area;
+	const glm::dvec2 size(p_size_px);
+	const glm::dvec2 begin = glm::clamp(
+			glm::floor((p_projection.minimum * 0.5 + 0.5) * size - MARGIN_PX), glm::dvec2(0), size);
+	const glm::dvec2 end = glm::clamp(
+			glm::ceil((p_projection.maximum * 0.5 + 0.5) * size + MARGIN_PX), glm::dvec2(0), size);
+	if (end.x <= begin.x || end.y <= begin.y) {
+		return area;
+	}
+	area.offset_px = glm::uvec2(begin);
+	area.size_px = glm::uvec2(end - begin);
+	const double tolerance = 1e-5; // relative, of the stored float and its interpolation
+	area.least_depth = static_cast<float>(p_projection.least_depth * (1 - tolerance));
+	area.greatest_depth =
+			static_cast<float>(std::min(p_projection.greatest_depth * (1 + tolerance), 1.0));
+	return area;
+}
+
+/// How far beyond each corner the volume goes, in parts of the corner's distance from the light;
+/// infinity without an end.
+double compute_reach(const Bounds &p_box_world, const LightSnapshot &p_light) {
+	const double nearest_m = compute_distance_m(p_box_world, p_light.position_world);
+	return p_light.range_m > 0 && nearest_m > 1e-3 * p_box_world.get_diagonal()
+			? std::max(p_light.range_m / nearest_m, 1.0)
+			: INFINITY;
+}
+
+bool are_all_behind(const Corners &p_corners, const glm::dvec3 &p_normal, double p_offset) {
+	return std::all_of(p_corners.begin(), p_corners.end(), [&](const glm::dvec3 &p_corner) {
+		return glm::dot(p_normal, p_corner) + p_offset < 0;
+	});
+}
+
+} // namespace
+
+glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera) {
+	return p_camera.view_from_world *
+			(p_light.type == LightType::DIRECTIONAL
+							? glm::dvec4(-p_light.get_direction_world(), 0.0)
+							: glm::dvec4(p_light.position_world, 1.0));
+}
+
+VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,
+		const LightView &p_camera, glm::uvec2 p_size_px) {
+	VolumeArea whole;
+	whole.size_px = p_size_px;
+	const glm::dvec4 light = compute_light_view(p_light, p_camera);
+	const bool is_point = light.w != 0;
+	if (is_point && compute_distance_m(p_box_world, p_light.position_world) <= 0) {
+		return whole;
+	}
+	const double reach = is_point ? compute_reach(p_box_world, p_light) : INFINITY;
+	std::array<glm::dvec4, 2 * CORNER_COUNT> points;
+	const Corners corners = compute_corners_view(p_box_world, p_camera);
+	for (size_t i = 0; i < CORNER_COUNT; ++i) {
+		const glm::dvec3 ray = corners[i] * light.w - glm::dvec3(light);
+		points[i] = glm::dvec4(corners[i], 1.0);
+		points[CORNER_COUNT + i] = std::isinf(reach)
+				? glm::dvec4(ray, 0.0)
+				: glm::dvec4(glm::dvec3(light) + ray * reach, 1.0);
+	}
+	Projection projection{ p_camera };
+	const auto get_height = [&](const glm::dvec4 &p_point) {
+		return p_point.z - p_camera.near_m * p_point.w;
+	};
+	for (size_t i = 0; i < points.size(); ++i) {
+		const double height = get_height(points[i]);
+		if (height >= 0) {
+			projection.add(points[i]);
+		}
+		for (size_t j = 0; j < i; ++j) { // where the hull's edges, and more, cross the near plane
+			const double other = get_height(points[j]);
+			if ((height < 0) != (other < 0)) {
+				const double share = height / (height - other);
+				projection.add(points[i] + (points[j] - points[i]) * share);
+			}
+		}
+	}
+	return projection.maximum.x < projection.minimum.x ? VolumeArea()
+													   : make_area(projection, p_size_px);
+}
+
+bool may_shade_near_plane(
+		const Bounds &p_box_world, const LightSnapshot &p_light, const LightView &p_camera) {
+	const glm::dvec4 light = compute_light_view(p_light, p_camera);
+	Bounds box = p_box_world;
+	const double near_m = p_camera.near_m;
+	const double margin_m = MARGIN_PER_NEAR * near_m + MARGIN_PER_BOX * p_box_world.get_diagonal();
+	box.minimum -= margin_m;
+	box.maximum += margin_m;
+	const Corners corners = compute_corners_view(box, p_camera);
+	const glm::dvec2 half = glm::dvec2(p_camera.half_extent) * near_m;
+	const std::array<glm::dvec3, 4> rectangle = { glm::dvec3(-half.x, -half.y, near_m),
+		glm::dvec3(half.x, -half.y, near_m), glm::dvec3(half.x, half.y, near_m),
+		glm::dvec3(-half.x, half.y, near_m) };
+	const glm::dvec3 centre(0, 0, near_m);
+	// The near plane itself, seen from the light's side of it.
+	const double light_height = light.z - near_m * light.w;
+	if (light_height != 0) {
+		const double side = light_height > 0 ? 1.0 : -1.0;
+		if (are_all_behind(corners, { 0, 0, side }, -side * near_m)) {
+			return false;
+		}
+	}
+	// Planes through the light and a side of the rectangle.
+	for (size_t i = 0; i < rectangle.size(); ++i) {
+		const glm::dvec3 &corner = rectangle[i];
+		const glm::dvec3 along = rectangle[(i + 1) % rectangle.size()] - corner;
+		glm::dvec3 normal = glm::cross(along, glm::dvec3(light) - corner * light.w);
+		const double inside = glm::dot(normal, centre - corner);
+		if (std::abs(inside) <= 1e-9 * glm::length(normal) * near_m) {
+			continue; // the light lies in the near plane: no inside
+		}
+		normal *= inside > 0 ? 1.0 : -1.0;
+		if (are_all_behind(corners, normal, -glm::dot(normal, corner))) {
+			return false;
+		}
+	}
+	// The light's end of the space between.
+	if (light.w != 0) {
+		for (int axis = 0; axis < 3; ++axis) {
+			double least = light[axis];
+			double greatest = light[axis];
+			for (const glm::dvec3 &corner : rectangle) {
+				least = std::min(least, corner[axis]);
+				greatest = std::max(greatest, corner[axis]);
+			}
+			glm::dvec3 direction(0.0);
+			direction[axis] = 1.0;
+			if (are_all_behind(corners, direction, -least) ||
+					are_all_behind(corners, -direction, greatest)) {
+				return false;
+			}
+		}
+	}
+	return true;
+}
+
+} // namespace gnomon

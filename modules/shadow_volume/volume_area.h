@@ -1,0 +1,35 @@
+#pragma once
+
+#include "modules/renderer/light_view.h"
+
+#include <glm/glm.hpp>
+
+// Where a caster's shadow volume lies in the picture. Camera view space, metres, double precision:
+// x right, y down, z along the view.
+
+namespace gnomon {
+
+/// The pixels and depths that a volume may cover; receivers elsewhere are outside it.
+struct VolumeArea {
+	glm::uvec2 offset_px = glm::uvec2(0);
+	glm::uvec2 size_px = glm::uvec2(0); // 0: outside the picture
+	float least_depth = 0.0f;			// as stored: reversed, 0 = infinitely far
+	float greatest_depth = 1.0f;
+
+	bool is_empty() const { return size_px.x == 0 || size_px.y == 0; }
+};
+
+/// The light as seen from the camera: xyz / w its centre, w = 0 the direction towards it.
+glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera);
+
+/// Of what the box hides from the light: the box drawn out along the light's rays, to infinity or
+/// to the end of its range. A light in the box or in its planes gives the whole picture.
+VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,
+		const LightView &p_camera, glm::uvec2 p_size_px);
+
+/// False when the box is certainly outside the space between the light and the camera's near
+/// rectangle: then the rectangle lies outside the box's shadow volume and z-pass is safe.
+bool may_shade_near_plane(
+		const Bounds &p_box_world, const LightSnapshot &p_light, const LightView &p_camera);
+
+} // namespace gnomon

@@ -1,0 +1,127 @@
+#include "modules/shadow_volume/volume_casters.h"
+
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/mesh_store.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const uint32_t STENCIL_MAXIMUM = 255;
+const uint32_t TRIANGLES_PER_LAYER = 8; // a box has 12 and one layer
+const uint32_t MOST_LAYERS = 32;
+const double BOX_GROWTH = 1e-3; // of its size: a light so near is taken to be inside
+
+bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_light) {
+	if (p_light.type == LightType::DIRECTIONAL) {
+		return false;
+	}
+	const double margin_m = BOX_GROWTH * p_instance.bounds_world.get_diagonal();
+	const glm::dvec3 &light = p_light.position_world;
+	return glm::all(glm::greaterThanEqual(light, p_instance.bounds_world.minimum - margin_m)) &&
+			glm::all(glm::lessThanEqual(light, p_instance.bounds_world.maximum + margin_m));
+}
+
+/// Counts how many layers may lie over each part of the picture, and begins a group when a stencil
+/// could no longer hold them.
+class GroupSplitter {
+public:
+	explicit GroupSplitter(glm::uvec2 p_size_px) : size_px(p_size_px) {}
+
+	uint32_t place(const VolumeArea &p_area, uint32_t p_layer_count) {
+		if (compute_greatest(p_area) + p_layer_count > STENCIL_MAXIMUM) {
+			layers.fill(0);
+			++group;
+		}
+		for_each_tile(p_area, [&](uint32_t &r_layers) { r_layers += p_layer_count; });
+		return group;
+	}
+
+private:
+	static const uint32_t SIDE = 16;
+
+	template <typename Function> void for_each_tile(const VolumeArea &p_area, Function p_function) {
+		const glm::uvec2 begin = p_area.offset_px * SIDE / size_px;
+		const glm::uvec2 end =
+				(p_area.offset_px + p_area.size_px - 1u) * SIDE / size_px; // inclusive
+		for (uint32_t y = begin.y; y <= end.y; ++y) {
+			for (uint32_t x = begin.x; x <= end.x; ++x) {
+				p_function(layers[y * SIDE + x]);
+			}
+		}
+	}
+	uint32_t compute_greatest(const VolumeArea &p_area) {
+		uint32_t greatest = 0;
+		for_each_tile(p_area, [&](uint32_t p_layers) { greatest = std::max(greatest, p_layers); });
+		return greatest;
+	}
+
+	glm::uvec2 size_px;
+	std::array<uint32_t, SIDE *SIDE> layers = {};
+	uint32_t group = 0;
+};
+
+} // namespace
+
+uint32_t estimate_layers(const MeshTopology &p_topology, bool p_is_robust) {
+	const uint32_t layers =
+			std::clamp(p_topology.get_face_count() / TRIANGLES_PER_LAYER, 1u, MOST_LAYERS);
+	return p_is_robust ? 2 * layers : layers;
+}
+
+VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
+		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances) {
+	const LightView camera = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
+	VolumeArea whole;
+	whole.size_px = p_inputs.size_px;
+	GroupSplitter groups(p_inputs.size_px);
+	VolumeCasters result;
+	for (uint32_t index : p_instances) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+		VolumeCaster caster;
+		caster.instance_index = index;
+		caster.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
+		if (!std::isfinite(glm::dot(caster.light_node, glm::vec4(1.0f)))) {
+			++result.flat_count;
+			continue;
+		}
+		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh);
+		if (caster.gpu->edge_count == 0) {
+			continue;
+		}
+		caster.area = compute_volume_area(
+				instance.bounds_world, p_inputs.light, camera, p_inputs.size_px);
+		if (p_inputs.may_leave_out && caster.area.is_empty()) {
+			++result.unseen_count;
+			continue;
+		}
+		if (!p_settings.has_scissor) {
+			caster.area = whole;
+		}
+		const MeshTopology &topology = *caster.gpu->topology;
+		caster.is_mirrored = instance.is_mirrored();
+		caster.is_robust = p_settings.is_always_robust || topology.is_double_sided() ||
+				topology.signed_volume_m3 < 0 || is_light_within(instance, p_inputs.light);
+		caster.count = p_settings.count.value_or(
+				may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
+						? VolumeCount::Z_FAIL
+						: VolumeCount::Z_PASS);
+		caster.has_far_cap = caster.count == VolumeCount::Z_FAIL;
+		// Where the camera sees a face it hides what lies behind its cap. Faces that are culled do
+		// not.
+		caster.has_near_cap =
+				caster.has_far_cap || (caster.is_robust && !instance.material->is_double_sided);
+		caster.group = groups.place(caster.area, estimate_layers(topology, caster.is_robust));
+		result.z_fail_count += caster.has_far_cap ? 1 : 0;
+		result.robust_count += caster.is_robust ? 1 : 0;
+		result.group_count = caster.group + 1;
+		result.casters.push_back(caster);
+	}
+	return result;
+}
+
+} // namespace gnomon

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "modules/renderer/silhouette_lists.h"
+#include "modules/shadow_volume/volume_area.h"
+#include "modules/shadow_volume/volume_settings.h"
+
+#include <vector>
+
+namespace gnomon {
+
+/// One caster whose shadow volume is drawn.
+struct VolumeCaster {
+	uint32_t instance_index = 0;
+	const GpuTopology *gpu = nullptr;
+	glm::vec4 light_node = glm::vec4(0.0f); // as VolumePush::light_node
+	VolumeCount count = VolumeCount::Z_PASS;
+	bool is_robust = false;
+	bool has_near_cap = false;
+	bool has_far_cap = false;
+	bool is_mirrored = false;
+	uint32_t group = 0; // those of one group share a stencil
+	VolumeArea area;
+};
+
+struct VolumeCasters {
+	std::vector<VolumeCaster> casters; // ordered by instance_index
+	uint32_t group_count = 0;
+	// For the frame plan.
+	uint32_t z_fail_count = 0;
+	uint32_t robust_count = 0;
+	uint32_t flat_count = 0;   // with a singular transform: they have no inside
+	uint32_t unseen_count = 0; // whose shadow lies outside the picture
+};
+
+/// Decides for every caster of p_instances (ascending) how it is drawn. A caster is robust when its
+/// mesh is open, not manifold or inside out, or when the light is within its box. A stencil counts
+/// to 255: where more volumes may lie over one another, the casters are split into groups.
+VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
+		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
+
+/// At most so many solids of one mesh are taken to lie over one another, each way.
+uint32_t estimate_layers(const MeshTopology &p_topology, bool p_is_robust);
+
+} // namespace gnomon

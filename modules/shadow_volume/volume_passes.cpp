@@ -1,0 +1,272 @@
+#include "modules/shadow_volume/volume_passes.h"
+
+#include "modules/core/files.h"
+#include "modules/core/text.h"
+#include "modules/renderer/caster_pass.h"
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/mesh_store.h"
+#include "modules/shadow_volume/cpu_volumes.h"
+
+#include "shadow_volume/shadow_volume_shared.h"
+
+namespace gnomon {
+
+namespace {
+
+const uint32_t CORNERS_PER_CAP = 3;
+
+/// What is drawn of one caster, and with which pipelines.
+struct VolumeDraw {
+	const VolumeCaster *caster = nullptr;
+	PipelineRID pipeline;	   // of all of it, or of its sides
+	PipelineRID caps_pipeline; // without a geometry shader
+	shader::VolumePush push;
+	uint32_t cap_vertex_count = 0;
+	uint32_t draw_index = 0; // into the lists' indirect draws
+	RGBuffer corners;		 // made on the CPU
+	uint32_t corner_count = 0;
+};
+
+StencilTest make_count_test(VolumeCount p_count) {
+	StencilTest test;
+	if (p_count == VolumeCount::Z_PASS) {
+		test.front.pass = StencilOp::INCREMENT_WRAP;
+		test.back.pass = StencilOp::DECREMENT_WRAP;
+	} else {
+		test.front.depth_fail = StencilOp::DECREMENT_WRAP;
+		test.back.depth_fail = StencilOp::INCREMENT_WRAP;
+	}
+	return test;
+}
+
+/// p_what: "geometry shader", "sides", "caps" or "corners".
+RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::string &p_what) {
+	RasterPipelineDesc desc;
+	desc.name = text("volumes, ", p_what);
+	desc.constants = { { VOLUMES_CONSTANT_IS_ROBUST, p_caster.is_robust ? 1u : 0u },
+		{ VOLUMES_CONSTANT_HAS_NEAR_CAP, p_caster.has_near_cap ? 1u : 0u },
+		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.has_far_cap ? 1u : 0u } };
+	desc.has_stencil = true;
+	desc.stencil = make_count_test(p_caster.count);
+	desc.writes_depth = false;
+	desc.depth_compare = CompareOp::GREATER; // reversed: nearer
+	if (p_what == "geometry shader") {
+		desc.vertex_shader = "shadow_volume/volumes.vert";
+		desc.geometry_shader = "shadow_volume/volumes.geom";
+		desc.topology = Topology::TRIANGLES_WITH_ADJACENCY;
+	} else {
+		desc.vertex_shader = text("shadow_volume/", p_what, ".vert");
+	}
+	if (p_what == "geometry shader" || p_what == "corners") {
+		desc.attributes = { { 0, 0, Format::R32_SFLOAT, 4, 0 } };
+		desc.vertex_strides_bytes = { sizeof(glm::vec4) };
+	}
+	return desc;
+}
+
+PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSettings &p_settings,
+		const VolumeCaster &p_caster, const std::string &p_what) {
+	RasterPipelineDesc desc = make_volume_desc(p_caster, p_what);
+	desc.has_depth_bounds = p_settings.has_scissor && p_inputs.device.get_features().depth_bounds;
+	return p_inputs.device.get_raster_pipeline(desc);
+}
+
+std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
+		const SilhouetteCasters &p_listed) {
+	const LightView camera = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
+	std::vector<VolumeDraw> draws;
+	for (const VolumeCaster &caster : p_casters.casters) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
+		VolumeDraw draw;
+		draw.caster = &caster;
+		draw.push.clip_from_node = camera.compute_clip_from_node(instance.world_from_node);
+		draw.push.light_node = caster.light_node;
+		if (p_settings.maker == VolumeMaker::GEOMETRY_SHADER) {
+			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
+		} else if (p_settings.maker == VolumeMaker::CPU) {
+			const std::vector<glm::vec4> corners =
+					build_cpu_volume(*caster.gpu->topology, glm::dvec4(caster.light_node),
+							caster.is_robust, caster.has_near_cap, caster.has_far_cap);
+			if (corners.empty()) {
+				continue;
+			}
+			draw.corner_count = static_cast<uint32_t>(corners.size());
+			draw.corners = r_graph.upload(
+					"volume corners", BufferUsage::VERTEX, bytes_of(std::span(corners)));
+			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "corners");
+		} else {
+			const SilhouetteCaster *listed = p_listed.find(caster.instance_index);
+			draw.draw_index = static_cast<uint32_t>(listed - p_listed.casters.data());
+			draw.push.first_in_list = listed->first_in_list;
+			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "sides");
+			const uint32_t cap_count = (caster.has_near_cap ? 1 : 0) + (caster.has_far_cap ? 1 : 0);
+			draw.cap_vertex_count =
+					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
+			if (draw.cap_vertex_count > 0) {
+				draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
+			}
+		}
+		draws.push_back(draw);
+	}
+	return draws;
+}
+
+void record_draw(PassContext &r_context, const VolumeDraw &p_draw, VolumeMaker p_maker,
+		const SilhouetteLists &p_lists) {
+	CommandList &commands = r_context.commands;
+	const VolumeCaster &caster = *p_draw.caster;
+	const GpuTopology &gpu = *caster.gpu;
+	commands.bind_pipeline(p_draw.pipeline);
+	if (p_maker == VolumeMaker::GEOMETRY_SHADER) {
+		const BufferRID vertices[] = { gpu.positions.get() };
+		commands.bind_vertex_buffers(vertices);
+		commands.bind_index_buffer(gpu.adjacency_indices.get());
+		commands.bind_resources({ { VOLUMES_BINDING_FACE_FLAGS, gpu.face_flags.get() } });
+		commands.push_constants(p_draw.push);
+		commands.draw_indexed(gpu.adjacency_index_count);
+		return;
+	}
+	if (p_maker == VolumeMaker::CPU) {
+		const BufferRID vertices[] = { r_context.get(p_draw.corners) };
+		commands.bind_vertex_buffers(vertices);
+		commands.push_constants(p_draw.push);
+		commands.draw(p_draw.corner_count);
+		return;
+	}
+	commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
+			{ VOLUMES_BINDING_EDGES, gpu.edges.get() },
+			{ VOLUMES_BINDING_LIST, r_context.get(p_lists.list) } });
+	commands.push_constants(p_draw.push);
+	commands.draw_indirect(
+			r_context.get(p_lists.draws), p_draw.draw_index * sizeof(shader::SilhouetteDraw));
+	if (p_draw.cap_vertex_count > 0) {
+		commands.bind_pipeline(p_draw.caps_pipeline);
+		commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
+				{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() } });
+		commands.push_constants(p_draw.push);
+		commands.draw(p_draw.cap_vertex_count);
+	}
+}
+
+void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const VolumeTargets &p_targets, const std::string &p_name) {
+	RasterPipelineDesc desc;
+	desc.name = "hidden";
+	desc.vertex_shader = "renderer/screen.vert";
+	desc.fragment_shader = "shadow_volume/hidden.frag";
+	desc.color_formats = { Format::R16_SFLOAT };
+	desc.has_stencil = true;
+	// Leaves the stencil at 0 for the next group.
+	desc.stencil.front = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
+		StencilOp::ZERO };
+	desc.stencil.back = desc.stencil.front;
+	desc.depth_compare = CompareOp::ALWAYS;
+	desc.writes_depth = false;
+	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
+	r_graph.add_pass(p_name)
+			.color(p_targets.mask, LoadOp::KEEP)
+			.depth(p_targets.depth, LoadOp::KEEP)
+			.execute([pipeline](PassContext &p_context) {
+				p_context.commands.bind_pipeline(pipeline);
+				p_context.commands.draw(3);
+			});
+}
+
+} // namespace
+
+VolumeTargets add_volume_receivers_pass(
+		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
+	VolumeTargets targets;
+	targets.mask = create_drawn_mask(r_graph, p_inputs.size_px);
+	targets.depth = create_stencil_target(r_graph, "volume depth", p_inputs.size_px);
+	RasterPipelineDesc desc;
+	desc.name = "volume receivers";
+	desc.vertex_shader = "renderer/screen.vert";
+	desc.fragment_shader = "shadow_volume/receivers.frag";
+	desc.color_formats = { Format::R16_SFLOAT };
+	desc.has_stencil = true;
+	desc.depth_compare = CompareOp::ALWAYS;
+	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
+	const RGBuffer frame = p_inputs.frame;
+	const RGBuffer light = p_inputs.light_constants;
+	const RGTexture depth = p_inputs.depth;
+	const RGTexture normal = p_inputs.geometric_normal;
+	const RGTexture receivers = p_inputs.receivers;
+	r_graph.add_pass("receivers' depth")
+			.reads(frame, Access::UNIFORM_READ)
+			.reads(light, Access::UNIFORM_READ)
+			.reads(depth, Access::SHADER_READ_FRAGMENT)
+			.reads(normal, Access::SHADER_READ_FRAGMENT)
+			.reads(receivers, Access::SHADER_READ_FRAGMENT)
+			.color(targets.mask)
+			.depth(targets.depth, LoadOp::CLEAR, 0.0f)
+			.execute([=](PassContext &p_context) {
+				CommandList &commands = p_context.commands;
+				commands.bind_pipeline(pipeline);
+				commands.bind_resources({ { RECEIVERS_BINDING_FRAME, p_context.get(frame) },
+						{ RECEIVERS_BINDING_LIGHT, p_context.get(light) },
+						{ RECEIVERS_BINDING_DEPTH, p_context.get(depth) },
+						{ RECEIVERS_BINDING_NORMAL, p_context.get(normal) },
+						{ RECEIVERS_BINDING_RECEIVERS, p_context.get(receivers) } });
+				commands.draw(3);
+			});
+	return targets;
+}
+
+void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
+		const VolumeTargets &p_targets) {
+	SilhouetteCasters listed;
+	SilhouetteLists lists;
+	if (p_settings.maker == VolumeMaker::COMPUTE) {
+		std::vector<uint32_t> instances;
+		for (const VolumeCaster &caster : p_casters.casters) {
+			instances.push_back(caster.instance_index);
+		}
+		listed = build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
+		for (size_t i = 0; i < listed.casters.size(); ++i) {
+			listed.casters[i].vertices_per_edge *= p_casters.casters[i].is_robust ? 2 : 1;
+		}
+		lists = add_silhouette_passes(r_graph, p_inputs.device, listed);
+	}
+	const std::vector<VolumeDraw> draws =
+			build_draws(r_graph, p_inputs, p_settings, p_casters, listed);
+	for (uint32_t group = 0; group < p_casters.group_count; ++group) {
+		const std::string suffix = p_casters.group_count > 1 ? text(" ", group) : "";
+		PassBuilder pass = r_graph.add_pass("volumes" + suffix);
+		pass.depth(p_targets.depth, LoadOp::KEEP);
+		if (lists.list) {
+			pass.reads(lists.list, Access::SHADER_READ_VERTEX)
+					.reads(lists.draws, Access::INDIRECT_READ);
+		}
+		std::vector<VolumeDraw> group_draws;
+		for (const VolumeDraw &draw : draws) {
+			if (draw.caster->group == group) {
+				group_draws.push_back(draw);
+				if (draw.corners) {
+					pass.reads(draw.corners, Access::VERTEX_READ);
+				}
+			}
+		}
+		const bool has_bounds =
+				p_settings.has_scissor && p_inputs.device.get_features().depth_bounds;
+		pass.execute([group_draws, lists, has_bounds, maker = p_settings.maker](
+							 PassContext &p_context) {
+			for (const VolumeDraw &draw : group_draws) {
+				const VolumeArea &area = draw.caster->area;
+				p_context.commands.set_scissor(area.offset_px, area.size_px);
+				if (has_bounds) {
+					p_context.commands.set_depth_bounds(area.least_depth, area.greatest_depth);
+				}
+				p_context.commands.set_winding(draw.caster->is_mirrored
+								? CommandList::Winding::MIRRORED
+								: CommandList::Winding::NORMAL);
+				record_draw(p_context, draw, maker, lists);
+			}
+		});
+		add_hidden_pass(r_graph, p_inputs, p_targets, "hidden" + suffix);
+	}
+}
+
+} // namespace gnomon

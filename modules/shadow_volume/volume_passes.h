@@ -1,0 +1,22 @@
+#pragma once
+
+#include "modules/shadow_volume/volume_casters.h"
+
+namespace gnomon {
+
+/// What volumes are counted in. The mask is R16_SFLOAT.
+struct VolumeTargets {
+	RGTexture mask;
+	RGTexture depth; // D32_SFLOAT_S8_UINT: of the receivers moved off their surfaces; the count
+};
+
+/// Makes the targets: a mask that is 1 at receivers and 0 elsewhere, and no count.
+VolumeTargets add_volume_receivers_pass(
+		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
+
+/// Counts the volumes of each group and darkens the mask where the count is not 0.
+void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
+		const VolumeTargets &p_targets);
+
+} // namespace gnomon

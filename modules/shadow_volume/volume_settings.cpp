@@ -1,0 +1,61 @@
+#include "modules/shadow_volume/volume_settings.h"
+
+#include "modules/rendering_device/rendering_device.h"
+
+namespace gnomon {
+
+namespace {
+
+const std::string GROUP = "Shadow volume";
+
+const std::string &read_choice(const PropertyValues &p_properties, const std::string &p_name) {
+	return std::get<std::string>(p_properties.at(p_name));
+}
+
+} // namespace
+
+void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyList &r_list) {
+	r_list.add({ p_id + "_method", PropertyType::ENUM, {}, "auto,z_pass,z_fail",
+			"How volumes are counted: in front of what is seen, which is faster, or behind it, "
+			"which needs caps and holds inside a shadow; auto chooses for each caster. z_pass "
+			"alone is wrong where the camera is in a shadow.",
+			"", GROUP });
+	r_list.add({ p_id + "_robust", PropertyType::ENUM, {}, "auto,always",
+			"Meshes that are open, not manifold or inside out have the shadow of each of their "
+			"triangles; auto does that for those alone, always for all.",
+			"", GROUP });
+	r_list.add({ p_id + "_scissor", PropertyType::BOOL, true, "",
+			"Draw each volume only where its shadow can be seen. The picture is the same.", "",
+			GROUP });
+	if (!p_is_on_cpu) {
+		r_list.add({ p_id + "_extrusion", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
+				"How volumes are made: by a geometry shader, by compute shaders and indirect "
+				"draws, or whichever is faster here. The picture is the same.",
+				"", GROUP });
+	}
+}
+
+VolumeSettings read_volume_settings(
+		const std::string &p_id, bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs) {
+	const PropertyValues &properties = p_inputs.properties;
+	VolumeSettings settings;
+	const std::string &count = read_choice(properties, p_id + "_method");
+	if (count != "auto") {
+		settings.count = count == "z_pass" ? VolumeCount::Z_PASS : VolumeCount::Z_FAIL;
+	}
+	settings.is_always_robust = read_choice(properties, p_id + "_robust") == "always";
+	settings.has_scissor =
+			std::get<bool>(properties.at(p_id + "_scissor")) && p_inputs.may_leave_out;
+	if (p_is_on_cpu) {
+		settings.maker = VolumeMaker::CPU;
+	} else {
+		const bool wants_geometry_shader =
+				read_choice(properties, p_id + "_extrusion") == "geometry_shader";
+		settings.maker = wants_geometry_shader && p_inputs.device.get_features().geometry_shader
+				? VolumeMaker::GEOMETRY_SHADER
+				: VolumeMaker::COMPUTE;
+	}
+	return settings;
+}
+
+} // namespace gnomon

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "modules/renderer/shadow_technique.h"
+
+#include <optional>
+
+namespace gnomon {
+
+/// How a caster's volume is counted, see ShadowVolume.
+enum class VolumeCount { Z_PASS, Z_FAIL };
+/// How volumes are made; all ways give the same triangles, but for the CPU's rounding.
+enum class VolumeMaker { GEOMETRY_SHADER, COMPUTE, CPU };
+
+/// What one light's properties and the device make of the technique.
+struct VolumeSettings {
+	std::optional<VolumeCount> count; // none: chosen for each caster
+	VolumeMaker maker = VolumeMaker::COMPUTE;
+	bool is_always_robust = false;
+	bool has_scissor = true; // and depth bounds, where the device can
+};
+
+void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyList &r_list);
+VolumeSettings read_volume_settings(
+		const std::string &p_id, bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs);
+
+} // namespace gnomon

@@ -1,0 +1,56 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/silhouette_inc.glsl"
+#include "shared/silhouette_shared.h"
+
+// Marks one caster's silhouette edges: one invocation makes one word of 32 edges and adds its count
+// to the word's block.
+layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_POSITIONS) readonly buffer Positions {
+	vec4 positions_node[];
+};
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_EDGES) readonly buffer Edges {
+	TopologyEdge edges[];
+};
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) writeonly buffer Words {
+	uint edge_words[];
+};
+layout(std430, set = 0, binding = SILHOUETTE_BINDING_BLOCKS) buffer Blocks {
+	uint block_counts[];
+};
+layout(push_constant) uniform Push {
+	SilhouettePush push;
+};
+
+bool is_silhouette(TopologyEdge p_edge) {
+	if (p_edge.opposite1 == TOPOLOGY_NO_VERTEX) {
+		return true;
+	}
+	const vec3 a = positions_node[p_edge.a].xyz;
+	const vec3 b = positions_node[p_edge.b].xyz;
+	const vec3 c = positions_node[p_edge.opposite0].xyz;
+	const bool is_first_turned =
+			is_turned_to_light(push.light_node, uvec3(p_edge.a, p_edge.b, p_edge.opposite0), a, b, c);
+	const uint opposite1 = p_edge.opposite1 & ~TOPOLOGY_EDGE_INCONSISTENT;
+	const bool is_inconsistent = opposite1 != p_edge.opposite1;
+	return is_edge_silhouette(push.light_node, is_first_turned, uvec3(p_edge.a, p_edge.b, opposite1), a,
+			b, positions_node[opposite1].xyz, is_inconsistent);
+}
+
+void main() {
+	const uint word_index = gl_GlobalInvocationID.x;
+	const uint first_edge = word_index * SILHOUETTE_EDGES_PER_WORD;
+	if (first_edge >= push.edge_count) {
+		return;
+	}
+	uint word = 0u;
+	const uint count = min(SILHOUETTE_EDGES_PER_WORD, push.edge_count - first_edge);
+	for (uint i = 0u; i < count; ++i) {
+		word |= is_silhouette(edges[first_edge + i]) ? 1u << i : 0u;
+	}
+	edge_words[push.first_word + word_index] = word;
+	if (word != 0u) {
+		atomicAdd(block_counts[push.first_block + word_index / SILHOUETTE_WORDS_PER_BLOCK],
+				uint(bitCount(word)));
+	}
+}

@@ -1,0 +1,33 @@
+#ifndef SHADOW_PLANAR_SHARED_H
+#define SHADOW_PLANAR_SHARED_H
+#include "shared/shared_begin.h"
+
+// lit.frag and plane.frag
+#define PLANAR_BINDING_FRAME 0
+#define PLANAR_BINDING_DEPTH 1
+#define PLANAR_BINDING_NORMAL 2
+#define PLANAR_BINDING_RECEIVERS 3
+
+/// Push constants of plane.frag.
+struct SHARED_ALIGN PlanePush {
+	vec4 plane; // camera-relative: dot(xyz, p) + w = 0
+	float tolerance_m;
+	float tolerance_per_distance; // from the camera
+	float padding0;
+	float padding1;
+};
+SHARED_SIZE(PlanePush, 32);
+
+/// Push constants of flatten.vert and flatten.frag: one caster.
+struct SHARED_ALIGN PlanarPush {
+	mat4 clip_from_node; // flattened onto the plane
+	vec4 plane_node;	 // a point's height over the plane: dot(xyz, p) + w, metres
+	float greatest_height_m;
+	float padding0;
+	float padding1;
+	float padding2;
+};
+SHARED_SIZE(PlanarPush, 96);
+
+#include "shared/shared_end.h"
+#endif

@@ -1,0 +1,39 @@
+#ifndef SHADOW_VOLUME_SHARED_H
+#define SHADOW_VOLUME_SHARED_H
+#include "shared/shared_begin.h"
+
+// receivers.frag
+#define RECEIVERS_BINDING_FRAME 0
+#define RECEIVERS_BINDING_DEPTH 1
+#define RECEIVERS_BINDING_NORMAL 2
+#define RECEIVERS_BINDING_RECEIVERS 3
+#define RECEIVERS_BINDING_LIGHT 4
+
+// volumes.geom, sides.vert, caps.vert
+#define VOLUMES_BINDING_FACE_FLAGS 0
+#define VOLUMES_BINDING_POSITIONS 1
+#define VOLUMES_BINDING_EDGES 2
+#define VOLUMES_BINDING_LIST 3
+#define VOLUMES_BINDING_TRIANGLES 4
+
+// Specialization constants of the same
+#define VOLUMES_CONSTANT_IS_ROBUST 0
+#define VOLUMES_CONSTANT_HAS_NEAR_CAP 1
+#define VOLUMES_CONSTANT_HAS_FAR_CAP 2
+
+// Vertices of one side: two triangles from the edge to where the light's rays through it end.
+#define VOLUMES_VERTICES_PER_SIDE 6
+
+/// Push constants of the draws: one caster.
+struct SHARED_ALIGN VolumePush {
+	mat4 clip_from_node;
+	vec4 light_node;	// xyz / w: the light's centre; w = 0: the direction towards it
+	uint first_in_list; // where the caster's edges begin in the list
+	uint padding0;
+	uint padding1;
+	uint padding2;
+};
+SHARED_SIZE(VolumePush, 96);
+
+#include "shared/shared_end.h"
+#endif

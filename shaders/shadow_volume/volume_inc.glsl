@@ -1,0 +1,32 @@
+// Where the corners of a shadow volume lie, the same for every way to make one, so that sides and
+// caps meet without a crack.
+#ifndef VOLUME_INC_GLSL
+#define VOLUME_INC_GLSL
+
+#include "shadow_volume/shadow_volume_shared.h"
+
+layout(push_constant) uniform Push {
+	VolumePush push;
+};
+layout(constant_id = VOLUMES_CONSTANT_IS_ROBUST) const bool IS_ROBUST = false;
+layout(constant_id = VOLUMES_CONSTANT_HAS_NEAR_CAP) const bool HAS_NEAR_CAP = true;
+layout(constant_id = VOLUMES_CONSTANT_HAS_FAR_CAP) const bool HAS_FAR_CAP = true;
+
+/// A vertex of the caster, or where the light's ray through it ends: at infinity, w = 0. With
+/// reversed depth and the far plane at infinity its depth is 0 exactly, so that nothing is clipped
+/// there.
+vec4 volume_position_clip(vec3 p_position_node, bool p_is_far) {
+	precise const vec3 away = p_position_node * push.light_node.w - push.light_node.xyz;
+	precise const vec4 corner_node = p_is_far ? vec4(away, 0.0) : vec4(p_position_node, 1.0);
+	precise const vec4 position = push.clip_from_node * corner_node;
+	return position;
+}
+
+// Corners of a side along an edge a -> b of the surface that is turned to the light: bit 0 b instead
+// of a, bit 1 at infinity. Seen from outside the volume they turn counter-clockwise, as the surface
+// does.
+const uint VOLUME_SIDE_CORNERS[VOLUMES_VERTICES_PER_SIDE] = uint[VOLUMES_VERTICES_PER_SIDE](0u, 2u, 1u, 1u, 2u, 3u);
+const uint VOLUME_AT_B = 1u;
+const uint VOLUME_AT_INFINITY = 2u;
+
+#endif

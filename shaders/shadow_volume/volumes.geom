@@ -1,0 +1,73 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/silhouette_inc.glsl"
+#include "shadow_volume/volume_inc.glsl"
+
+// GPU Gems 3, chapter 11: the part of a caster's shadow volume that one triangle makes. Its caps where
+// it is turned to the light (robust: turned round where it is not), and a side for each silhouette
+// edge of its own (robust: two sides, where the edge has two faces).
+layout(triangles_adjacency) in;
+layout(triangle_strip, max_vertices = 42) out;
+layout(location = 0) in vec3 in_position_node[];
+layout(location = 1) flat in uint in_vertex[];
+layout(std430, set = 0, binding = VOLUMES_BINDING_FACE_FLAGS) readonly buffer FaceFlags {
+	uint face_flags[];
+};
+
+void emit_corner(uint p_corner, bool p_is_far) {
+	gl_Position = volume_position_clip(in_position_node[p_corner], p_is_far);
+	EmitVertex();
+}
+
+void emit_triangle(uint p_a, uint p_b, uint p_c, bool p_is_far) {
+	emit_corner(p_a, p_is_far);
+	emit_corner(p_b, p_is_far);
+	emit_corner(p_c, p_is_far);
+	EndPrimitive();
+}
+
+void emit_side(uint p_a, uint p_b) {
+	for (uint i = 0u; i < VOLUMES_VERTICES_PER_SIDE; ++i) {
+		const uint corner = VOLUME_SIDE_CORNERS[i];
+		emit_corner((corner & VOLUME_AT_B) != 0u ? p_b : p_a, (corner & VOLUME_AT_INFINITY) != 0u);
+		if (i % 3u == 2u) {
+			EndPrimitive();
+		}
+	}
+}
+
+void main() {
+	uint ids[6];
+	vec3 positions[6];
+	for (int i = 0; i < 6; ++i) {
+		ids[i] = in_vertex[i];
+		positions[i] = in_position_node[i];
+	}
+	const bool is_turned = is_turned_to_light(push.light_node, uvec3(ids[0], ids[2], ids[4]),
+			positions[0], positions[2], positions[4]);
+	if (is_turned || IS_ROBUST) {
+		const uint b = is_turned ? 2u : 4u;
+		const uint c = is_turned ? 4u : 2u;
+		if (HAS_NEAR_CAP) {
+			emit_triangle(0u, b, c, false);
+		}
+		if (HAS_FAR_CAP) {
+			emit_triangle(0u, c, b, true);
+		}
+	}
+	const uint flags = face_flags[gl_PrimitiveIDIn];
+	const uint found = find_own_silhouettes(push.light_node, flags, ids, positions);
+	for (uint edge = 0u; edge < 3u; ++edge) {
+		if ((found & (1u << edge)) == 0u) {
+			continue;
+		}
+		const uint first = 2u * edge;
+		const uint second = (first + 2u) % 6u;
+		const uint a = is_turned ? first : second;
+		const uint b = is_turned ? second : first;
+		emit_side(a, b);
+		if (IS_ROBUST && (flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) == 0u) {
+			emit_side(a, b);
+		}
+	}
+}
