@@ -1,5 +1,7 @@
 #pragma once
 
+#include "modules/editor/editor_document.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -25,10 +27,11 @@ struct EditorSettings {
 
 	EditorLayout layout;
 	glm::uvec2 window_size_px = glm::uvec2(1280, 720);
-	std::string tab;				 // that is open below the viewport; empty: the first
-	uint32_t sample_count = 1024;	 // rays a pixel of the error panel's truth
-	bool shows_penumbra = true;		 // in the viewport
-	uint32_t autosave_s = 20;		 // after which changes are kept aside, 1 to 600
+	std::string tab;			  // that is open below the viewport; empty: the first
+	uint32_t sample_count = 1024; // rays a pixel of the error panel's truth
+	bool shows_penumbra = true;	  // in the viewport
+	/// After which changes are kept aside, 1 to 600.
+	uint32_t autosave_s = uint32_t(EditorDocument::AUTOSAVE_INTERVAL.count());
 	std::vector<std::string> recent; // scenes, absolute, the newest first
 
 	/// What is missing or out of range has its default; a damaged file only warns.

@@ -77,15 +77,4 @@ std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, Tech
 	return collect_casters(p_inputs, views);
 }
 
-RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px) {
-	return r_graph.create_texture({ "shadow mask", Format::R16_SFLOAT, p_size_px, 1,
-			TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
-}
-
-RGTexture create_stencil_target(
-		RenderGraph &r_graph, const std::string &p_name, glm::uvec2 p_size_px) {
-	return r_graph.create_texture(
-			{ p_name, Format::D32_SFLOAT_S8_UINT, p_size_px, 1, TextureUsage::DEPTH_ATTACHMENT });
-}
-
 } // namespace gnomon

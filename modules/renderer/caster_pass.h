@@ -46,10 +46,4 @@ std::vector<LightView> build_listing_views(
 /// Leaves out all of the light's views, and returns their casters, ascending.
 std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
 
-/// A mask that is drawn into: R16_SFLOAT.
-RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px);
-/// A D32_SFLOAT_S8_UINT target.
-RGTexture create_stencil_target(
-		RenderGraph &r_graph, const std::string &p_name, glm::uvec2 p_size_px);
-
 } // namespace gnomon

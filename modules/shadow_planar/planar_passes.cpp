@@ -1,7 +1,7 @@
 #include "modules/shadow_planar/planar_passes.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/caster_pass.h"
+#include "modules/renderer/drawn_mask.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/mesh_store.h"
 
@@ -21,12 +21,6 @@ void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) 
 			.reads(p_inputs.depth, Access::SHADER_READ_FRAGMENT)
 			.reads(p_inputs.geometric_normal, Access::SHADER_READ_FRAGMENT)
 			.reads(p_inputs.receivers, Access::SHADER_READ_FRAGMENT);
-}
-
-/// Camera-relative.
-glm::dvec4 make_plane(const ShadowTechnique::Inputs &p_inputs, const ReceiverPlane &p_plane) {
-	return { p_plane.normal_world,
-		p_plane.offset_m + glm::dot(p_plane.normal_world, p_inputs.scene.camera.position_world) };
 }
 
 /// The plane through moved receivers.
@@ -70,29 +64,14 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	return draws;
 }
 
-RasterPipelineDesc make_screen_desc(const char *p_name, const char *p_fragment_shader) {
-	RasterPipelineDesc desc;
-	desc.name = p_name;
-	desc.vertex_shader = "renderer/screen.vert";
-	desc.fragment_shader = p_fragment_shader;
-	desc.has_stencil = true;
-	desc.depth_compare = CompareOp::ALWAYS;
-	desc.writes_depth = false;
-	return desc;
-}
-
 } // namespace
 
 PlanarTargets add_lit_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
 	PlanarTargets targets;
 	targets.mask = create_drawn_mask(r_graph, p_inputs.size_px);
 	targets.stencil = create_stencil_target(r_graph, "planar stencil", p_inputs.size_px);
-	RasterPipelineDesc desc;
-	desc.name = "lit receivers";
-	desc.vertex_shader = "renderer/screen.vert";
-	desc.fragment_shader = "shadow_planar/lit.frag";
-	desc.color_formats = { Format::R16_SFLOAT };
-	desc.has_depth = false;
+	RasterPipelineDesc desc = make_screen_desc("lit receivers", "shadow_planar/lit.frag");
+	desc.has_depth = desc.has_stencil = false;
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
 	const RGTexture receivers = p_inputs.receivers;
 	r_graph.add_pass("lit receivers")
@@ -110,8 +89,9 @@ PlanarTargets add_lit_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &
 void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const ReceiverPlane &p_plane, uint32_t p_plane_index,
 		const std::vector<uint32_t> &p_casters, const PlanarTargets &p_targets) {
-	const glm::dvec4 plane = make_plane(p_inputs, p_plane);
+	const glm::dvec4 plane(p_plane.normal, p_plane.offset_m);
 	RasterPipelineDesc seen_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
+	seen_desc.color_formats.clear();
 	seen_desc.stencil.front.pass = seen_desc.stencil.back.pass = StencilOp::REPLACE;
 	seen_desc.stencil.reference = 1;
 	const PipelineRID seen_pipeline = p_inputs.device.get_raster_pipeline(seen_desc);

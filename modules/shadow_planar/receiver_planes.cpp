@@ -11,16 +11,17 @@ const double LEAST_AREA_SHARE = 0.05;
 const size_t MOST_PLANES = 16;
 // A mesh of more orientations than this is curved, whatever it is declared to be.
 const size_t MOST_GROUPS = 64;
-const double SAME_NORMAL = 1e-6;	// 1 less the cosine
-const double SAME_OFFSET = 1e-5;	// of S
-const double GRAZING_COSINE = 1e-6; // a light nearer to the plane lights nothing
+const double SAME_NORMAL = 1e-6; // 1 less the cosine
+const double SAME_OFFSET = 1e-5; // of S
+const double GRAZING = 1e-6; // a height in parts of S, or a cosine: a lower light lights nothing
 
 /// A face's plane, its normal towards the light where the mesh has two sides.
 ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const LightSnapshot &p_light,
-		const uint32_t *p_corners) {
+		const CameraSnapshot &p_camera, const uint32_t *p_corners) {
 	const auto get_corner = [&](int p_corner) {
 		const glm::dvec3 position_node(p_instance.mesh->positions_node[p_corners[p_corner]]);
-		return glm::dvec3(p_instance.world_from_node * glm::dvec4(position_node, 1.0));
+		return glm::dvec3(p_instance.world_from_node * glm::dvec4(position_node, 1.0)) -
+				p_camera.position_world;
 	};
 	const glm::dvec3 a = get_corner(0);
 	const glm::dvec3 cross = glm::cross(get_corner(1) - a, get_corner(2) - a);
@@ -30,38 +31,39 @@ ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const LightSnapshot
 	if (!(length > 0)) {
 		return plane;
 	}
-	plane.normal_world = cross / (p_instance.is_mirrored() ? -length : length);
-	plane.offset_m = -glm::dot(plane.normal_world, a);
-	if (p_instance.material->is_double_sided && compute_light_height(plane, p_light) < 0) {
-		plane.normal_world = -plane.normal_world;
+	plane.normal = cross / (p_instance.is_mirrored() ? -length : length);
+	plane.offset_m = -glm::dot(plane.normal, a);
+	if (p_instance.material->is_double_sided &&
+			compute_light_height(plane, p_light, p_camera) < 0) {
+		plane.normal = -plane.normal;
 		plane.offset_m = -plane.offset_m;
 	}
 	return plane;
 }
 
-bool is_lit(const ReceiverPlane &p_plane, const LightSnapshot &p_light) {
-	const double scale = p_light.type == LightType::DIRECTIONAL
-			? 1.0
-			: glm::length(p_light.position_world) + std::abs(p_plane.offset_m);
-	return p_plane.area_m2 > 0 && compute_light_height(p_plane, p_light) > GRAZING_COSINE * scale;
+bool is_lit(
+		const ReceiverPlane &p_plane, const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
+	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
+	const double least = GRAZING * (is_directional ? 1.0 : p_scene.scene_size_m);
+	return p_plane.area_m2 > 0 && compute_light_height(p_plane, p_light, p_scene.camera) > least;
 }
 
 /// The instance's lit planes; none where it is curved.
 std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
-		const LightSnapshot &p_light, double p_scene_size_m, double &r_lit_area_m2) {
+		const LightSnapshot &p_light, const SceneSnapshot &p_scene, double &r_lit_area_m2) {
 	std::vector<ReceiverPlane> groups;
 	const std::vector<uint32_t> &indices = p_instance.mesh->indices;
 	for (size_t first = 0; first + 2 < indices.size(); first += 3) {
-		const ReceiverPlane face = make_plane(p_instance, p_light, &indices[first]);
-		if (!is_lit(face, p_light)) {
+		const ReceiverPlane face = make_plane(p_instance, p_light, p_scene.camera, &indices[first]);
+		if (!is_lit(face, p_light, p_scene)) {
 			continue;
 		}
 		r_lit_area_m2 += face.area_m2;
 		const auto same =
 				std::find_if(groups.begin(), groups.end(), [&](const ReceiverPlane &p_group) {
-					return glm::dot(p_group.normal_world, face.normal_world) > 1 - SAME_NORMAL &&
+					return glm::dot(p_group.normal, face.normal) > 1 - SAME_NORMAL &&
 							std::abs(p_group.offset_m - face.offset_m) <
-							SAME_OFFSET * p_scene_size_m;
+							SAME_OFFSET * p_scene.scene_size_m;
 				});
 		if (same != groups.end()) {
 			same->area_m2 += face.area_m2;
@@ -74,10 +76,12 @@ std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
 
 } // namespace
 
-double compute_light_height(const ReceiverPlane &p_plane, const LightSnapshot &p_light) {
+double compute_light_height(const ReceiverPlane &p_plane, const LightSnapshot &p_light,
+		const CameraSnapshot &p_camera) {
 	return p_light.type == LightType::DIRECTIONAL
-			? -glm::dot(p_plane.normal_world, p_light.get_direction_world())
-			: glm::dot(p_plane.normal_world, p_light.position_world) + p_plane.offset_m;
+			? -glm::dot(p_plane.normal, p_light.get_direction_world())
+			: glm::dot(p_plane.normal, p_light.position_world - p_camera.position_world) +
+					p_plane.offset_m;
 }
 
 ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSnapshot &p_light) {
@@ -90,8 +94,7 @@ ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSna
 		++result.declared_count;
 		double lit_area_m2 = 0;
 		const size_t count_before = result.planes.size();
-		for (ReceiverPlane &plane :
-				group_faces(instance, p_light, p_scene.scene_size_m, lit_area_m2)) {
+		for (ReceiverPlane &plane : group_faces(instance, p_light, p_scene, lit_area_m2)) {
 			if (plane.area_m2 >= LEAST_AREA_SHARE * lit_area_m2) {
 				plane.instance_index = index;
 				result.planes.push_back(plane);

@@ -8,10 +8,11 @@
 
 namespace gnomon {
 
-/// Where planar shadows fall.
+/// Where planar shadows fall. Relative to the camera, so that a scene far from the origin keeps its
+/// precision.
 struct ReceiverPlane {
-	glm::dvec3 normal_world = glm::dvec3(0.0); // unit, towards the light
-	double offset_m = 0;					   // dot(normal, p) + offset = 0
+	glm::dvec3 normal = glm::dvec3(0.0); // unit, towards the light; the world's axes
+	double offset_m = 0;				 // dot(normal, p) + offset = 0
 	double area_m2 = 0;
 	uint32_t instance_index = 0;
 };
@@ -29,6 +30,7 @@ struct ReceiverPlanes {
 ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
 /// The light's centre above the plane, metres; directional: the cosine of its angle to the normal.
-double compute_light_height(const ReceiverPlane &p_plane, const LightSnapshot &p_light);
+double compute_light_height(
+		const ReceiverPlane &p_plane, const LightSnapshot &p_light, const CameraSnapshot &p_camera);
 
 } // namespace gnomon

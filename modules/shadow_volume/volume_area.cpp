@@ -27,6 +27,14 @@ Corners compute_corners_view(const Bounds &p_box_world, const LightView &p_camer
 	return corners;
 }
 
+/// The light as seen from the camera: xyz / w its centre, w = 0 the direction towards it.
+glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera) {
+	return p_camera.view_from_world *
+			(p_light.type == LightType::DIRECTIONAL
+							? glm::dvec4(-p_light.get_direction_world(), 0.0)
+							: glm::dvec4(p_light.position_world, 1.0));
+}
+
 /// Least distance from the light's centre to the box; 0 inside.
 double compute_distance_m(const Bounds &p_box_world, const glm::dvec3 &p_point_world) {
 	const glm::dvec3 nearest = glm::clamp(p_point_world, p_box_world.minimum, p_box_world.maximum);
@@ -92,13 +100,6 @@ bool are_all_behind(const Corners &p_corners, const glm::dvec3 &p_normal, double
 }
 
 } // namespace
-
-glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera) {
-	return p_camera.view_from_world *
-			(p_light.type == LightType::DIRECTIONAL
-							? glm::dvec4(-p_light.get_direction_world(), 0.0)
-							: glm::dvec4(p_light.position_world, 1.0));
-}
 
 VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,
 		const LightView &p_camera, glm::uvec2 p_size_px) {

@@ -19,9 +19,6 @@ struct VolumeArea {
 	bool is_empty() const { return size_px.x == 0 || size_px.y == 0; }
 };
 
-/// The light as seen from the camera: xyz / w its centre, w = 0 the direction towards it.
-glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera);
-
 /// Of what the box hides from the light: the box drawn out along the light's rays, to infinity or
 /// to the end of its range. A light in the box or in its planes gives the whole picture.
 VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,

@@ -2,7 +2,7 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
-#include "modules/renderer/caster_pass.h"
+#include "modules/renderer/drawn_mask.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/mesh_store.h"
 #include "modules/shadow_volume/cpu_volumes.h"
@@ -151,18 +151,11 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, VolumeMaker p
 
 void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeTargets &p_targets, const std::string &p_name) {
-	RasterPipelineDesc desc;
-	desc.name = "hidden";
-	desc.vertex_shader = "renderer/screen.vert";
-	desc.fragment_shader = "shadow_volume/hidden.frag";
-	desc.color_formats = { Format::R16_SFLOAT };
-	desc.has_stencil = true;
+	RasterPipelineDesc desc = make_screen_desc("hidden", "shadow_volume/hidden.frag");
 	// Leaves the stencil at 0 for the next group.
 	desc.stencil.front = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
 		StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;
-	desc.depth_compare = CompareOp::ALWAYS;
-	desc.writes_depth = false;
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
 	r_graph.add_pass(p_name)
 			.color(p_targets.mask, LoadOp::KEEP)
@@ -180,13 +173,8 @@ VolumeTargets add_volume_receivers_pass(
 	VolumeTargets targets;
 	targets.mask = create_drawn_mask(r_graph, p_inputs.size_px);
 	targets.depth = create_stencil_target(r_graph, "volume depth", p_inputs.size_px);
-	RasterPipelineDesc desc;
-	desc.name = "volume receivers";
-	desc.vertex_shader = "renderer/screen.vert";
-	desc.fragment_shader = "shadow_volume/receivers.frag";
-	desc.color_formats = { Format::R16_SFLOAT };
-	desc.has_stencil = true;
-	desc.depth_compare = CompareOp::ALWAYS;
+	RasterPipelineDesc desc = make_screen_desc("volume receivers", "shadow_volume/receivers.frag");
+	desc.writes_depth = true;
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
 	const RGBuffer frame = p_inputs.frame;
 	const RGBuffer light = p_inputs.light_constants;

@@ -123,9 +123,10 @@ TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
 	const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
 	REQUIRE(found.planes.size() == 1); // of a floor's box only the top is turned to the light
 	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0));
-	CHECK(found.planes[0].normal_world.y == doctest::Approx(1.0));
-	CHECK(found.planes[0].offset_m == doctest::Approx(0.0));
-	CHECK(compute_light_height(found.planes[0], snapshot->lights[0]) == doctest::Approx(4.0));
+	CHECK(found.planes[0].normal.y == doctest::Approx(1.0));
+	CHECK(found.planes[0].offset_m == doctest::Approx(snapshot->camera.position_world.y));
+	CHECK(compute_light_height(found.planes[0], snapshot->lights[0], snapshot->camera) ==
+			doctest::Approx(4.0));
 	// Beside a block the light sees a side of it too.
 	scene.box->is_planar_receiver = true;
 	const auto both = scene.snap();
@@ -136,5 +137,31 @@ TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
 	const auto below = scene.snap();
 	const ReceiverPlanes lower = find_receiver_planes(*below, below->lights[0]);
 	REQUIRE(lower.planes.size() == 1);
-	CHECK(lower.planes[0].normal_world.y == doctest::Approx(-1.0));
+	CHECK(lower.planes[0].normal.y == doctest::Approx(-1.0));
+}
+
+TEST_CASE("[ShadowPlanar] far from the origin a leaning floor of many faces is still one plane") {
+	for (const double far_m : { 0.0, 1e5 }) {
+		CAPTURE(far_m);
+		SmallScene scene(LightType::OMNI, 1.0, glm::dvec3(far_m, -far_m, far_m));
+		std::vector<glm::vec3> positions;
+		std::vector<uint32_t> indices;
+		for (uint32_t index = 0; index < 36; ++index) { // 6 x 6 corners
+			positions.push_back({ 0.37f * float(index % 6) - 1, 0, 0.41f * float(index / 6) - 1 });
+			if (index % 6 < 5 && index / 6 < 5) {
+				indices.insert(indices.end(),
+						{ index, index + 6, index + 1, index + 1, index + 6, index + 7 });
+			}
+		}
+		scene.ground->surfaces[0].mesh = make_mesh("tiles", positions, {}, indices);
+		scene.ground->parent_from_node =
+				glm::rotate(scene.ground->parent_from_node, 0.31, glm::dvec3(0.6, 0.5, 0.4));
+		// A light that is low over it, in parts of its distance from the origin.
+		scene.light->parent_from_node = scene.ground->parent_from_node *
+				glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.05, 0.1));
+		const auto snapshot = scene.snap();
+		const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
+		REQUIRE(found.planes.size() == 1);
+		CHECK(found.planes[0].area_m2 == doctest::Approx(25 * 0.37 * 0.41));
+	}
 }
