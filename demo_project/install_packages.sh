@@ -15,6 +15,8 @@ DEMO_PACKAGES=(glmark2-data)
 TEST_PACKAGES=(
     git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps assimp-testmodels chromium
 )
+# What tests/run_tests.sh --full uses beside that, to download meshes.
+LARGE_MESH_PACKAGES=(npm)
 # What tests/run_tests.sh --only blender uses beside that; 160 MB with what they depend on.
 BLENDER_PACKAGES=(blender python3-numpy)
 

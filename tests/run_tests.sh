@@ -2,17 +2,18 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables editor_repeats blender"
+PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables editor_repeats large_meshes blender"
 
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
-               turn, tables with 9216 light samples, the editor's tests ten times
+               turn, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
+               large meshes (npm downloads them)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
                demo removal template sanitized; with --full also sanitized_all threads tables
-               editor_repeats; only when named: blender (installs Blender, 160 MB)
+               editor_repeats large_meshes; only when named: blender (installs Blender, 160 MB)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
 }
@@ -52,9 +53,21 @@ while [ $# -gt 0 ]; do
     shift
 done
 
+is_wanted() {
+    local name
+    [ ${#only[@]} -eq 0 ] && return 0
+    for name in "${only[@]}"; do
+        [ "$name" = "$1" ] && return 0
+    done
+    return 1
+}
+
 # shellcheck source=demo_project/install_packages.sh
 . demo_project/install_packages.sh
 packages=("${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
+if [ "$is_full" = yes ] && is_wanted large_meshes && ! command -v npm >/dev/null; then
+    packages+=("${LARGE_MESH_PACKAGES[@]}")
+fi
 if [[ " ${only[*]} " == *" blender "* ]]; then
     packages+=("${BLENDER_PACKAGES[@]}")
 fi
@@ -72,15 +85,6 @@ passed=0
 failed=0
 skipped=0
 part_lines=()
-
-is_wanted() {
-    local name
-    [ ${#only[@]} -eq 0 ] && return 0
-    for name in "${only[@]}"; do
-        [ "$name" = "$1" ] && return 0
-    done
-    return 1
-}
 
 # add_result PART PASSED FAILED SKIPPED
 add_result() {
@@ -215,6 +219,9 @@ if [ "$is_full" = yes ]; then
     fi
     if is_wanted tables; then
         run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
+    fi
+    if is_wanted large_meshes; then
+        run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py
     fi
     # Windows, mice and other processes: what passes once may fail the next time.
     if is_wanted editor_repeats; then

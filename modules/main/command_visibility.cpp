@@ -40,6 +40,7 @@ struct VisibilityOptions {
 	std::string time;
 	bool prints_plan = false;
 	bool leaves_out_nothing = false;
+	bool is_still = false;
 };
 
 /// mask.exr, 12 -> mask.0012.exr
@@ -105,6 +106,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	}
 	if (!p_options.time.empty()) {
 		// The truth takes seconds a frame and nobody draws with it: one frame tells what it costs.
+		request.may_keep = p_options.is_still;
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
 				measure_mask_time(renderer, request, is_reference ? 0 : WARM_UP_COUNT,
@@ -137,6 +139,8 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			->expected(3);
 	command->add_option(
 			"--time", options.time, "Writes the times of 20 frames after 5 to warm up as JSON");
+	command->add_flag("--still", options.is_still,
+			"--time measures frames in which nothing moves, so that what is kept is not drawn anew");
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
 	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
 			"Runs also what the image does not need (for comparison)");

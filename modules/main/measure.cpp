@@ -44,7 +44,6 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress) {
 	p_request.wants_mask = false;
 	p_request.wants_surfaces = false;
-	p_request.may_keep = false;
 	p_request.mode = RenderGraph::Mode::ONE_BY_ONE;
 	TimingSamples samples;
 	for (uint32_t index = 0; index < p_limits.warm_up_count; ++index) {
@@ -74,7 +73,6 @@ std::string measure_mask_time(
 			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
 					[&](double p_share) { progress.update(p_share * 0.5); });
 	p_request.wants_mask = false;
-	p_request.may_keep = false;
 	p_request.mode = RenderGraph::Mode::WAIT;
 	std::vector<double> gpu_ms;
 	std::vector<double> wall_ms;

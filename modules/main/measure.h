@@ -20,8 +20,8 @@ struct MeasureLimits {
 };
 
 /// What the masks of a light cost (of all lights where the request names none), pass by pass. The
-/// G-buffer and the lighting are not counted. Nothing is kept between the frames, as if the light
-/// moved. p_request: its mode and outputs are replaced. p_progress gets 0..1; may be empty.
+/// G-buffer and the lighting are not counted. p_request: its mode and outputs are replaced; with
+/// may_keep = false every frame is as if the light had moved. p_progress gets 0..1; may be empty.
 MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress);
 

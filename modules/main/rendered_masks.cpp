@@ -94,7 +94,7 @@ TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t 
 
 MeasuredMask RenderedMasks::measure(
 		const MaskQuestion &p_question, const std::string &p_technique) {
-	const RenderRequest request = make_request(p_question, p_technique);
+	RenderRequest request = make_request(p_question, p_technique);
 	Renderer renderer(device);
 	MeasuredMask measured;
 	if (request.wants_mask) {
@@ -105,6 +105,7 @@ MeasuredMask RenderedMasks::measure(
 	MeasureLimits limits = CELL_LIMITS;
 	limits.warm_up_count = request.wants_mask ? 0 : 1;
 	limits.median_error = median_error;
+	request.may_keep = false;
 	measured.time = measure_mask_timing(renderer, request, limits, {});
 	measured.bytes = device.get_memory_use().used_bytes;
 	return measured;

@@ -19,6 +19,7 @@ uint32_t divide_up(uint32_t p_value, uint32_t p_divisor) {
 
 /// A caster's buffers live as long as the mesh, which the frame's scene holds.
 struct SilhouetteDispatch {
+	uint32_t instance_index = 0;
 	BufferRID positions;
 	BufferRID edges;
 	uint32_t word_count = 0;
@@ -29,6 +30,7 @@ std::vector<SilhouetteDispatch> build_dispatches(const SilhouetteCasters &p_cast
 	std::vector<SilhouetteDispatch> dispatches;
 	for (const SilhouetteCaster &caster : p_casters.casters) {
 		SilhouetteDispatch dispatch;
+		dispatch.instance_index = caster.instance_index;
 		dispatch.positions = caster.gpu->positions.get();
 		dispatch.edges = caster.gpu->edges.get();
 		dispatch.word_count = caster.word_count;
@@ -90,8 +92,8 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 	return result;
 }
 
-SilhouetteLists add_silhouette_passes(
-		RenderGraph &r_graph, RenderingDevice &p_device, const SilhouetteCasters &p_casters) {
+SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
+		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates) {
 	GNOMON_ASSERT(!p_casters.casters.empty(), "edge passes without a caster");
 	const auto make_buffer = [&](const char *p_name, uint64_t p_count, uint64_t p_item_bytes,
 									 BufferUsage p_usage) {
@@ -115,25 +117,30 @@ SilhouetteLists add_silhouette_passes(
 			});
 	const PipelineRID find_pipeline =
 			p_device.get_compute_pipeline({ "find edges", "renderer/find_edges.comp", {} });
-	r_graph.add_pass("find edges")
-			.writes(words, Access::SHADER_WRITE_COMPUTE)
+	PassBuilder find_pass = r_graph.add_pass("find edges");
+	p_predicates.add_to(find_pass);
+	find_pass.writes(words, Access::SHADER_WRITE_COMPUTE)
 			.writes(blocks, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
 			.execute([=](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				commands.bind_pipeline(find_pipeline);
 				for (const SilhouetteDispatch &dispatch : dispatches) {
-					commands.bind_resources({ { SILHOUETTE_BINDING_POSITIONS, dispatch.positions },
-							{ SILHOUETTE_BINDING_EDGES, dispatch.edges },
-							{ SILHOUETTE_BINDING_WORDS, p_context.get(words) },
-							{ SILHOUETTE_BINDING_BLOCKS, p_context.get(blocks) } });
-					commands.push_constants(dispatch.push);
-					commands.dispatch_items({ dispatch.word_count, 1, 1 });
+					p_predicates.record(p_context, dispatch.instance_index, [&] {
+						commands.bind_resources(
+								{ { SILHOUETTE_BINDING_POSITIONS, dispatch.positions },
+										{ SILHOUETTE_BINDING_EDGES, dispatch.edges },
+										{ SILHOUETTE_BINDING_WORDS, p_context.get(words) },
+										{ SILHOUETTE_BINDING_BLOCKS, p_context.get(blocks) } });
+						commands.push_constants(dispatch.push);
+						commands.dispatch_items({ dispatch.word_count, 1, 1 });
+					});
 				}
 			});
 	const PipelineRID list_pipeline =
 			p_device.get_compute_pipeline({ "list edges", "renderer/list_edges.comp", {} });
-	r_graph.add_pass("list edges")
-			.reads(words, Access::SHADER_READ_COMPUTE)
+	PassBuilder list_pass = r_graph.add_pass("list edges");
+	p_predicates.add_to(list_pass);
+	list_pass.reads(words, Access::SHADER_READ_COMPUTE)
 			.reads(blocks, Access::SHADER_READ_COMPUTE)
 			.writes(lists.list, Access::SHADER_WRITE_COMPUTE)
 			.writes(lists.draws, Access::SHADER_WRITE_COMPUTE)
@@ -145,8 +152,10 @@ SilhouetteLists add_silhouette_passes(
 						{ SILHOUETTE_BINDING_LIST, p_context.get(lists.list) },
 						{ SILHOUETTE_BINDING_DRAWS, p_context.get(lists.draws) } });
 				for (const SilhouetteDispatch &dispatch : dispatches) {
-					commands.push_constants(dispatch.push);
-					commands.dispatch_items({ dispatch.word_count, 1, 1 });
+					p_predicates.record(p_context, dispatch.instance_index, [&] {
+						commands.push_constants(dispatch.push);
+						commands.dispatch_items({ dispatch.word_count, 1, 1 });
+					});
 				}
 			});
 	return lists;

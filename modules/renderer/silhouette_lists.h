@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/renderer/caster_pass.h"
+#include "modules/renderer/draw_predicates.h"
 #include "modules/renderer/gpu_topology.h"
 #include "modules/renderer/shadow_technique.h"
 
@@ -48,9 +49,10 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 		const std::vector<uint32_t> &p_instances, uint32_t p_vertices_per_edge);
 
 /// Passes that find the silhouette edges and compact them. The light's views share them. There must
-/// be at least one caster.
-SilhouetteLists add_silhouette_passes(
-		RenderGraph &r_graph, RenderingDevice &p_device, const SilhouetteCasters &p_casters);
+/// be at least one caster. Of a caster whose predicate is 0 nothing is listed: its draw must not
+/// happen either.
+SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
+		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates = {});
 
 /// The light as seen from the instance's node, see SilhouettePush::light_node. Not finite when the
 /// transform is singular.

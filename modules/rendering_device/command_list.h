@@ -33,6 +33,9 @@ public:
 	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px);
 	/// Of the pipelines with has_depth_bounds; each begin_rendering sets 0 to 1.
 	void set_depth_bounds(float p_least, float p_greatest);
+	/// What stencils compare with and StencilOp::REPLACE writes, 0 to 255; each begin_rendering
+	/// sets 0.
+	void set_stencil_reference(uint32_t p_reference);
 	void set_cull_mode(CullMode p_mode);
 	/// Mirrored transforms wind their front faces the other way.
 	enum class Winding { NORMAL, MIRRORED };
@@ -59,9 +62,10 @@ public:
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count = 1);
 	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index = 0);
 	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes);
-	/// Draws until end_conditional happen only if the buffer's first word is not 0 when the GPU
-	/// gets there. Inside one rendering. Needs DeviceFeatures::conditional_rendering.
-	void begin_conditional(BufferRID p_predicate);
+	/// Draws and dispatches until end_conditional happen only if the buffer's word at the offset
+	/// is not 0 when the GPU gets there. Inside one rendering, or between two. Needs
+	/// DeviceFeatures::conditional_rendering.
+	void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes = 0);
 	void end_conditional();
 	void dispatch(glm::uvec3 p_group_count);
 	/// Enough groups of the bound pipeline's local size to cover the items.

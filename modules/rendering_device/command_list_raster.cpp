@@ -68,12 +68,12 @@ void CommandList::begin_rendering_of_size(
 				p_size_px.x, " x ", p_size_px.y);
 		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::COLOR_ATTACHMENT), "target '",
 				texture.desc.name, "' lacks the usage COLOR_ATTACHMENT");
-		VkRenderingAttachmentInfo &info = colors.emplace_back(
-				VkRenderingAttachmentInfo{ .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-						.imageView = device.get_view(texture, target.layer, false),
-						.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-						.loadOp = get_load_op(target.load),
-						.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
+		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
+				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+				.imageView = device.get_view(texture, ViewUse::ATTACHMENT, target.layer, false),
+				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+				.loadOp = get_load_op(target.load),
+				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		impl.target_color_formats.push_back(texture.desc.format);
 		GNOMON_ASSERT(texture.format == get_vulkan_format(texture.desc.format),
@@ -95,7 +95,7 @@ void CommandList::begin_rendering_of_size(
 		impl.is_target_depth_read_only = texture.recorded_layout == read_only;
 		GNOMON_ASSERT(!impl.is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
 				texture.desc.name, "' has Access::DEPTH_READ and must be kept");
-		depth.imageView = device.get_view(texture, p_depth->layer, false);
+		depth.imageView = device.get_view(texture, ViewUse::ATTACHMENT, p_depth->layer, false);
 		depth.imageLayout = impl.is_target_depth_read_only
 				? read_only
 				: get_layout(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
@@ -114,12 +114,14 @@ void CommandList::begin_rendering_of_size(
 		.pColorAttachments = colors.data(),
 		.pDepthAttachment = p_depth ? &depth : nullptr,
 		.pStencilAttachment = has_target_stencil ? &depth : nullptr };
+	GNOMON_ASSERT(!impl.is_conditional, "begin_rendering before end_conditional");
 	vkCmdBeginRendering(impl.commands, &info);
 	impl.is_rendering = true;
 	set_viewport(glm::uvec2(0), p_size_px);
 	set_cull_mode(CullMode::NONE);
 	set_winding(Winding::NORMAL);
 	set_depth_bounds(0.0f, 1.0f);
+	set_stencil_reference(0);
 }
 
 void CommandList::end_rendering() {
@@ -155,6 +157,12 @@ void CommandList::set_depth_bounds(float p_least, float p_greatest) {
 	GNOMON_ASSERT(p_least >= 0.0f && p_least <= p_greatest && p_greatest <= 1.0f, "depth bounds ",
 			p_least, " to ", p_greatest);
 	vkCmdSetDepthBounds(impl.commands, p_least, p_greatest);
+}
+
+void CommandList::set_stencil_reference(uint32_t p_reference) {
+	impl.check_recording("set_stencil_reference");
+	GNOMON_ASSERT(p_reference <= 255, "stencil reference ", p_reference);
+	vkCmdSetStencilReference(impl.commands, VK_STENCIL_FACE_FRONT_AND_BACK, p_reference);
 }
 
 void CommandList::set_cull_mode(CullMode p_mode) {
@@ -227,17 +235,21 @@ void CommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) 
 			impl.commands, impl.device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
 }
 
-void CommandList::begin_conditional(BufferRID p_predicate) {
+void CommandList::begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) {
 	impl.check_recording("begin_conditional");
-	GNOMON_ASSERT(impl.is_rendering, "begin_conditional outside begin_rendering .. end_rendering");
 	GNOMON_ASSERT(impl.device->begin_conditional_rendering,
 			"begin_conditional on a device without conditional rendering");
 	GNOMON_ASSERT(!impl.is_conditional, "begin_conditional before end_conditional");
 	const BufferResource &predicate = impl.device->buffers.get(p_predicate);
 	GNOMON_ASSERT(has_usage(predicate.desc.usage, BufferUsage::CONDITIONAL), "buffer '",
 			predicate.desc.name, "' lacks the usage CONDITIONAL");
+	GNOMON_ASSERT(p_offset_bytes % sizeof(uint32_t) == 0 &&
+					p_offset_bytes + sizeof(uint32_t) <= predicate.desc.size_bytes,
+			"begin_conditional at byte ", p_offset_bytes, " of buffer '", predicate.desc.name, "'");
 	const VkConditionalRenderingBeginInfoEXT info = {
-		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT, .buffer = predicate.buffer
+		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT,
+		.buffer = predicate.buffer,
+		.offset = p_offset_bytes
 	};
 	impl.device->begin_conditional_rendering(impl.commands, &info);
 	impl.is_conditional = true;

@@ -95,7 +95,8 @@ private:
 								  is_storage ? TextureUsage::STORAGE : TextureUsage::SAMPLED),
 					"pipeline '", pipeline.name, "': texture '", texture.desc.name, "' at binding ",
 					p_binding.binding, " lacks the usage ", is_storage ? "STORAGE" : "SAMPLED");
-			info.imageView = device.get_view(texture, p_binding.layer, p_slot.is_arrayed);
+			info.imageView =
+					device.get_view(texture, ViewUse::SHADER, p_binding.layer, p_slot.is_arrayed);
 			info.imageLayout = p_layout;
 		}
 		return &image_infos.emplace_back(info);

@@ -12,7 +12,7 @@ std::string describe(const StencilFace &p_face) {
 }
 
 std::string describe(const StencilTest &p_test) {
-	return describe(p_test.front) + describe(p_test.back) + text(" ", p_test.reference);
+	return describe(p_test.front) + describe(p_test.back);
 }
 
 /// Everything but the name, which changes nothing.
@@ -63,11 +63,11 @@ VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_
 	return state;
 }
 
-VkStencilOpState make_stencil_state(const StencilFace &p_face, uint32_t p_reference) {
+VkStencilOpState make_stencil_state(const StencilFace &p_face) {
 	const uint32_t all = 0xff; // CompareOp and StencilOp have Vulkan's order
 	return { static_cast<VkStencilOp>(p_face.fail), static_cast<VkStencilOp>(p_face.pass),
 		static_cast<VkStencilOp>(p_face.depth_fail), static_cast<VkCompareOp>(p_face.compare), all,
-		all, p_reference };
+		all, 0 };
 }
 
 bool may_write(const StencilFace &p_face) {
@@ -180,8 +180,8 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 		.depthCompareOp = static_cast<VkCompareOp>(p_desc.depth_compare), // same order as CompareOp
 		.depthBoundsTestEnable = p_desc.has_depth_bounds,
 		.stencilTestEnable = p_desc.has_stencil,
-		.front = make_stencil_state(p_desc.stencil.front, p_desc.stencil.reference),
-		.back = make_stencil_state(p_desc.stencil.back, p_desc.stencil.reference),
+		.front = make_stencil_state(p_desc.stencil.front),
+		.back = make_stencil_state(p_desc.stencil.back),
 		.maxDepthBounds = 1.0f
 	};
 	std::vector<VkPipelineColorBlendAttachmentState> blend_states;
@@ -196,7 +196,8 @@ VkPipeline RenderingDevice::Impl::create_raster_pipeline(const RasterPipelineDes
 		.pAttachments = blend_states.data()
 	};
 	const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BOUNDS };
+		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BOUNDS,
+		VK_DYNAMIC_STATE_STENCIL_REFERENCE };
 	const VkPipelineDynamicStateCreateInfo dynamic = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
 		.dynamicStateCount = static_cast<uint32_t>(std::size(dynamic_states)),

@@ -155,6 +155,10 @@ public:
 	/// acquired swapchain image stays acquired. Does nothing when no commands are being recorded.
 	void abandon_commands();
 	void wait_idle();
+	/// Of the submission that is being recorded, or was last; they count up from 1.
+	uint64_t get_submission_number() const;
+	/// That submission has ended: what it copied into READBACK memory is valid.
+	bool is_submission_finished(uint64_t p_number);
 	/// Spans of the newest finished submission, in recording order.
 	const std::vector<GpuSpan> &get_gpu_spans() const;
 

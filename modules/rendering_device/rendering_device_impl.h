@@ -25,7 +25,10 @@ struct BufferResource {
 	Allocation memory;
 };
 
+/// Shaders read the depth of a texture with a stencil; as an attachment it has both.
+enum class ViewUse { ATTACHMENT, SHADER };
 struct TextureView {
+	ViewUse use = ViewUse::ATTACHMENT;
 	uint32_t layer = 0; // or Binding::ALL_LAYERS
 	bool is_arrayed = false;
 	VkImageView view = VK_NULL_HANDLE;
@@ -205,7 +208,8 @@ struct RenderingDevice::Impl {
 	TextureResource make_image(const TextureDesc &p_desc);
 	VkImageCreateInfo make_image_info(const TextureDesc &p_desc);
 	void check_texture_limits(const TextureDesc &p_desc);
-	VkImageView get_view(TextureResource &r_texture, uint32_t p_layer, bool p_is_arrayed);
+	VkImageView get_view(
+			TextureResource &r_texture, ViewUse p_use, uint32_t p_layer, bool p_is_arrayed);
 	void destroy(BufferResource &r_buffer);
 	void destroy(TextureResource &r_texture);
 	void destroy(SamplerResource &r_sampler);

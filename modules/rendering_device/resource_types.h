@@ -128,7 +128,8 @@ enum class StencilOp {
 };
 /// Of one side of the triangles.
 struct StencilFace {
-	CompareOp compare = CompareOp::ALWAYS; // of StencilTest::reference with the stored value
+	CompareOp compare =
+			CompareOp::ALWAYS; // of CommandList::set_stencil_reference with what is stored
 	StencilOp fail = StencilOp::KEEP;
 	StencilOp depth_fail = StencilOp::KEEP;
 	StencilOp pass = StencilOp::KEEP;
@@ -136,7 +137,6 @@ struct StencilFace {
 struct StencilTest {
 	StencilFace front;
 	StencilFace back;
-	uint32_t reference = 0;
 };
 enum class CullMode { NONE, FRONT, BACK };
 enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY, TRIANGLE_STRIP, LINES, POINTS };

@@ -249,6 +249,15 @@ void RenderingDevice::wait_idle() {
 	impl->collect();
 }
 
+uint64_t RenderingDevice::get_submission_number() const {
+	return impl->submitted_number + (impl->recording.is_recording ? 1 : 0);
+}
+
+bool RenderingDevice::is_submission_finished(uint64_t p_number) {
+	impl->fail_if_lost();
+	return p_number <= impl->get_finished_number();
+}
+
 void RenderingDevice::inject_device_lost() {
 	impl->is_loss_injected = true;
 }

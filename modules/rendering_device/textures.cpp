@@ -59,7 +59,7 @@ TextureResource RenderingDevice::Impl::make_image(const TextureDesc &p_desc) {
 }
 
 VkImageView RenderingDevice::Impl::get_view(
-		TextureResource &r_texture, uint32_t p_layer, bool p_is_arrayed) {
+		TextureResource &r_texture, ViewUse p_use, uint32_t p_layer, bool p_is_arrayed) {
 	const TextureDesc &desc = r_texture.desc;
 	const bool has_all_layers = p_layer == Binding::ALL_LAYERS;
 	GNOMON_ASSERT(has_all_layers || p_layer < desc.layer_count, "texture '", desc.name, "' has ",
@@ -67,22 +67,26 @@ VkImageView RenderingDevice::Impl::get_view(
 	GNOMON_ASSERT(p_is_arrayed || !has_all_layers || desc.layer_count == 1, "texture '", desc.name,
 			"' has ", desc.layer_count, " layers where the shader expects one");
 	for (const TextureView &view : r_texture.views) {
-		if (view.layer == p_layer && view.is_arrayed == p_is_arrayed) {
+		if (view.use == p_use && view.layer == p_layer && view.is_arrayed == p_is_arrayed) {
 			return view.view;
 		}
+	}
+	VkImageAspectFlags aspect = get_aspect(desc.format);
+	if (p_use == ViewUse::SHADER) {
+		aspect &= ~VkImageAspectFlags(VK_IMAGE_ASPECT_STENCIL_BIT);
 	}
 	const VkImageViewCreateInfo info = { .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
 		.image = r_texture.image,
 		.viewType = p_is_arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
 		.format = r_texture.format,
-		.subresourceRange = { .aspectMask = get_aspect(desc.format),
+		.subresourceRange = { .aspectMask = aspect,
 				.levelCount = 1,
 				.baseArrayLayer = has_all_layers ? 0 : p_layer,
 				.layerCount = has_all_layers ? desc.layer_count : 1 } };
 	VkImageView view = VK_NULL_HANDLE;
 	check(vkCreateImageView(device, &info, nullptr, &view), "vkCreateImageView");
 	set_name(VK_OBJECT_TYPE_IMAGE_VIEW, view, desc.name);
-	r_texture.views.push_back({ p_layer, p_is_arrayed, view });
+	r_texture.views.push_back({ p_use, p_layer, p_is_arrayed, view });
 	return view;
 }
 

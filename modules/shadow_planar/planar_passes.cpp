@@ -11,6 +11,8 @@ namespace gnomon {
 
 namespace {
 
+const uint32_t ON_PLANE = 1; // in the stencil: of the plane, and not dark yet
+
 const double RECEIVER_OFFSET = 5e-5; // of S; as receiver_inc.glsl has it
 const float SAME_PLANE = 1e-5f;		 // of S: a pixel so near to the plane lies in it
 const float SAME_PLANE_PER_DISTANCE = 2e-6f;
@@ -93,7 +95,6 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	RasterPipelineDesc seen_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
 	seen_desc.color_formats.clear();
 	seen_desc.stencil.front.pass = seen_desc.stencil.back.pass = StencilOp::REPLACE;
-	seen_desc.stencil.reference = 1;
 	const PipelineRID seen_pipeline = p_inputs.device.get_raster_pipeline(seen_desc);
 	shader::PlanePush seen_push = {};
 	seen_push.plane = glm::vec4(plane);
@@ -113,6 +114,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 				{ PLANAR_BINDING_NORMAL, p_context.get(normal) },
 				{ PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
 		commands.push_constants(seen_push);
+		commands.set_stencil_reference(ON_PLANE);
 		commands.draw(3);
 	});
 
@@ -127,7 +129,6 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	// What is dark once is not drawn again.
 	desc.stencil.front = { CompareOp::EQUAL, StencilOp::KEEP, StencilOp::KEEP, StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;
-	desc.stencil.reference = 1;
 	desc.depth_compare = CompareOp::ALWAYS;
 	desc.writes_depth = false;
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
@@ -138,6 +139,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 							 pipeline](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				commands.bind_pipeline(pipeline);
+				commands.set_stencil_reference(ON_PLANE);
 				for (const PlanarDraw &draw : draws) {
 					const BufferRID positions[] = { draw.mesh->positions.get() };
 					commands.push_constants(draw.push);

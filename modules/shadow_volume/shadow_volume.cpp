@@ -4,20 +4,35 @@
 #include "modules/renderer/lighting.h"
 #include "modules/shadow_volume/volume_passes.h"
 
+#include "shadow_volume/culling_shared.h"
+
 namespace gnomon {
 
 void ShadowVolume::get_light_properties(PropertyList &r_list) const {
 	add_volume_properties(id, is_on_cpu, r_list);
 }
 
+void ShadowVolume::get_quality_settings(
+		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
+	if (is_on_cpu) {
+		return;
+	}
+	// One picture, at other costs.
+	r_settings.push_back({ "auto", {} });
+	r_settings.push_back({ "z-fail", { { id + "_method", std::string("z_fail") } } });
+	r_settings.push_back({ "robust", { { id + "_robust", std::string("always") } } });
+}
+
 void ShadowVolume::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues & /*p_properties*/, std::vector<LightView> &r_views) const {
-	r_views = build_listing_views(p_light, p_scene);
+	const uint32_t border_px = 1;
+	r_views = build_light_views(p_light, p_scene, CULLING_MAP_SIZE_PX, border_px);
 }
 
 void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_volume_settings(id, is_on_cpu, p_inputs);
-	casters = build_volume_casters(p_inputs, settings, list_casters(p_inputs, r_plan));
+	casters = build_volume_casters(p_inputs, settings,
+			culling.plan(p_inputs, settings.culling, list_casters(p_inputs, r_plan), r_plan));
 	const size_t count = casters.casters.size();
 	const auto report = [&](size_t p_count, const char *p_what) {
 		if (p_count > 0) {
@@ -27,6 +42,7 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	report(count - casters.z_fail_count, "volumes by z-pass");
 	report(casters.z_fail_count, "volumes by z-fail");
 	report(casters.robust_count, "robust volumes");
+	report(casters.geometry_shader_count, "volumes made by a geometry shader");
 	if (casters.unseen_count > 0) {
 		r_plan.leave_out(text("volumes of ", casters.unseen_count, " casters"),
 				"their shadows lie outside the picture");
@@ -46,15 +62,21 @@ RGTexture ShadowVolume::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	}
 	const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);
 	if (!casters.casters.empty()) {
-		add_volume_passes(r_graph, p_inputs, settings, casters, targets);
+		add_volume_passes(r_graph, p_inputs, settings, casters,
+				culling.add_passes(r_graph, p_inputs), targets);
 	}
 	return targets.mask;
+}
+
+void ShadowVolume::get_debug_views(std::vector<DebugView> &r_views) const {
+	culling.get_debug_views(r_views);
 }
 
 std::vector<std::string> ShadowVolume::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "receivers.frag", "hidden.frag", "volumes.vert", "volumes.geom",
-				 "sides.vert", "caps.vert", "corners.vert" }) {
+				 "sides.vert", "caps.vert", "corners.vert", "occluders.vert", "occluders.frag",
+				 "occluder_edges.vert", "bounds.comp", "cull.comp" }) {
 		files.push_back(text("shadow_volume/", name));
 	}
 	return files;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/shadow_volume/caster_culling.h"
 #include "modules/shadow_volume/volume_casters.h"
 
 namespace gnomon {
@@ -19,15 +20,20 @@ public:
 			id(is_on_cpu ? "shadow_volume_cpu" : "shadow_volume") {}
 
 	void get_light_properties(PropertyList &r_list) const override;
+	void get_quality_settings(
+			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	void get_debug_views(std::vector<DebugView> &r_views) const override;
 	std::vector<std::string> get_shader_files() const override;
 
 private:
 	const bool is_on_cpu;
 	const std::string id;
+
+	CasterCulling culling;
 
 	// This frame.
 	VolumeSettings settings;

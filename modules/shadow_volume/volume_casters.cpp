@@ -1,5 +1,6 @@
 #include "modules/shadow_volume/volume_casters.h"
 
+#include "modules/mesh_tools/convexity.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/mesh_store.h"
 
@@ -14,7 +15,14 @@ namespace {
 const uint32_t STENCIL_MAXIMUM = 255;
 const uint32_t TRIANGLES_PER_LAYER = 8; // a box has 12 and one layer
 const uint32_t MOST_LAYERS = 32;
+// Below, what compute shaders cost for each caster is more than what they save (doc/benchmarks.md).
+const uint32_t MOST_FACES_FOR_GEOMETRY_SHADER = 4096;
 const double BOX_GROWTH = 1e-3; // of its size: a light so near is taken to be inside
+
+/// Kept for each mesh.
+struct MeshLayers {
+	uint32_t count = 0;
+};
 
 bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_light) {
 	if (p_light.type == LightType::DIRECTIONAL) {
@@ -67,10 +75,11 @@ private:
 
 } // namespace
 
-uint32_t estimate_layers(const MeshTopology &p_topology, bool p_is_robust) {
+uint32_t estimate_layers(const MeshTopology &p_topology) {
+	const uint32_t convex_count = count_convex_parts(p_topology);
 	const uint32_t layers =
-			std::clamp(p_topology.get_face_count() / TRIANGLES_PER_LAYER, 1u, MOST_LAYERS);
-	return p_is_robust ? 2 * layers : layers;
+			convex_count > 0 ? convex_count : p_topology.get_face_count() / TRIANGLES_PER_LAYER;
+	return std::clamp(layers, 1u, MOST_LAYERS);
 }
 
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
@@ -115,7 +124,18 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		// not.
 		caster.has_near_cap =
 				caster.has_far_cap || (caster.is_robust && !instance.material->is_double_sided);
-		caster.group = groups.place(caster.area, estimate_layers(topology, caster.is_robust));
+		const uint32_t layer_count =
+				p_inputs.meshes
+						.get_derived<MeshLayers>(instance.mesh,
+								[&] { return MeshLayers{ estimate_layers(topology) }; })
+						.count;
+		// A robust volume counts every solid twice.
+		caster.group = groups.place(caster.area, caster.is_robust ? 2 * layer_count : layer_count);
+		caster.maker = p_settings.maker.value_or(p_inputs.device.get_features().geometry_shader &&
+								topology.get_face_count() <= MOST_FACES_FOR_GEOMETRY_SHADER
+						? VolumeMaker::GEOMETRY_SHADER
+						: VolumeMaker::COMPUTE);
+		result.geometry_shader_count += caster.maker == VolumeMaker::GEOMETRY_SHADER ? 1 : 0;
 		result.z_fail_count += caster.has_far_cap ? 1 : 0;
 		result.robust_count += caster.is_robust ? 1 : 0;
 		result.group_count = caster.group + 1;

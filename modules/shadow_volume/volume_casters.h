@@ -18,6 +18,7 @@ struct VolumeCaster {
 	bool has_near_cap = false;
 	bool has_far_cap = false;
 	bool is_mirrored = false;
+	VolumeMaker maker = VolumeMaker::COMPUTE;
 	uint32_t group = 0; // those of one group share a stencil
 	VolumeArea area;
 };
@@ -28,6 +29,7 @@ struct VolumeCasters {
 	// For the frame plan.
 	uint32_t z_fail_count = 0;
 	uint32_t robust_count = 0;
+	uint32_t geometry_shader_count = 0;
 	uint32_t flat_count = 0;   // with a singular transform: they have no inside
 	uint32_t unseen_count = 0; // whose shadow lies outside the picture
 };
@@ -38,7 +40,8 @@ struct VolumeCasters {
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
 
-/// At most so many solids of one mesh are taken to lie over one another, each way.
-uint32_t estimate_layers(const MeshTopology &p_topology, bool p_is_robust);
+/// At most so many solids of the mesh are taken to lie over one another: of convex ones as many as
+/// there are, of others one for every 8 triangles, up to 32.
+uint32_t estimate_layers(const MeshTopology &p_topology);
 
 } // namespace gnomon

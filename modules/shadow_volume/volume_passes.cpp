@@ -71,6 +71,25 @@ PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSe
 	return p_inputs.device.get_raster_pipeline(desc);
 }
 
+/// Those whose edges compute shaders find.
+SilhouetteCasters list_compute_casters(
+		const ShadowTechnique::Inputs &p_inputs, const VolumeCasters &p_casters) {
+	std::vector<uint32_t> instances;
+	std::vector<uint32_t> vertices_per_edge;
+	for (const VolumeCaster &caster : p_casters.casters) {
+		if (caster.maker == VolumeMaker::COMPUTE) {
+			instances.push_back(caster.instance_index);
+			vertices_per_edge.push_back(VOLUMES_VERTICES_PER_SIDE * (caster.is_robust ? 2 : 1));
+		}
+	}
+	SilhouetteCasters listed =
+			build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
+	for (size_t i = 0; i < listed.casters.size(); ++i) {
+		listed.casters[i].vertices_per_edge = vertices_per_edge[i];
+	}
+	return listed;
+}
+
 std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const SilhouetteCasters &p_listed) {
@@ -82,9 +101,9 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		draw.caster = &caster;
 		draw.push.clip_from_node = camera.compute_clip_from_node(instance.world_from_node);
 		draw.push.light_node = caster.light_node;
-		if (p_settings.maker == VolumeMaker::GEOMETRY_SHADER) {
+		if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
-		} else if (p_settings.maker == VolumeMaker::CPU) {
+		} else if (caster.maker == VolumeMaker::CPU) {
 			const std::vector<glm::vec4> corners =
 					build_cpu_volume(*caster.gpu->topology, glm::dvec4(caster.light_node),
 							caster.is_robust, caster.has_near_cap, caster.has_far_cap);
@@ -112,13 +131,12 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 	return draws;
 }
 
-void record_draw(PassContext &r_context, const VolumeDraw &p_draw, VolumeMaker p_maker,
-		const SilhouetteLists &p_lists) {
+void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const SilhouetteLists &p_lists) {
 	CommandList &commands = r_context.commands;
 	const VolumeCaster &caster = *p_draw.caster;
 	const GpuTopology &gpu = *caster.gpu;
 	commands.bind_pipeline(p_draw.pipeline);
-	if (p_maker == VolumeMaker::GEOMETRY_SHADER) {
+	if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
 		const BufferRID vertices[] = { gpu.positions.get() };
 		commands.bind_vertex_buffers(vertices);
 		commands.bind_index_buffer(gpu.adjacency_indices.get());
@@ -127,7 +145,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, VolumeMaker p
 		commands.draw_indexed(gpu.adjacency_index_count);
 		return;
 	}
-	if (p_maker == VolumeMaker::CPU) {
+	if (caster.maker == VolumeMaker::CPU) {
 		const BufferRID vertices[] = { r_context.get(p_draw.corners) };
 		commands.bind_vertex_buffers(vertices);
 		commands.push_constants(p_draw.push);
@@ -204,19 +222,11 @@ VolumeTargets add_volume_receivers_pass(
 
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
-		const VolumeTargets &p_targets) {
-	SilhouetteCasters listed;
+		const DrawPredicates &p_predicates, const VolumeTargets &p_targets) {
+	const SilhouetteCasters listed = list_compute_casters(p_inputs, p_casters);
 	SilhouetteLists lists;
-	if (p_settings.maker == VolumeMaker::COMPUTE) {
-		std::vector<uint32_t> instances;
-		for (const VolumeCaster &caster : p_casters.casters) {
-			instances.push_back(caster.instance_index);
-		}
-		listed = build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
-		for (size_t i = 0; i < listed.casters.size(); ++i) {
-			listed.casters[i].vertices_per_edge *= p_casters.casters[i].is_robust ? 2 : 1;
-		}
-		lists = add_silhouette_passes(r_graph, p_inputs.device, listed);
+	if (!listed.casters.empty()) {
+		lists = add_silhouette_passes(r_graph, p_inputs.device, listed, p_predicates);
 	}
 	const std::vector<VolumeDraw> draws =
 			build_draws(r_graph, p_inputs, p_settings, p_casters, listed);
@@ -224,6 +234,7 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 		const std::string suffix = p_casters.group_count > 1 ? text(" ", group) : "";
 		PassBuilder pass = r_graph.add_pass("volumes" + suffix);
 		pass.depth(p_targets.depth, LoadOp::KEEP);
+		p_predicates.add_to(pass);
 		if (lists.list) {
 			pass.reads(lists.list, Access::SHADER_READ_VERTEX)
 					.reads(lists.draws, Access::INDIRECT_READ);
@@ -239,8 +250,7 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 		}
 		const bool has_bounds =
 				p_settings.has_scissor && p_inputs.device.get_features().depth_bounds;
-		pass.execute([group_draws, lists, has_bounds, maker = p_settings.maker](
-							 PassContext &p_context) {
+		pass.execute([group_draws, lists, has_bounds, p_predicates](PassContext &p_context) {
 			for (const VolumeDraw &draw : group_draws) {
 				const VolumeArea &area = draw.caster->area;
 				p_context.commands.set_scissor(area.offset_px, area.size_px);
@@ -250,7 +260,8 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 				p_context.commands.set_winding(draw.caster->is_mirrored
 								? CommandList::Winding::MIRRORED
 								: CommandList::Winding::NORMAL);
-				record_draw(p_context, draw, maker, lists);
+				p_predicates.record(p_context, draw.caster->instance_index,
+						[&] { record_draw(p_context, draw, lists); });
 			}
 		});
 		add_hidden_pass(r_graph, p_inputs, p_targets, "hidden" + suffix);

@@ -29,8 +29,13 @@ void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyLi
 			GROUP });
 	if (!p_is_on_cpu) {
 		r_list.add({ p_id + "_extrusion", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
-				"How volumes are made: by a geometry shader, by compute shaders and indirect "
-				"draws, or whichever is faster here. The picture is the same.",
+				"How volumes are made: by a geometry shader, or by compute shaders and indirect "
+				"draws; auto takes the first for meshes of up to 4096 triangles. The picture is "
+				"the same.",
+				"", GROUP });
+		r_list.add({ p_id + "_culling", PropertyType::ENUM, {}, "auto,on,off",
+				"Leave out casters that others hide from the light; auto does so where it pays. "
+				"The picture is the same.",
 				"", GROUP });
 	}
 }
@@ -49,11 +54,16 @@ VolumeSettings read_volume_settings(
 	if (p_is_on_cpu) {
 		settings.maker = VolumeMaker::CPU;
 	} else {
-		const bool wants_geometry_shader =
-				read_choice(properties, p_id + "_extrusion") == "geometry_shader";
-		settings.maker = wants_geometry_shader && p_inputs.device.get_features().geometry_shader
-				? VolumeMaker::GEOMETRY_SHADER
-				: VolumeMaker::COMPUTE;
+		const std::string &extrusion = read_choice(properties, p_id + "_extrusion");
+		if (extrusion == "geometry_shader" && p_inputs.device.get_features().geometry_shader) {
+			settings.maker = VolumeMaker::GEOMETRY_SHADER;
+		} else if (extrusion != "auto") {
+			settings.maker = VolumeMaker::COMPUTE;
+		}
+		const std::string &culling = read_choice(properties, p_id + "_culling");
+		settings.culling = culling == "on" ? CasterCulling::Wish::ON
+				: culling == "off"		   ? CasterCulling::Wish::OFF
+										   : CasterCulling::Wish::AUTO;
 	}
 	return settings;
 }

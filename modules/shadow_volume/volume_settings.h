@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/shadow_volume/caster_culling.h"
 
 #include <optional>
 
@@ -14,9 +14,10 @@ enum class VolumeMaker { GEOMETRY_SHADER, COMPUTE, CPU };
 /// What one light's properties and the device make of the technique.
 struct VolumeSettings {
 	std::optional<VolumeCount> count; // none: chosen for each caster
-	VolumeMaker maker = VolumeMaker::COMPUTE;
+	std::optional<VolumeMaker> maker; // none: likewise
 	bool is_always_robust = false;
 	bool has_scissor = true; // and depth bounds, where the device can
+	CasterCulling::Wish culling = CasterCulling::Wish::OFF;
 };
 
 void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyList &r_list);

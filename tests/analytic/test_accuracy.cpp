@@ -132,6 +132,35 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it w
 	}
 }
 
+TEST_CASE("[GPU][Accuracy] hard shadows differ from rays to the light's centre in few receivers") {
+	if (!has_reference()) {
+		return;
+	}
+	RenderFixture fixture;
+	const nlohmann::json limits = load_limits();
+	for (const nlohmann::json &hard_case : limits.at("hard_cases")) {
+		const uint32_t size_px = read_size_px(limits, hard_case);
+		CAPTURE(hard_case.at("scene").get<std::string>());
+		CAPTURE(hard_case.at("light").get<std::string>());
+		AccuracyScene exact(hard_case, limits.at("hard_settings"));
+		const MaskImage truth =
+				exact.render(fixture, ShadowRegistry::find_reference()->id, size_px);
+		for (const nlohmann::json &entry : hard_case.at("results")) {
+			const std::string id = entry.at("id").get<std::string>();
+			CAPTURE(id);
+			if (ShadowRegistry::find(id) == nullptr) {
+				FAIL_CHECK("No technique of this build has the id \"", id, "\".");
+				continue;
+			}
+			AccuracyScene scene(hard_case, limits.at("hard_settings"));
+			const MaskMetrics metrics =
+					compute_mask_metrics(truth, scene.render(fixture, id, size_px));
+			CHECK(metrics.receiver.pixel_count > 10000);
+			CHECK(metrics.receiver.mae <= entry.at("wrong_share").get<double>());
+		}
+	}
+}
+
 TEST_CASE("[GPU][Accuracy] every technique gives valid masks of every scene that has limits") {
 	RenderFixture fixture;
 	const nlohmann::json limits = load_limits();

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Measures shadow volumes against exact rays and writes the table of doc/benchmarks.md.
+"""Measures shadow volumes against exact rays and writes their tables of doc/benchmarks.md.
 
-    measure_volumes.py [--write]
+    measure_volumes.py [--only TABLE]... [--write]
 
-Errors are counted in pixels: R = 0, so that every receiver is lit or hidden. Without --write the table is printed
-only. Build first: scons.
+Errors are counted in pixels: R = 0, so that every receiver is lit or hidden. Without --write the tables are
+printed only. Build first: scons.
 """
 
 import argparse
 import json
 import os
+import re
 import sys
 import tempfile
 
 import run_benchmarks
+import volume_scenes
 from run_benchmarks import SCENES, describe_machine, format_table, publish_tables, run
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
@@ -60,25 +62,84 @@ def measure(scene, light, folder):
     return receivers, wrong, cost
 
 
+def measure_errors(folder):
+    rows = []
+    for name in sorted(os.listdir(SCENES)):
+        if not name.endswith(".gltf"):
+            continue
+        scene = os.path.join(SCENES, name)
+        for light in find_lights(scene):
+            receivers, wrong, cost = measure(scene, light, folder)
+            label = os.path.splitext(name)[0] + ("" if light == "Light" else ", " + light)
+            errors = ["%d (%.4f %%)" % (wrong[variant], 100 * wrong[variant] / receivers) for variant in COMPARED]
+            rows.append((label, receivers, *errors, *("%.1f" % cost[variant] for variant in TIMED)))
+            print(*rows[-1], flush=True)
+    header = ("scene, light", "receivers", "wrong", "wrong, `shadow_map` 2048", *("%s, ms" % variant for variant in TIMED))
+    return format_table(header, rows)
+
+
+def measure_time(scene, light, folder, settings, *more, technique="shadow_volume"):
+    """Wall milliseconds of the light's passes."""
+    mask, times = (os.path.join(folder, name) for name in ("mask.exr", "time.json"))
+    render(scene, light, technique, settings, mask, "--time", times, *more)
+    with open(times, encoding="utf-8") as file:
+        return json.load(file)["total"]["wall_ms"]
+
+
+def count_hidden(scene, folder):
+    """Casters that others hide from the light, as the second frame's plan says."""
+    words = [word for setting in POINT for word in ("--set", setting)]
+    plan = run([GNOMON, "visibility", scene, "--technique", "shadow_volume", "--size", SIZE, "--frames", "2", "--plan",
+                "--out", os.path.join(folder, "mask.exr"), *words])  # fmt: skip
+    found = re.search(r"volumes of (\d+) casters: left out, others hide them", plan)
+    return int(found.group(1)) if found else 0
+
+
+def measure_culling(folder):
+    rows = []
+    for count, has_walls in ((1000, True), (5000, True), (20000, True), (1000, False), (5000, False)):
+        scene = volume_scenes.make_yard(count, has_walls, folder)
+        hidden = count_hidden(scene, folder)
+        off = measure_time(scene, "Sun", folder, ["shadow_volume_culling=off"])
+        moving = measure_time(scene, "Sun", folder, [])
+        still = measure_time(scene, "Sun", folder, [], "--still")
+        shadow_map = measure_time(scene, "Sun", folder, ["shadow_map_size=2048"], technique="shadow_map")
+        ratios = ["%.0f (%.2f)" % (ms, ms / off) for ms in (moving, still)]
+        rows.append((count, "yes" if has_walls else "no", hidden, "%.0f" % off, *ratios, "%.0f" % shadow_map))
+        print(*rows[-1], flush=True)
+    header = ("casters", "walls", "hidden", "off, ms", "everything moves, ms (ratio)", "nothing moves, ms (ratio)",
+              "`shadow_map` 2048, ms")  # fmt: skip
+    return format_table(header, rows)
+
+
+def measure_triangles(folder):
+    ways = ("compute", "geometry_shader")
+    rows = []
+    for count in volume_scenes.KNOT_PARTS:
+        scene = volume_scenes.make_knot(count, folder)
+        times = [measure_time(scene, "Light", folder, ["shadow_volume_extrusion=" + way]) for way in ways]
+        times.append(measure_time(scene, "Light", folder, ["shadow_volume_method=z_fail"]))
+        times.append(measure_time(scene, "Light", folder, ["shadow_volume_robust=always"]))
+        times.append(measure_time(scene, "Light", folder, [], technique="shadow_volume_cpu"))
+        times.append(measure_time(scene, "Light", folder, ["shadow_map_size=2048"], technique="shadow_map"))
+        rows.append((count, *("%.1f" % ms for ms in times)))
+        print(*rows[-1], flush=True)
+    header = ("triangles", "compute, ms", "geometry shader, ms", "z-fail, ms", "robust, ms", "CPU, ms", "`shadow_map` 2048, ms")
+    return format_table(header, rows)
+
+
+PARTS = {"volumes": measure_errors, "volume_culling": measure_culling, "volume_triangles": measure_triangles}
+
+
 def main():
     parser = argparse.ArgumentParser(description="Measures shadow volumes against exact rays.")
+    parser.add_argument("--only", action="append", choices=PARTS, help="this table; may be repeated")
     parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
     options = parser.parse_args()
     load = os.getloadavg()[0]
-    rows = []
     with tempfile.TemporaryDirectory() as folder:
-        for name in sorted(os.listdir(SCENES)):
-            if not name.endswith(".gltf"):
-                continue
-            scene = os.path.join(SCENES, name)
-            for light in find_lights(scene):
-                receivers, wrong, cost = measure(scene, light, folder)
-                label = os.path.splitext(name)[0] + ("" if light == "Light" else ", " + light)
-                errors = ["%d (%.4f %%)" % (wrong[variant], 100 * wrong[variant] / receivers) for variant in COMPARED]
-                rows.append((label, receivers, *errors, *("%.1f" % cost[variant] for variant in TIMED)))
-                print(*rows[-1], flush=True)
-    header = ("scene, light", "receivers", "wrong", "wrong, `shadow_map` 2048", *("%s, ms" % variant for variant in TIMED))
-    publish_tables({"volumes": format_table(header, rows)}, describe_machine(load), options.write)
+        tables = {part: PARTS[part](folder) for part in options.only or PARTS}
+    publish_tables(tables, describe_machine(load), options.write)
     return 0
 
 

@@ -60,7 +60,7 @@ def remove_technique(target, module, ids):
     limits = os.path.join(golden, "accuracy.json")
     with open(limits, encoding="utf-8") as file:
         content = json.load(file)
-    for case in content["cases"]:
+    for case in content["cases"] + content["hard_cases"]:
         case["results"] = [result for result in case["results"] if result["id"] not in ids]
     with open(limits, "w", encoding="utf-8") as file:
         json.dump(content, file)

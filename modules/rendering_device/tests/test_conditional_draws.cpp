@@ -34,3 +34,41 @@ TEST_CASE("[GPU][RenderingDevice] conditional draws happen only while the predic
 		CHECK((texels[0] != 0) == (predicate != 0));
 	}
 }
+
+TEST_CASE("[GPU][RenderingDevice] conditional dispatches ask the word at their offset") {
+	DeviceFixture fixture;
+	RenderingDevice &device = *fixture.device;
+	if (!device.get_features().conditional_rendering) {
+		MESSAGE("this device has no conditional rendering");
+		return;
+	}
+	const PipelineRID pipeline = device.get_compute_pipeline(
+			{ "scale", "rendering_device/test_scale.comp", { { 0, 1 }, { 1, 2 } } });
+	const OwnedBuffer source =
+			fixture.make_buffer("source", std::vector<uint32_t>{ 5 }, BufferUsage::STORAGE);
+	const OwnedBuffer condition = fixture.make_buffer(
+			"condition", std::vector<uint32_t>{ 0, 3 }, BufferUsage::CONDITIONAL);
+	for (uint32_t word = 0; word < 2; ++word) {
+		const OwnedBuffer target = fixture.make_buffer("target", std::vector<uint32_t>{ 1 },
+				BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
+		const OwnedBuffer readback = fixture.make_readback(sizeof(uint32_t));
+		CommandList &commands = device.begin_commands();
+		const uint64_t number = device.get_submission_number();
+		commands.begin_conditional(condition.get(), word * sizeof(uint32_t));
+		commands.bind_pipeline(pipeline);
+		commands.bind_resources({ { 0, source.get() }, { 1, target.get() } });
+		commands.push_constants(glm::uvec2(1u, 10u));
+		commands.dispatch({ 1, 1, 1 });
+		commands.end_conditional();
+		const Barrier barrier = { .buffer = target.get(),
+			.before = Access::SHADER_WRITE_COMPUTE,
+			.after = Access::COPY_READ };
+		commands.barriers({ &barrier, 1 });
+		commands.copy_buffer(target.get(), readback.get(), sizeof(uint32_t));
+		CHECK_FALSE(device.is_submission_finished(number));
+		device.submit_commands(SubmitMode::WAIT);
+		CHECK(device.is_submission_finished(number));
+		CHECK(device.get_submission_number() == number);
+		CHECK(fixture.read<uint32_t>(readback, 1)[0] == (word == 0 ? 1u : 20u));
+	}
+}

@@ -41,12 +41,12 @@ struct StencilFixture : DeviceFixture {
 
 	/// Texels that are drawn after the triangle was counted so often with that pipeline, wound
 	/// both ways when asked.
-	size_t count_drawn(
-			const RasterPipelineDesc &p_counting, uint32_t p_times, bool p_is_turned = false) {
+	size_t count_drawn(const RasterPipelineDesc &p_counting, uint32_t p_times,
+			bool p_is_turned = false, uint32_t p_reference = 0) {
 		RasterPipelineDesc counting = p_counting;
 		const StencilFace not_zero = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
 			StencilOp::ZERO };
-		RasterPipelineDesc drawing = make_desc("drawing", { not_zero, not_zero, 0 });
+		RasterPipelineDesc drawing = make_desc("drawing", { not_zero, not_zero });
 		const PipelineRID count_pipeline = device->get_raster_pipeline(counting);
 		const PipelineRID draw_pipeline = device->get_raster_pipeline(drawing);
 		CommandList &commands = device->begin_commands();
@@ -56,6 +56,7 @@ struct StencilFixture : DeviceFixture {
 		const ColorTarget color_target = { color.get() };
 		const DepthTarget depth_target = { .texture = depth.get(), .clear = FAR };
 		commands.begin_rendering({ &color_target, 1 }, &depth_target);
+		commands.set_stencil_reference(p_reference);
 		for (uint32_t time = 0; time < p_times; ++time) {
 			draw_triangle(commands, count_pipeline, vertices.get());
 			if (p_is_turned) {
@@ -104,6 +105,19 @@ TEST_CASE("[GPU][RenderingDevice] front and back count apart") {
 			make_passing(StencilOp::INCREMENT_WRAP, StencilOp::DECREMENT_WRAP));
 	CHECK(fixture.count_drawn(both, 3) != 0);
 	CHECK(fixture.count_drawn(both, 3, true) == 0); // once each way
+}
+
+TEST_CASE("[GPU][RenderingDevice] the reference is what is written and compared with") {
+	StencilFixture fixture;
+	const RasterPipelineDesc writing =
+			fixture.make_desc("writing", make_passing(StencilOp::REPLACE, StencilOp::REPLACE));
+	CHECK(fixture.count_drawn(writing, 1, false, 0) == 0);
+	CHECK(fixture.count_drawn(writing, 1, false, 7) != 0);
+	StencilTest test = make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP);
+	test.front.compare = test.back.compare = CompareOp::EQUAL;
+	const RasterPipelineDesc comparing = fixture.make_desc("comparing", test);
+	CHECK(fixture.count_drawn(comparing, 1, false, 0) != 0);
+	CHECK(fixture.count_drawn(comparing, 1, false, 1) == 0);
 }
 
 TEST_CASE("[GPU][RenderingDevice] what fails the depth test has an operation of its own") {

@@ -4,48 +4,6 @@
 
 using namespace gnomon;
 
-namespace {
-
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
-
-/// p_most_wrong: of so many receivers one may be wrong, at the shadow's border.
-void check_against_rays(
-		const SmallScene &p_scene, const RenderResult &p_frame, size_t p_most_wrong = 1000) {
-	const HardDifference difference = HardTruth(p_scene).compare(p_frame);
-	CHECK(difference.receiver_count > 3000);
-	CHECK(difference.hidden_count > 50);
-	CHECK(difference.wrong_count <= difference.receiver_count / p_most_wrong);
-	CHECK(difference.unexplained_count == 0);
-}
-
-/// Meshes of every class about the box, some of which shade each other.
-void add_meshes(SmallScene &r_scene) {
-	const auto add = [&](const char *p_name, const Mesh &p_mesh, const glm::dvec3 &p_place,
-							 double p_scale) {
-		MeshInstance3D &node = add_mesh(r_scene.scene, p_name, share_mesh(p_name, p_mesh), p_place);
-		node.parent_from_node = glm::rotate(
-				glm::scale(node.parent_from_node, glm::dvec3(p_scale)), 0.7, { 0.3, 1, 0.2 });
-	};
-	add("sphere", test_meshes::make_sphere(3), { -0.9, 0.8, 0.4 }, 0.3);
-	add("sheet", test_meshes::make_quad(), { 0.9, 0.9, 0.3 }, 0.5);
-	add("moebius", test_meshes::make_moebius(12), { 0.2, 1.8, -0.9 }, 0.4);
-	add("soup", test_meshes::make_soup(5, 20, 24), { -0.6, 0.7, -0.8 }, 0.3);
-	Mesh inside_out = test_meshes::make_cube();
-	for (size_t first = 0; first < inside_out.indices.size(); first += 3) {
-		std::swap(inside_out.indices[first], inside_out.indices[first + 1]);
-	}
-	add("inside out", inside_out, { -1.4, 0.5, -0.2 }, 0.2);
-}
-
-MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
-	MeshInstance3D &node = add_mesh(r_scene.scene, "Mirrored",
-			make_box_mesh("mirrored", glm::vec3(0.2f, 0.3f, 0.25f)), { 0.9, 0.7, -0.5 });
-	node.parent_from_node = glm::scale(node.parent_from_node, glm::dvec3(-1, 1, 1));
-	return node;
-}
-
-} // namespace
-
 TEST_CASE("[GPU][ShadowVolume] the mask is that of rays, for every light and class of mesh") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {

@@ -1,0 +1,67 @@
+#include "modules/mesh_tools/convexity.h"
+
+#include <numeric>
+
+namespace gnomon {
+
+namespace {
+
+const double FLATNESS = 1e-6;
+
+uint32_t find_root(std::vector<uint32_t> &r_parents, uint32_t p_face) {
+	while (r_parents[p_face] != p_face) {
+		r_parents[p_face] = r_parents[r_parents[p_face]];
+		p_face = r_parents[p_face];
+	}
+	return p_face;
+}
+
+glm::dvec3 get_corner(const MeshTopology &p_topology, uint32_t p_vertex) {
+	return p_topology.welded_positions_node[p_vertex];
+}
+
+/// The corner of a face that is not on the edge.
+glm::dvec3 find_opposite(const MeshTopology &p_topology, const MeshEdge &p_edge, uint32_t p_face) {
+	const uint32_t *corners = &p_topology.triangles[size_t(3) * p_face];
+	for (int i = 0; i < 2; ++i) {
+		if (corners[i] != p_edge.a && corners[i] != p_edge.b) {
+			return get_corner(p_topology, corners[i]);
+		}
+	}
+	return get_corner(p_topology, corners[2]);
+}
+
+/// Does face1 rise in front of face0?
+bool is_hollow(const MeshTopology &p_topology, const MeshEdge &p_edge) {
+	const glm::dvec3 a = get_corner(p_topology, p_edge.a);
+	const glm::dvec3 b = get_corner(p_topology, p_edge.b);
+	const glm::dvec3 own = find_opposite(p_topology, p_edge, p_edge.face0) - a;
+	const glm::dvec3 other = find_opposite(p_topology, p_edge, p_edge.face1) - a;
+	const glm::dvec3 normal = glm::cross(b - a, own);
+	return glm::dot(normal, other) > FLATNESS * glm::length(normal) * glm::length(other);
+}
+
+} // namespace
+
+uint32_t count_convex_parts(const MeshTopology &p_topology) {
+	if (p_topology.mesh_class != MeshClass::CLOSED || p_topology.signed_volume_m3 <= 0) {
+		return 0;
+	}
+	std::vector<uint32_t> parents(p_topology.get_face_count());
+	std::iota(parents.begin(), parents.end(), 0u);
+	uint32_t part_count = p_topology.get_face_count();
+	for (const MeshEdge &edge : p_topology.edges) {
+		if (!edge.is_coplanar && is_hollow(p_topology, edge)) {
+			return 0;
+		}
+		const uint32_t first = find_root(parents, edge.face0);
+		const uint32_t second = find_root(parents, edge.face1);
+		if (first != second) {
+			parents[first] = second;
+			--part_count;
+		}
+	}
+	return part_count;
+}
+
+} // namespace gnomon

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "modules/mesh_tools/topology.h"
+
+namespace gnomon {
+
+/// Of how many convex solids the mesh consists: at most so many of its solids lie over one another,
+/// seen from anywhere. 0 when it is not closed, inside out, or a part is not convex. Edges that
+/// are hollow by less than 1e-6 of the size of their faces count as flat.
+uint32_t count_convex_parts(const MeshTopology &p_topology);
+
+} // namespace gnomon

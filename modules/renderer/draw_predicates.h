@@ -1,0 +1,37 @@
+#pragma once
+
+#include "modules/render_graph/render_graph.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// Words on the GPU that decide, in the frame that they are made in, which casters' draws and
+/// dispatches happen: those whose word is not 0. By default none has a word, and all happen.
+struct DrawPredicates {
+	RGBuffer words; // with BufferUsage::CONDITIONAL
+	uint64_t first_offset_bytes = 0;
+	/// The instances that have a word, ascending, in the words' order.
+	std::shared_ptr<const std::vector<uint32_t>> instances;
+
+	/// Where the instance's word stands.
+	std::optional<uint64_t> find_offset_bytes(uint32_t p_instance_index) const;
+	/// Declares the use of the words in a pass.
+	void add_to(PassBuilder &r_pass) const;
+	/// Records what p_record does, to happen only where the instance's word says so.
+	template <typename Record>
+	void record(PassContext &r_context, uint32_t p_instance_index, Record p_record) const {
+		const std::optional<uint64_t> offset = find_offset_bytes(p_instance_index);
+		if (offset) {
+			r_context.commands.begin_conditional(r_context.get(words), *offset);
+		}
+		p_record();
+		if (offset) {
+			r_context.commands.end_conditional();
+		}
+	}
+};
+
+} // namespace gnomon

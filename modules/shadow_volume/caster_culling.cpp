@@ -1,0 +1,226 @@
+#include "modules/shadow_volume/caster_culling.h"
+
+#include "modules/core/files.h"
+#include "modules/core/text.h"
+#include "modules/shadow_volume/culling_boxes.h"
+#include "modules/shadow_volume/occluders.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+const size_t LEAST_CASTERS = 64;
+const double LEAST_HIDDEN_SHARE = 0.1;
+const uint64_t REST_FRAMES = 60;
+const size_t HEADER_BYTES = CULLING_HEADER_WORDS * sizeof(uint32_t);
+
+size_t compute_words_bytes(size_t p_caster_count) {
+	return HEADER_BYTES + p_caster_count * sizeof(uint32_t);
+}
+
+/// Equal keys: the same views see the same casters at the same places, in the same order.
+uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, size_t p_caster_count) {
+	uint64_t key = compute_value_hash(uint64_t(p_caster_count), 1);
+	for (const CasterList &casters : p_inputs.casters) {
+		key = compute_value_hash(casters.content_hash, key);
+	}
+	return key;
+}
+
+shader::CullingConstants make_constants(
+		const ShadowTechnique::Inputs &p_inputs, const glm::dvec3 &p_place_world) {
+	shader::CullingConstants constants = {};
+	for (size_t i = 0; i < p_inputs.views.size(); ++i) {
+		const LightView &view = p_inputs.views[i];
+		shader::CullingView &target = constants.views[i];
+		target.view_from_relative =
+				glm::mat4(view.view_from_world * glm::translate(glm::dmat4(1.0), p_place_world));
+		target.half_extent = view.half_extent;
+		target.near_m = view.near_m;
+		target.far_m = view.far_m;
+		target.is_orthographic = view.is_orthographic ? 1 : 0;
+	}
+	constants.view_count = static_cast<uint32_t>(p_inputs.views.size());
+	return constants;
+}
+
+} // namespace
+
+std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_inputs, Wish p_wish,
+		const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) {
+	++frame;
+	tested.reset();
+	map = {};
+	collect(p_inputs.device);
+	if (p_wish == Wish::OFF || !p_inputs.may_leave_out || p_inputs.views.empty() ||
+			p_inputs.views.size() > CULLING_MAX_VIEWS) {
+		return p_instances;
+	}
+	const auto leave_out = [&](const char *p_reason) {
+		r_plan.leave_out("occlusion culling", p_reason);
+		return p_instances;
+	};
+	if (p_wish == Wish::AUTO && p_instances.size() < LEAST_CASTERS) {
+		return leave_out("few casters");
+	}
+	key = compute_key(p_inputs, p_instances.size());
+	const bool has_same_casters = known && known->is_hidden.size() == p_instances.size();
+	if (p_inputs.may_keep && !p_inputs.wants_debug_views && has_same_casters && known->key == key) {
+		return leave_out_hidden(p_instances, r_plan);
+	}
+	if (p_wish == Wish::AUTO && frame < rests_until_frame) {
+		return leave_out("hardly a caster was hidden lately");
+	}
+	occluders = choose_occluders(
+			p_inputs, p_instances, has_same_casters ? known->is_hidden : std::vector<bool>());
+	if (occluders.empty()) {
+		return leave_out("no caster is large enough to hide another");
+	}
+	tested = std::make_shared<const std::vector<uint32_t>>(p_instances);
+	r_plan.run(text(
+			"occlusion culling, casters: ", p_instances.size(), ", occluders: ", occluders.size()));
+	return p_instances;
+}
+
+std::vector<uint32_t> CasterCulling::leave_out_hidden(
+		const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const {
+	std::vector<uint32_t> seen;
+	for (size_t i = 0; i < p_instances.size(); ++i) {
+		if (!known->is_hidden[i]) {
+			seen.push_back(p_instances[i]);
+		}
+	}
+	if (seen.size() < p_instances.size()) {
+		r_plan.leave_out(text("volumes of ", p_instances.size() - seen.size(), " casters"),
+				"others hide them from the light");
+	}
+	return seen;
+}
+
+DrawPredicates CasterCulling::add_passes(
+		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
+	if (!tested) {
+		return {};
+	}
+	const OccluderMap drawn = add_occluder_passes(r_graph, p_inputs, occluders);
+	map = drawn.depth;
+	const RGBuffer bounds = drawn.bounds;
+	std::vector<Bounds> boxes_world;
+	for (const uint32_t index : *tested) {
+		boxes_world.push_back(p_inputs.scene.instances[index].bounds_world);
+	}
+	const glm::dvec3 place_world(glm::inverse(p_inputs.views[0].view_from_world)[3]);
+	const CullingBoxes culling_boxes = build_culling_boxes(boxes_world, place_world);
+	shader::CullingConstants block = make_constants(p_inputs, place_world);
+	block.subtree_count = culling_boxes.subtree_count;
+	block.key_low = static_cast<uint32_t>(key);
+	block.key_high = static_cast<uint32_t>(key >> 32);
+	const RGBuffer constants = r_graph.upload_constants("culling constants", block);
+	const RGBuffer boxes = r_graph.upload(
+			"culling boxes", BufferUsage::STORAGE, bytes_of(std::span(culling_boxes.boxes)));
+	const RGBuffer words =
+			r_graph.create_buffer({ "seen casters", compute_words_bytes(tested->size()),
+					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE |
+							BufferUsage::CONDITIONAL });
+	r_graph.add_pass("all casters are seen")
+			.writes(words, Access::COPY_WRITE)
+			.execute([=](PassContext &p_context) {
+				p_context.commands.fill_buffer(p_context.get(words), 1);
+			});
+	const PipelineRID pipeline =
+			p_inputs.device.get_compute_pipeline({ "cull", "shadow_volume/cull.comp", {} });
+	r_graph.add_pass("casters hidden from the light")
+			.reads(constants, Access::UNIFORM_READ)
+			.reads(bounds, Access::SHADER_READ_COMPUTE)
+			.reads(boxes, Access::SHADER_READ_COMPUTE)
+			.writes(words, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
+			.execute([=, count = block.subtree_count](PassContext &p_context) {
+				CommandList &commands = p_context.commands;
+				commands.bind_pipeline(pipeline);
+				commands.bind_resources({ { CULLING_BINDING_CONSTANTS, p_context.get(constants) },
+						{ CULLING_BINDING_BOUNDS, p_context.get(bounds) },
+						{ CULLING_BINDING_BOXES, p_context.get(boxes) },
+						{ CULLING_BINDING_WORDS, p_context.get(words) } });
+				commands.dispatch({ count, 1, 1 });
+			});
+	add_readback(r_graph, p_inputs.device, words);
+	return p_inputs.device.get_features().conditional_rendering
+			? DrawPredicates{ words, HEADER_BYTES, tested }
+			: DrawPredicates{};
+}
+
+void CasterCulling::get_debug_views(std::vector<ShadowTechnique::DebugView> &r_views) const {
+	if (map) {
+		r_views.push_back({ "occluders", map });
+	}
+}
+
+void CasterCulling::add_readback(
+		RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_words) {
+	const auto slot = std::find_if(results.begin(), results.end(),
+			[](const auto &p_result) { return !p_result || !p_result->is_awaited; });
+	if (slot == results.end()) {
+		return; // this frame's result is not kept
+	}
+	const size_t size_bytes = compute_words_bytes(tested->size());
+	if (!*slot || (*slot)->caster_count != tested->size()) {
+		*slot = std::make_shared<Result>();
+		(*slot)->words = OwnedBuffer(p_device,
+				p_device.create_buffer({ "read seen casters", size_bytes, BufferUsage::COPY_TARGET,
+						MemoryKind::READBACK }));
+		std::memset(p_device.get_mapped((*slot)->words.get()), 0, size_bytes);
+	}
+	const std::shared_ptr<Result> result = *slot;
+	result->key = key;
+	result->caster_count = tested->size();
+	result->submission_number = 0;
+	result->is_awaited = true;
+	const RGBuffer target = r_graph.import_buffer(result->words.get());
+	r_graph.add_pass("read seen casters")
+			.reads(p_words, Access::COPY_READ)
+			.writes(target, Access::COPY_WRITE)
+			.keep()
+			.execute([=](PassContext &p_context) {
+				result->submission_number = p_context.get_device().get_submission_number();
+				p_context.commands.copy_buffer(
+						p_context.get(p_words), p_context.get(target), size_bytes);
+			});
+}
+
+void CasterCulling::collect(RenderingDevice &p_device) {
+	for (const std::shared_ptr<Result> &result : results) {
+		if (!result || !result->is_awaited) {
+			continue;
+		}
+		if (result->submission_number == 0) { // its frame ended in an error
+			result->is_awaited = false;
+			continue;
+		}
+		if (!p_device.is_submission_finished(result->submission_number)) {
+			continue;
+		}
+		result->is_awaited = false;
+		std::vector<uint32_t> words(CULLING_HEADER_WORDS + result->caster_count);
+		std::memcpy(words.data(), p_device.get_mapped(result->words.get()),
+				words.size() * sizeof(uint32_t));
+		const uint64_t found_key = words[0] | uint64_t(words[1]) << 32;
+		if (found_key != result->key ||
+				(known && known->submission_number > result->submission_number)) {
+			continue;
+		}
+		known = { result->key, result->submission_number, {} };
+		size_t hidden_count = 0;
+		for (size_t i = CULLING_HEADER_WORDS; i < words.size(); ++i) {
+			known->is_hidden.push_back(words[i] == 0);
+			hidden_count += words[i] == 0 ? 1 : 0;
+		}
+		if (hidden_count < LEAST_HIDDEN_SHARE * static_cast<double>(result->caster_count)) {
+			rests_until_frame = frame + REST_FRAMES;
+		}
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,201 @@
+#include "modules/shadow_volume/occluders.h"
+
+#include "modules/core/text.h"
+#include "modules/renderer/caster_pass.h"
+#include "modules/renderer/mesh_store.h"
+#include "modules/renderer/silhouette_lists.h"
+
+#include "shadow_volume/culling_shared.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const size_t MOST_OCCLUDERS = 128; // at most 255: each has a number in the stencil
+const uint32_t MOST_TRIANGLES = 16384;
+const uint32_t MOST_TRIANGLES_OF_ONE = 4096;
+const double LEAST_SIZE_PX = 8.0; // its borders alone are 3 wide
+const uint32_t VERTICES_PER_EDGE = 6;
+const uint32_t CORNERS_PER_FACE = 3;
+
+/// How many texels of a view's side the box's diagonal takes, roughly.
+double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p_box_world) {
+	const LightView &view = p_inputs.views[0];
+	double half_width_m = view.half_extent.x;
+	if (!view.is_orthographic) {
+		const glm::dvec3 centre = 0.5 * (p_box_world.minimum + p_box_world.maximum);
+		half_width_m *=
+				std::max(glm::distance(centre, p_inputs.light.position_world), double(view.near_m));
+	}
+	return 0.5 * CULLING_MAP_SIZE_PX * p_box_world.get_diagonal() / half_width_m;
+}
+
+/// One occluder in one view.
+struct OccluderDraw {
+	double begin_m = 0; // of its box along the view
+	const GpuTopology *gpu = nullptr;
+	shader::OccluderPush push;
+};
+
+std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
+		const LightView &p_view, const std::vector<uint32_t> &p_occluders) {
+	std::vector<OccluderDraw> draws;
+	for (uint32_t index : p_occluders) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+		if (!p_view.may_see(instance.bounds_world)) {
+			continue;
+		}
+		OccluderDraw draw;
+		draw.begin_m = p_view.compute_distance_range_m(instance.bounds_world).x;
+		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh);
+		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
+		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
+		// Without edges or an inside it has no volume, and hides nothing.
+		if (draw.gpu->edge_count > 0 &&
+				std::isfinite(glm::dot(draw.push.light_node, glm::vec4(1.0f)))) {
+			draws.push_back(draw);
+		}
+	}
+	// Front to back: a farther one fills the texels that the edges of a nearer one have spoilt.
+	std::stable_sort(draws.begin(), draws.end(), [](const auto &p_left, const auto &p_right) {
+		return p_left.begin_m < p_right.begin_m;
+	});
+	return draws;
+}
+
+struct OccluderPipelines {
+	PipelineRID faces;
+	PipelineRID edges;
+};
+
+OccluderPipelines get_pipelines(RenderingDevice &p_device) {
+	RasterPipelineDesc desc;
+	desc.name = "occluders";
+	desc.vertex_shader = "shadow_volume/occluders.vert";
+	desc.fragment_shader = "shadow_volume/occluders.frag";
+	desc.depth_compare = CompareOp::GREATER; // reversed: nearer
+	desc.has_stencil = true;
+	desc.stencil.front.pass = StencilOp::REPLACE;
+	desc.stencil.back = desc.stencil.front;
+	OccluderPipelines pipelines;
+	pipelines.faces = p_device.get_raster_pipeline(desc);
+	desc.name = "occluders' edges";
+	desc.vertex_shader = "shadow_volume/occluder_edges.vert";
+	desc.fragment_shader = "";
+	desc.depth_compare = CompareOp::LESS;
+	desc.stencil.front = { .compare = CompareOp::EQUAL };
+	desc.stencil.back = desc.stencil.front;
+	pipelines.edges = p_device.get_raster_pipeline(desc);
+	return pipelines;
+}
+
+/// The edges after the faces, occluder by occluder: what an occluder's faces have put into a texel
+/// of its edges is corrected before the next one comes, and only there, which the stencil tells.
+void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
+		const std::vector<OccluderDraw> &p_draws) {
+	uint32_t number = 0;
+	for (const OccluderDraw &draw : p_draws) {
+		r_commands.set_stencil_reference(++number);
+		r_commands.bind_pipeline(p_pipelines.faces);
+		r_commands.bind_resources({ { CULLING_BINDING_POSITIONS, draw.gpu->positions.get() },
+				{ CULLING_BINDING_TRIANGLES, draw.gpu->adjacency_indices.get() } });
+		r_commands.push_constants(draw.push);
+		r_commands.draw(CORNERS_PER_FACE * draw.gpu->topology->get_face_count());
+		r_commands.bind_pipeline(p_pipelines.edges);
+		r_commands.bind_resources({ { CULLING_BINDING_POSITIONS, draw.gpu->positions.get() },
+				{ CULLING_BINDING_EDGES, draw.gpu->edges.get() } });
+		r_commands.push_constants(draw.push);
+		r_commands.draw(VERTICES_PER_EDGE * draw.gpu->edge_count);
+	}
+}
+
+RGBuffer add_level_passes(
+		RenderGraph &r_graph, RenderingDevice &p_device, RGTexture p_map, uint32_t p_view_count) {
+	const RGBuffer bounds = r_graph.create_buffer(
+			{ "occluders' bounds", uint64_t(p_view_count) * CULLING_BOUNDS_PER_VIEW * sizeof(float),
+					BufferUsage::STORAGE });
+	const PipelineRID pipeline =
+			p_device.get_compute_pipeline({ "occluders' bounds", "shadow_volume/bounds.comp", {} });
+	uint32_t size_px = CULLING_MAP_SIZE_PX;
+	for (uint32_t level = 1; level < CULLING_LEVEL_COUNT; ++level) {
+		size_px /= CULLING_LEVEL_FACTOR;
+		r_graph.add_pass(text("occluders' level ", level))
+				.reads(p_map, Access::SHADER_READ_COMPUTE)
+				.writes(bounds, Access::SHADER_WRITE_COMPUTE,
+						level == 1 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE)
+				.execute([=](PassContext &p_context) {
+					CommandList &commands = p_context.commands;
+					commands.bind_pipeline(pipeline);
+					for (uint32_t view = 0; view < p_view_count; ++view) {
+						Binding map = { CULLING_BINDING_DEPTH, p_context.get(p_map) };
+						map.layer = view;
+						commands.bind_resources(
+								{ map, { CULLING_BINDING_BOUNDS, p_context.get(bounds) } });
+						commands.push_constants(shader::BoundsPush{ view, level, 0, 0 });
+						commands.dispatch_items({ size_px, size_px, 1 });
+					}
+				});
+	}
+	return bounds;
+}
+
+} // namespace
+
+std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_instances, const std::vector<bool> &p_was_hidden) {
+	struct Candidate {
+		uint32_t instance_index;
+		bool was_hidden;
+		double size_px;
+	};
+	std::vector<Candidate> candidates;
+	for (size_t i = 0; i < p_instances.size(); ++i) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[p_instances[i]];
+		const double size_px = estimate_size_px(p_inputs, instance.bounds_world);
+		if (size_px >= LEAST_SIZE_PX &&
+				instance.mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE) {
+			candidates.push_back(
+					{ p_instances[i], !p_was_hidden.empty() && p_was_hidden[i], size_px });
+		}
+	}
+	std::stable_sort(candidates.begin(), candidates.end(),
+			[](const Candidate &p_left, const Candidate &p_right) {
+				return p_left.was_hidden != p_right.was_hidden ? p_right.was_hidden
+															   : p_left.size_px > p_right.size_px;
+			});
+	std::vector<uint32_t> occluders;
+	uint32_t triangle_count = 0;
+	for (const Candidate &candidate : candidates) {
+		const uint32_t count =
+				p_inputs.scene.instances[candidate.instance_index].mesh->get_triangle_count();
+		if (triangle_count + count <= MOST_TRIANGLES && occluders.size() < MOST_OCCLUDERS) {
+			triangle_count += count;
+			occluders.push_back(candidate.instance_index);
+		}
+	}
+	return occluders;
+}
+
+OccluderMap add_occluder_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const std::vector<uint32_t> &p_occluders) {
+	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
+	const RGTexture map = r_graph.create_texture(
+			{ "occluders", Format::D32_SFLOAT_S8_UINT, glm::uvec2(CULLING_MAP_SIZE_PX), view_count,
+					TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+	const OccluderPipelines pipelines = get_pipelines(p_inputs.device);
+	for (uint32_t view = 0; view < view_count; ++view) {
+		r_graph.add_pass(text("occluders view ", view))
+				.depth(map, LoadOp::CLEAR, 0.0f, view)
+				.execute([pipelines,
+								 draws = build_draws(p_inputs, p_inputs.views[view], p_occluders)](
+								 PassContext &p_context) {
+					record_draws(p_context.commands, pipelines, draws);
+				});
+	}
+	return { map, add_level_passes(r_graph, p_inputs.device, map, view_count) };
+}
+
+} // namespace gnomon

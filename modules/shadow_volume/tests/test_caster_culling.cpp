@@ -1,0 +1,223 @@
+// What occlusion culling leaves out, and that the picture never tells.
+
+#include "modules/shadow_volume/culling_boxes.h"
+#include "modules/shadow_volume/tests/volume_fixture.h"
+
+#include <random>
+#include <set>
+
+using namespace gnomon;
+
+namespace {
+
+const std::string HIDDEN = "others hide them from the light";
+
+double draw(std::mt19937 &r_random, double p_least, double p_greatest) {
+	return std::uniform_real_distribution<double>(p_least, p_greatest)(r_random);
+}
+
+/// The number before " casters" in the plan's line that says so; 0 without one.
+size_t read_hidden_count(const RenderResult &p_frame) {
+	const std::string plan = p_frame.plan.to_text();
+	const size_t reason = plan.find(HIDDEN);
+	if (reason == std::string::npos) {
+		return 0;
+	}
+	const std::string start = "volumes of ";
+	return std::stoul(plan.substr(plan.rfind(start, reason) + start.size()));
+}
+
+RenderResult render_culled(RenderFixture &r_fixture, SmallScene &r_scene, const char *p_wish,
+		const char *p_extrusion = "auto") {
+	return render_volumes(r_fixture, r_scene,
+			{ { "culling", std::string(p_wish) }, { "extrusion", std::string(p_extrusion) } });
+}
+
+/// A wall upright between the light and rows of small boxes on the ground. One row more stands on
+/// the wall's lit side.
+struct WallScene : SmallScene {
+	MeshInstance3D *wall = nullptr;
+	MeshInstance3D *last = nullptr;
+	static constexpr size_t COUNT_BEHIND = 60;
+	static constexpr size_t COUNT_BEFORE = 12;
+
+	explicit WallScene(LightType p_type = LightType::SPOT) : SmallScene(p_type) {
+		box->parent_from_node = glm::translate(glm::dmat4(1.0), { -2.4, 0.31, 0 });
+		light->parent_from_node = look_at({ 3.2, 2.2, 0.1 }, { 0, 0.4, 0 });
+		wall = &add_mesh(scene, "Wall", make_box_mesh("wall", glm::vec3(0.05f, 0.9f, 1.6f)),
+				{ 0.8, 0.9, 0 });
+		const auto small = make_box_mesh("small", glm::vec3(0.05f, 0.08f, 0.05f));
+		for (size_t i = 0; i < COUNT_BEHIND; ++i) {
+			last = &add_mesh(scene, text("Behind ", i), small,
+					{ 0.5 - 0.2 * double(i / 12), 0.1, -0.8 + 1.6 * double(i % 12) / 11 });
+		}
+		for (size_t i = 0; i < COUNT_BEFORE; ++i) {
+			add_mesh(scene, text("Before ", i), small,
+					{ 1.3, 0.1, -0.8 + 1.6 * double(i) / (COUNT_BEFORE - 1) });
+		}
+	}
+};
+
+void check_same(const RenderResult &p_one, const RenderResult &p_other) {
+	CHECK(p_one.visibility == p_other.visibility);
+}
+
+/// Meshes of every class and size at random, some as large as walls, some touching, some within
+/// others.
+void add_random_casters(SmallScene &r_scene, std::mt19937 &r_random) {
+	const std::vector<std::shared_ptr<const Mesh>> meshes = { make_box_mesh("box", glm::vec3(0.5f)),
+		make_box_mesh("plate", glm::vec3(1, 0.6f, 0.01f)),
+		share_mesh("sphere", test_meshes::make_sphere(2)),
+		share_mesh("sheet", test_meshes::make_quad()),
+		share_mesh("moebius", test_meshes::make_moebius(12)),
+		share_mesh("soup", test_meshes::make_soup(5, 20, 24)) };
+	for (int i = 0; i < 120; ++i) {
+		const size_t kind = r_random() % meshes.size();
+		const double size = i < 12 ? draw(r_random, 0.5, 1.2) : draw(r_random, 0.02, 0.2);
+		MeshInstance3D &node = add_mesh(r_scene.scene, text("Caster ", i), meshes[kind],
+				{ draw(r_random, -2, 1), draw(r_random, 0, 2), draw(r_random, -2, 2) });
+		node.parent_from_node = glm::rotate(
+				glm::scale(node.parent_from_node,
+						glm::dvec3(r_random() % 2 == 0 ? size : -size, size, size)),
+				draw(r_random, 0, 3), { 0.3, draw(r_random, -1, 1), draw(r_random, -1, 1) });
+	}
+}
+
+} // namespace
+
+TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within theirs") {
+	std::mt19937 random(3);
+	std::vector<Bounds> boxes(1000);
+	for (Bounds &box : boxes) {
+		box.add(glm::dvec3(draw(random, -9, 9), draw(random, -9, 9), draw(random, -9, 9)));
+		box.add(box.minimum + glm::dvec3(draw(random, 0, 1), draw(random, 0, 1), 0.2));
+	}
+	boxes[17] = Bounds(); // empty: in no subtree
+	const glm::dvec3 place(100, 200, -300);
+	const CullingBoxes found = build_culling_boxes(boxes, place);
+	CHECK(found.subtree_count >= 1000 / CULLING_CASTERS_PER_SUBTREE);
+	CHECK(found.subtree_count < 200);
+	std::set<uint32_t> seen;
+	bool holds = true;
+	for (uint32_t i = 0; i < found.subtree_count; ++i) {
+		const shader::CullingBox &subtree = found.boxes[i];
+		CHECK(subtree.count <= CULLING_CASTERS_PER_SUBTREE);
+		for (uint32_t j = 0; j < subtree.count; ++j) {
+			const shader::CullingBox &box = found.boxes[subtree.first + j];
+			CHECK(seen.insert(box.first).second);
+			const glm::dvec3 centre = 0.5 * (boxes[box.first].minimum + boxes[box.first].maximum);
+			holds = holds && glm::distance(glm::dvec3(box.center_m), centre - place) < 1e-4;
+			for (int axis = 0; axis < 3; ++axis) {
+				const float distance = std::abs(box.center_m[axis] - subtree.center_m[axis]);
+				holds = holds &&
+						distance + box.half_extent_m[axis] <= subtree.half_extent_m[axis] + 1e-4f;
+			}
+		}
+	}
+	CHECK(holds);
+	CHECK(seen.size() == 999);
+	CHECK(seen.count(17) == 0);
+	CHECK(build_culling_boxes({}, place).subtree_count == 0);
+}
+
+TEST_CASE("[GPU][ShadowVolume] casters behind a wall are left out, those beside and before not") {
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		RenderFixture fixture;
+		WallScene scene(type);
+		const RenderResult all = render_culled(fixture, scene, "off");
+		CHECK(read_hidden_count(all) == 0);
+		const RenderResult first = render_culled(fixture, scene, "auto"); // decided on the GPU
+		CHECK(first.plan.to_text().find("occlusion culling, casters: 75") != std::string::npos);
+		check_same(first, all);
+		const RenderResult second = render_culled(fixture, scene, "auto"); // known from the first
+		CHECK(second.plan.to_text().find("occlusion culling, casters") == std::string::npos);
+		CHECK(read_hidden_count(second) >= WallScene::COUNT_BEHIND - 6);
+		CHECK(read_hidden_count(second) <= WallScene::COUNT_BEHIND + 1); // and the box
+		check_same(second, all);
+		scene.camera->parent_from_node = look_at({ 2.8, 1.2, 2.0 }, { 0.2, 0.3, 0 });
+		const RenderResult elsewhere = render_culled(fixture, scene, "auto"); // still known
+		CHECK(read_hidden_count(elsewhere) == read_hidden_count(second));
+		check_same(elsewhere, render_culled(fixture, scene, "off"));
+	}
+}
+
+TEST_CASE(
+		"[GPU][ShadowVolume] a caster that comes out from behind its wall has its shadow at once") {
+	RenderFixture fixture;
+	WallScene scene;
+	render_culled(fixture, scene, "auto");
+	CHECK(read_hidden_count(render_culled(fixture, scene, "auto")) > 0);
+	for (int step = 0; step < 6; ++step) {
+		CAPTURE(step);
+		scene.last->parent_from_node =
+				glm::translate(glm::dmat4(1.0), { 0.2 - 0.1 * step, 0.1 + 0.3 * step, 1.3 });
+		for (const char *extrusion : { "compute", "geometry_shader" }) {
+			const RenderResult culled = render_culled(fixture, scene, "auto", extrusion);
+			check_same(culled, render_culled(fixture, scene, "off", extrusion));
+		}
+	}
+	scene.wall->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.8, 0.9, 2.9 });
+	check_same(render_culled(fixture, scene, "auto"), render_culled(fixture, scene, "off"));
+}
+
+TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the picture") {
+	RenderFixture fixture;
+	std::mt19937 random(11);
+	size_t hidden_count = 0;
+	for (int round = 0; round < 12; ++round) {
+		CAPTURE(round);
+		SmallScene scene(ALL_TYPES[round % 3]);
+		add_random_casters(scene, random);
+		const glm::dvec3 from(draw(random, -3, 3), draw(random, 0.3, 4), draw(random, -3, 3));
+		scene.light->parent_from_node = look_at(from, { draw(random, -1, 1), 0.5, 0 });
+		const RenderResult all = render_culled(fixture, scene, "off");
+		check_same(render_culled(fixture, scene, "on"), all);
+		const RenderResult known = render_culled(fixture, scene, "on");
+		check_same(known, all);
+		hidden_count += read_hidden_count(known);
+	}
+	MESSAGE("hidden of 1452: ", hidden_count);
+	CHECK(hidden_count > 100);
+}
+
+TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, and on request") {
+	RenderFixture fixture;
+	WallScene scene;
+	scene.wall->parent_from_node = glm::translate(glm::dmat4(1.0), { -2.8, 0.9, 0 });
+	const auto move_light = [&](double p_step) {
+		scene.light->parent_from_node = look_at({ 3.2, 2.2, 0.1 + p_step }, { 0, 0.4, 0 });
+	};
+	const auto render_plan = [&](const char *p_wish) {
+		return render_culled(fixture, scene, p_wish).plan.to_text();
+	};
+	const auto has = [](const std::string &p_plan, const char *p_words) {
+		return p_plan.find(p_words) != std::string::npos;
+	};
+	CHECK(has(render_plan("auto"), "occlusion culling, casters: 75"));
+	move_light(0.01);
+	CHECK(has(render_plan("auto"), "hardly a caster was hidden lately"));
+	CHECK(has(render_plan("on"), "occlusion culling, casters: 75"));
+	for (int frame = 0; frame < 60; ++frame) {
+		move_light(0.01 + 0.001 * frame);
+		render_plan("auto");
+	}
+	move_light(0.2);
+	CHECK(has(render_plan("auto"), "occlusion culling, casters: 75"));
+	CHECK_FALSE(has(render_plan("off"), "occlusion culling"));
+
+	SmallScene few;
+	CHECK(has(render_culled(fixture, few, "auto").plan.to_text(), "few casters"));
+}
+
+TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a frame later") {
+	DeviceOptions::Without without;
+	without.conditional_rendering = true;
+	RenderFixture fixture("", without);
+	WallScene scene;
+	const RenderResult all = render_culled(fixture, scene, "off");
+	check_same(render_culled(fixture, scene, "auto"), all);
+	const RenderResult known = render_culled(fixture, scene, "auto");
+	CHECK(read_hidden_count(known) > 0);
+	check_same(known, all);
+}

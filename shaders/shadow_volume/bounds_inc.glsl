@@ -1,0 +1,19 @@
+// Where a texel of a view's level stands among the bounds.
+#ifndef BOUNDS_INC_GLSL
+#define BOUNDS_INC_GLSL
+
+#include "shadow_volume/culling_shared.h"
+
+uint bounds_size_px(uint p_level) {
+	return uint(CULLING_MAP_SIZE_PX) >> (2u * p_level);
+}
+
+uint bounds_index(uint p_view, uint p_level, uvec2 p_texel) {
+	uint index = p_view * uint(CULLING_BOUNDS_PER_VIEW);
+	for (uint level = 0u; level < p_level; ++level) {
+		index += bounds_size_px(level) * bounds_size_px(level);
+	}
+	return index + p_texel.y * bounds_size_px(p_level) + p_texel.x;
+}
+
+#endif

