@@ -9,7 +9,7 @@ usage() {
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
-               large meshes (npm downloads them)
+               large meshes (installs npm, which downloads them)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
                demo removal template sanitized; with --full also sanitized_all threads tables

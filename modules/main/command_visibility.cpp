@@ -137,10 +137,11 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "dx,dy,dz in metres a frame: moves the light, writes one EXR a frame")
 			->delimiter(',')
 			->expected(3);
-	command->add_option(
+	CLI::Option *time = command->add_option(
 			"--time", options.time, "Writes the times of 20 frames after 5 to warm up as JSON");
 	command->add_flag("--still", options.is_still,
-			"--time measures frames in which nothing moves, so that what is kept is not drawn anew");
+				   "--time measures frames in which nothing moves, so that what is kept is used")
+			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
 	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
 			"Runs also what the image does not need (for comparison)");

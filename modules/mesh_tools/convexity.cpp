@@ -20,23 +20,15 @@ glm::dvec3 get_corner(const MeshTopology &p_topology, uint32_t p_vertex) {
 	return p_topology.welded_positions_node[p_vertex];
 }
 
-/// The corner of a face that is not on the edge.
-glm::dvec3 find_opposite(const MeshTopology &p_topology, const MeshEdge &p_edge, uint32_t p_face) {
-	const uint32_t *corners = &p_topology.triangles[size_t(3) * p_face];
-	for (int i = 0; i < 2; ++i) {
-		if (corners[i] != p_edge.a && corners[i] != p_edge.b) {
-			return get_corner(p_topology, corners[i]);
-		}
-	}
-	return get_corner(p_topology, corners[2]);
-}
-
 /// Does face1 rise in front of face0?
 bool is_hollow(const MeshTopology &p_topology, const MeshEdge &p_edge) {
 	const glm::dvec3 a = get_corner(p_topology, p_edge.a);
 	const glm::dvec3 b = get_corner(p_topology, p_edge.b);
-	const glm::dvec3 own = find_opposite(p_topology, p_edge, p_edge.face0) - a;
-	const glm::dvec3 other = find_opposite(p_topology, p_edge, p_edge.face1) - a;
+	const auto find_corner = [&](uint32_t p_face) {
+		return get_corner(p_topology, p_topology.find_opposite(p_face, p_edge.a, p_edge.b));
+	};
+	const glm::dvec3 own = find_corner(p_edge.face0) - a;
+	const glm::dvec3 other = find_corner(p_edge.face1) - a;
 	const glm::dvec3 normal = glm::cross(b - a, own);
 	return glm::dot(normal, other) > FLATNESS * glm::length(normal) * glm::length(other);
 }

@@ -256,6 +256,17 @@ private:
 
 } // namespace
 
+uint32_t MeshTopology::find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b) const {
+	const uint32_t *corners = &triangles[3 * size_t(p_face)];
+	for (int corner = 0; corner < 3; ++corner) {
+		if (corners[corner] != p_a && corners[corner] != p_b) {
+			return corners[corner];
+		}
+	}
+	GNOMON_ASSERT(false, "face ", p_face, " has no third vertex");
+	return 0;
+}
+
 MeshTopology build_topology(const Mesh &p_mesh) {
 	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 2,
 			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(), " indices");

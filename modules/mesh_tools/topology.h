@@ -81,6 +81,8 @@ struct MeshTopology {
 	/// Volume inside; negative when the mesh is inside out. Means little unless CLOSED.
 	double signed_volume_m3 = 0;
 
+	/// The vertex of a face that is neither of these two of its vertices.
+	uint32_t find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b) const;
 	uint32_t get_face_count() const { return static_cast<uint32_t>(planes.size()); }
 	/// Edges of such a mesh count for both sides, see build_silhouette.
 	bool is_double_sided() const { return mesh_class != MeshClass::CLOSED; }

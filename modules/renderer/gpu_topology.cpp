@@ -9,19 +9,6 @@ namespace {
 
 constexpr uint32_t NO_EDGE = ~0u;
 
-/// The vertex of a face that is neither of the two.
-uint32_t find_opposite(
-		const MeshTopology &p_topology, uint32_t p_face, uint32_t p_a, uint32_t p_b) {
-	const uint32_t *corners = &p_topology.triangles[3 * size_t(p_face)];
-	for (int corner = 0; corner < 3; ++corner) {
-		if (corners[corner] != p_a && corners[corner] != p_b) {
-			return corners[corner];
-		}
-	}
-	GNOMON_ASSERT(false, "face ", p_face, " has no third vertex");
-	return 0;
-}
-
 } // namespace
 
 std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology) {
@@ -49,10 +36,10 @@ std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topol
 		shader::TopologyEdge record = {};
 		record.a = edge.a;
 		record.b = edge.b;
-		record.opposite0 = find_opposite(p_topology, edge.face0, edge.a, edge.b);
+		record.opposite0 = p_topology.find_opposite(edge.face0, edge.a, edge.b);
 		record.opposite1 = edge.face1 == NO_FACE
 				? TOPOLOGY_NO_VERTEX
-				: find_opposite(p_topology, edge.face1, edge.a, edge.b) |
+				: p_topology.find_opposite(edge.face1, edge.a, edge.b) |
 						(edge.is_inconsistent ? TOPOLOGY_EDGE_INCONSISTENT : 0);
 		records.push_back(record);
 	}

@@ -21,8 +21,8 @@ void CommandList::begin_span(const std::string &p_name) {
 
 void CommandList::end_span() {
 	impl.check_recording("end_span");
-	GNOMON_ASSERT(impl.is_in_span && !impl.is_rendering,
-			"end_span without begin_span, or before end_rendering");
+	GNOMON_ASSERT(impl.is_in_span && !impl.is_rendering && !impl.is_conditional,
+			"end_span without begin_span, or before end_rendering or end_conditional");
 	impl.device->end_span();
 	impl.is_in_span = false;
 }

@@ -164,6 +164,7 @@ void RenderingDevice::submit_commands(SubmitMode p_mode) {
 	device.fail_if_lost();
 	GNOMON_ASSERT(device.recording.is_recording, "submit_commands without begin_commands.");
 	GNOMON_ASSERT(!device.recording.is_rendering, "submit_commands before end_rendering.");
+	GNOMON_ASSERT(!device.recording.is_conditional, "submit_commands before end_conditional.");
 	GNOMON_ASSERT(!device.recording.is_in_span, "submit_commands inside span '",
 			device.get_recording_slot().span_names.back(), "'.");
 	device.submit();

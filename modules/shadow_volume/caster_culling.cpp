@@ -6,7 +6,9 @@
 #include "modules/shadow_volume/occluders.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <utility>
 
 namespace gnomon {
 
@@ -17,13 +19,20 @@ const double LEAST_HIDDEN_SHARE = 0.1;
 const uint64_t REST_FRAMES = 60;
 const size_t HEADER_BYTES = CULLING_HEADER_WORDS * sizeof(uint32_t);
 
+/// Of powers of two, so that a few casters more or less leave the buffers as they are.
 size_t compute_words_bytes(size_t p_caster_count) {
-	return HEADER_BYTES + p_caster_count * sizeof(uint32_t);
+	return HEADER_BYTES + std::bit_ceil(p_caster_count) * sizeof(uint32_t);
 }
 
-/// Equal keys: the same views see the same casters at the same places, in the same order.
-uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, size_t p_caster_count) {
-	uint64_t key = compute_value_hash(uint64_t(p_caster_count), 1);
+/// Equal keys: the same views, and the same casters at the same places, in the same order.
+uint64_t compute_key(
+		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_instances) {
+	uint64_t key = compute_value_hash(uint64_t(p_instances.size()), 1);
+	for (const uint32_t index : p_instances) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+		key = compute_value_hash(instance.mesh->id, key);
+		key = compute_value_hash(instance.world_from_node, key);
+	}
 	for (const CasterList &casters : p_inputs.casters) {
 		key = compute_value_hash(casters.content_hash, key);
 	}
@@ -66,13 +75,17 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	if (p_wish == Wish::AUTO && p_instances.size() < LEAST_CASTERS) {
 		return leave_out("few casters");
 	}
-	key = compute_key(p_inputs, p_instances.size());
-	const bool has_same_casters = known && known->is_hidden.size() == p_instances.size();
-	if (p_inputs.may_keep && !p_inputs.wants_debug_views && has_same_casters && known->key == key) {
+	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
+	const bool has_same_casters =
+			p_inputs.may_keep && known && known->is_hidden.size() == p_instances.size();
+	if (!p_inputs.wants_debug_views && has_same_casters && known->key == key) {
 		return leave_out_hidden(p_instances, r_plan);
 	}
 	if (p_wish == Wish::AUTO && frame < rests_until_frame) {
 		return leave_out("hardly a caster was hidden lately");
+	}
+	if (!p_inputs.device.get_features().conditional_rendering && key != last_key) {
+		return leave_out("what moves needs conditional rendering, which this device lacks");
 	}
 	occluders = choose_occluders(
 			p_inputs, p_instances, has_same_casters ? known->is_hidden : std::vector<bool>());
@@ -80,9 +93,14 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 		return leave_out("no caster is large enough to hide another");
 	}
 	tested = std::make_shared<const std::vector<uint32_t>>(p_instances);
-	r_plan.run(text(
-			"occlusion culling, casters: ", p_instances.size(), ", occluders: ", occluders.size()));
 	return p_instances;
+}
+
+void CasterCulling::report(TechniquePlan &r_plan) const {
+	if (tested) {
+		r_plan.run(text(
+				"occlusion culling, casters: ", tested->size(), ", occluders: ", occluders.size()));
+	}
 }
 
 std::vector<uint32_t> CasterCulling::leave_out_hidden(
@@ -166,7 +184,7 @@ void CasterCulling::add_readback(
 		return; // this frame's result is not kept
 	}
 	const size_t size_bytes = compute_words_bytes(tested->size());
-	if (!*slot || (*slot)->caster_count != tested->size()) {
+	if (!*slot || p_device.get_desc((*slot)->words.get()).size_bytes != size_bytes) {
 		*slot = std::make_shared<Result>();
 		(*slot)->words = OwnedBuffer(p_device,
 				p_device.create_buffer({ "read seen casters", size_bytes, BufferUsage::COPY_TARGET,
@@ -182,7 +200,6 @@ void CasterCulling::add_readback(
 	r_graph.add_pass("read seen casters")
 			.reads(p_words, Access::COPY_READ)
 			.writes(target, Access::COPY_WRITE)
-			.keep()
 			.execute([=](PassContext &p_context) {
 				result->submission_number = p_context.get_device().get_submission_number();
 				p_context.commands.copy_buffer(

@@ -30,6 +30,8 @@ public:
 	/// casters, and not for 60 frames after less than a tenth was hidden.
 	std::vector<uint32_t> plan(const ShadowTechnique::Inputs &p_inputs, Wish p_wish,
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan);
+	/// Says what add_passes will do, where it is called.
+	void report(TechniquePlan &r_plan) const;
 	/// Passes that look at the casters this frame, where plan found that to be of use. Without
 	/// conditional rendering their result serves later frames only.
 	DrawPredicates add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);

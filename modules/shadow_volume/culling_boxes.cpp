@@ -1,5 +1,6 @@
 #include "modules/shadow_volume/culling_boxes.h"
 
+#include "modules/core/error.h"
 #include "modules/mesh_tools/bvh.h"
 
 namespace gnomon {
@@ -40,10 +41,8 @@ CullingBoxes build_culling_boxes(
 		pending.pop_back();
 		const uint32_t begin = find_first_item(nodes, node);
 		if (nodes[node].item_count > 0 || end - begin <= CULLING_CASTERS_PER_SUBTREE) {
-			for (uint32_t first = begin; first < end; first += CULLING_CASTERS_PER_SUBTREE) {
-				const uint32_t count = std::min(end - first, uint32_t(CULLING_CASTERS_PER_SUBTREE));
-				result.boxes.push_back(make_box(nodes[node].bounds, p_place_world, first, count));
-			}
+			GNOMON_ASSERT(end - begin <= CULLING_CASTERS_PER_SUBTREE, "a leaf of ", end - begin);
+			result.boxes.push_back(make_box(nodes[node].bounds, p_place_world, begin, end - begin));
 			continue;
 		}
 		const uint32_t left = nodes[node].first;

@@ -14,10 +14,14 @@ namespace gnomon {
 
 namespace {
 
-const size_t MOST_OCCLUDERS = 128; // at most 255: each has a number in the stencil
+const size_t MOST_OCCLUDERS = 128;
+static_assert(MOST_OCCLUDERS <= 255, "each has a number in the stencil");
 const uint32_t MOST_TRIANGLES = 16384;
 const uint32_t MOST_TRIANGLES_OF_ONE = 4096;
 const double LEAST_SIZE_PX = 8.0; // its borders alone are 3 wide
+const double ROUNDING = 4e-7;	  // of the product of a matrix and a vertex
+const double MOST_ROUNDING_PER_DISTANCE = 1e-3;
+const double LEAST_DISTANCE_PER_NEAR = 10.0;
 const uint32_t VERTICES_PER_EDGE = 6;
 const uint32_t CORNERS_PER_FACE = 3;
 
@@ -31,6 +35,28 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 				std::max(glm::distance(centre, p_inputs.light.position_world), double(view.near_m));
 	}
 	return 0.5 * CULLING_MAP_SIZE_PX * p_box_world.get_diagonal() / half_width_m;
+}
+
+/// Vertices far from the node's origin lose their low bits. Boxes are made in double: what float32
+/// may move an occluder by must be small beside the gap that cull.comp leaves to it, or it could
+/// come to lie before a caster that is behind it.
+bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
+	const Bounds &box = p_instance.mesh->bounds_node;
+	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
+	double scale = 0;
+	for (int axis = 0; axis < 3; ++axis) {
+		scale = std::max(scale, glm::length(glm::dvec3(p_instance.world_from_node[axis])));
+	}
+	const LightView &view = p_inputs.views[0];
+	double distance_m = double(view.far_m) - view.near_m;
+	if (!view.is_orthographic) {
+		const glm::dvec3 &light = p_inputs.light.position_world;
+		const Bounds &bounds = p_instance.bounds_world;
+		distance_m =
+				std::max(glm::distance(glm::clamp(light, bounds.minimum, bounds.maximum), light),
+						LEAST_DISTANCE_PER_NEAR * view.near_m);
+	}
+	return reach * scale * ROUNDING <= MOST_ROUNDING_PER_DISTANCE * distance_m;
 }
 
 /// One occluder in one view.
@@ -52,6 +78,7 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		draw.begin_m = p_view.compute_distance_range_m(instance.bounds_world).x;
 		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh);
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
+		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
 		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
 		// Without edges or an inside it has no volume, and hides nothing.
 		if (draw.gpu->edge_count > 0 &&
@@ -156,7 +183,8 @@ std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 		const InstanceSnapshot &instance = p_inputs.scene.instances[p_instances[i]];
 		const double size_px = estimate_size_px(p_inputs, instance.bounds_world);
 		if (size_px >= LEAST_SIZE_PX &&
-				instance.mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE) {
+				instance.mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE &&
+				is_precise(p_inputs, instance)) {
 			candidates.push_back(
 					{ p_instances[i], !p_was_hidden.empty() && p_was_hidden[i], size_px });
 		}

@@ -34,6 +34,9 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	casters = build_volume_casters(p_inputs, settings,
 			culling.plan(p_inputs, settings.culling, list_casters(p_inputs, r_plan), r_plan));
 	const size_t count = casters.casters.size();
+	if (count > 0) {
+		culling.report(r_plan);
+	}
 	const auto report = [&](size_t p_count, const char *p_what) {
 		if (p_count > 0) {
 			r_plan.run(text(p_what, ", casters: ", p_count));

@@ -15,7 +15,7 @@ VolumeTargets add_volume_receivers_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
 
 /// Counts the volumes of each group, of casters whose predicate is not 0, and darkens the mask
-/// where the count is not 0.
+/// where the count is not 0. p_casters must stay until the frame has run.
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const DrawPredicates &p_predicates, const VolumeTargets &p_targets);

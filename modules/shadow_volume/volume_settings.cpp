@@ -61,9 +61,13 @@ VolumeSettings read_volume_settings(
 			settings.maker = VolumeMaker::COMPUTE;
 		}
 		const std::string &culling = read_choice(properties, p_id + "_culling");
-		settings.culling = culling == "on" ? CasterCulling::Wish::ON
-				: culling == "off"		   ? CasterCulling::Wish::OFF
-										   : CasterCulling::Wish::AUTO;
+		// Counted in front alone, volumes are wrong where the camera is in a shadow, hidden ones
+		// too.
+		const bool may_be_wrong = settings.count == VolumeCount::Z_PASS;
+		settings.culling = may_be_wrong ? CasterCulling::Wish::OFF
+				: culling == "on"		? CasterCulling::Wish::ON
+				: culling == "off"		? CasterCulling::Wish::OFF
+										: CasterCulling::Wish::AUTO;
 	}
 	return settings;
 }

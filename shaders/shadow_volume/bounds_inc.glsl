@@ -5,7 +5,11 @@
 #include "shadow_volume/culling_shared.h"
 
 uint bounds_size_px(uint p_level) {
-	return uint(CULLING_MAP_SIZE_PX) >> (2u * p_level);
+	uint size_px = uint(CULLING_MAP_SIZE_PX);
+	for (uint level = 0u; level < p_level; ++level) {
+		size_px /= uint(CULLING_LEVEL_FACTOR);
+	}
+	return size_px;
 }
 
 uint bounds_index(uint p_view, uint p_level, uvec2 p_texel) {

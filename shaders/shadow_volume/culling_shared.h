@@ -26,12 +26,16 @@
 // Before the casters' words: whose result it is.
 #define CULLING_HEADER_WORDS 2
 
-/// Push constants of occluders.vert and occluder_edges.vert: one occluder in one view.
+/// Push constants of occluders.vert, occluders.frag and occluder_edges.vert: one occluder in one view.
 struct SHARED_ALIGN OccluderPush {
 	mat4 clip_from_node;
 	vec4 light_node; // xyz / w: the light's centre; w = 0: the direction towards it
+	float near_m;	 // of the view; 0: orthographic
+	float padding0;
+	float padding1;
+	float padding2;
 };
-SHARED_SIZE(OccluderPush, 80);
+SHARED_SIZE(OccluderPush, 96);
 
 /// Push constants of bounds.comp.
 struct SHARED_ALIGN BoundsPush {

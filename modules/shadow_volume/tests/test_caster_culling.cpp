@@ -216,8 +216,65 @@ TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a
 	RenderFixture fixture("", without);
 	WallScene scene;
 	const RenderResult all = render_culled(fixture, scene, "off");
-	check_same(render_culled(fixture, scene, "auto"), all);
+	const RenderResult first = render_culled(fixture, scene, "auto");
+	CHECK(first.plan.to_text().find("needs conditional rendering") != std::string::npos);
+	check_same(first, all);
+	check_same(render_culled(fixture, scene, "auto"), all); // nothing moved: it is worth asking
 	const RenderResult known = render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(known) > 0);
 	check_same(known, all);
+}
+
+TEST_CASE("[GPU][ShadowVolume] what is known of casters follows them when their order changes") {
+	RenderFixture fixture;
+	WallScene scene(LightType::OMNI);
+	render_culled(fixture, scene, "on");
+	CHECK(read_hidden_count(render_culled(fixture, scene, "on")) > 0);
+	auto &children = scene.scene.root->children;
+	std::reverse(children.begin(), children.end());
+	check_same(render_culled(fixture, scene, "on"), render_culled(fixture, scene, "off"));
+}
+
+TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts") {
+	RenderFixture fixture;
+	std::mt19937 random(5);
+	size_t hidden_count = 0;
+	for (int round = 0; round < 9; ++round) {
+		CAPTURE(round);
+		WallScene scene(ALL_TYPES[round % 3]);
+		scene.scene.scene_size_m = 3000.0; // the near plane is 0.3 m before the light
+		const double gap = draw(random, 0.05, 0.5);
+		scene.light->parent_from_node =
+				look_at({ 0.9 + gap, draw(random, 0.6, 1.6), 0.1 }, { -0.5, 0.1, 0 });
+		scene.wall->parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), { 0.8, 0.9, 0 }),
+				draw(random, -0.4, 0.4), { draw(random, -1, 1), draw(random, -1, 1), 1 });
+		const RenderResult all = render_culled(fixture, scene, "off");
+		check_same(render_culled(fixture, scene, "on"), all);
+		const RenderResult known = render_culled(fixture, scene, "on");
+		check_same(known, all);
+		hidden_count += read_hidden_count(known);
+	}
+	CHECK(hidden_count > 50);
+}
+
+TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's origin") {
+	RenderFixture fixture;
+	for (const double offset_m : { 1e2, 1e4, 1e5 }) {
+		CAPTURE(offset_m);
+		WallScene scene;
+		const glm::vec3 offset(static_cast<float>(offset_m));
+		const Mesh &wall = *scene.wall->surfaces[0].mesh;
+		std::vector<glm::vec3> positions = wall.positions_node;
+		for (glm::vec3 &position : positions) {
+			position += offset;
+		}
+		scene.wall->surfaces[0].mesh = make_mesh("far wall", positions, {}, wall.indices);
+		scene.wall->parent_from_node =
+				glm::translate(scene.wall->parent_from_node, -glm::dvec3(offset));
+		const RenderResult all = render_culled(fixture, scene, "off");
+		check_same(render_culled(fixture, scene, "on"), all);
+		const RenderResult known = render_culled(fixture, scene, "on");
+		check_same(known, all);
+		CHECK((read_hidden_count(known) > 0) == (offset_m < 1e4)); // else it is no occluder
+	}
 }

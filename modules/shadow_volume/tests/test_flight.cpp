@@ -63,7 +63,8 @@ struct FlightScene : SmallScene {
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, none wrong") {
+TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wrong only at "
+		  "borders of shadows") {
 	RenderFixture fixture;
 	struct Leg {
 		LightType type;

@@ -92,7 +92,8 @@ TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the 
 	for (int index = 0; index < 255; ++index) { // with the box 256: a count that wraps to 0
 		add_mesh(scene.scene, text("Sheet ", index), sheet, { 0, 1.4 + 0.004 * index, 0 });
 	}
-	const RenderResult frame = render_volumes(fixture, scene);
+	const RenderResult frame =
+			render_volumes(fixture, scene, { { "culling", std::string("off") } });
 	check_against_rays(scene, frame, 500); // the border is long: each sheet has one
 	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
 }

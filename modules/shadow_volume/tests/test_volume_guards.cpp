@@ -6,14 +6,32 @@ using namespace gnomon;
 
 namespace {
 
-/// Every light type against rays; p_arrange changes the scene first.
+/// Small casters behind, beside and before whatever there is, for culling to decide about.
+void add_probes(SmallScene &r_scene) {
+	const auto probe = make_box_mesh("probe", glm::vec3(0.012f));
+	for (int i = 0; i < 125; ++i) {
+		const glm::dvec3 place(i % 5 - 2, i / 5 % 5, i / 25 - 2);
+		add_mesh(r_scene.scene, text("Probe ", i), probe,
+				glm::dvec3(0.03, 0.1, -0.02) + place * glm::dvec3(0.36, 0.4, 0.36));
+	}
+}
+
+/// Every light type against rays, with culling and without; p_arrange changes the scene first.
 template <typename Arrange> void check_for_each_type(Arrange p_arrange) {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		p_arrange(scene);
-		check_against_rays(scene, render_volumes(fixture, scene));
+		add_probes(scene);
+		const RenderResult all =
+				render_volumes(fixture, scene, { { "culling", std::string("off") } });
+		check_against_rays(scene, all);
+		for (int frame = 0; frame < 2; ++frame) { // decided on the GPU, then known
+			CAPTURE(frame);
+			CHECK(render_volumes(fixture, scene, { { "culling", std::string("on") } }).visibility ==
+					all.visibility);
+		}
 	}
 }
 
