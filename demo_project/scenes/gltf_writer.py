@@ -165,7 +165,6 @@ class Document:
 
     def __init__(self, scene_size_m):
         self.binary = bytearray()
-        self.meshes = {}  # id(mesh) -> index in the file
         self.root = {
             "asset": {"version": "2.0", "generator": "Gnomon make_scenes.py"},
             "extensionsUsed": ["KHR_lights_punctual"],

@@ -6,7 +6,17 @@ namespace gnomon {
 
 RangeAllocator::RangeAllocator(uint64_t p_size_bytes) :
 		size_bytes(p_size_bytes), free_bytes(p_size_bytes) {
-	gaps[0] = p_size_bytes;
+	add_gap(0, p_size_bytes);
+}
+
+void RangeAllocator::add_gap(uint64_t p_offset_bytes, uint64_t p_size_bytes) {
+	gaps[p_offset_bytes] = p_size_bytes;
+	by_size.insert({ p_size_bytes, p_offset_bytes });
+}
+
+void RangeAllocator::remove_gap(Gaps::iterator p_gap) {
+	by_size.erase({ p_gap->second, p_gap->first });
+	gaps.erase(p_gap);
 }
 
 std::optional<uint64_t> RangeAllocator::allocate(
@@ -14,8 +24,8 @@ std::optional<uint64_t> RangeAllocator::allocate(
 	GNOMON_ASSERT(p_size_bytes > 0, "size ", p_size_bytes);
 	GNOMON_ASSERT(
 			(p_alignment_bytes & (p_alignment_bytes - 1)) == 0, "alignment ", p_alignment_bytes);
-	for (auto gap = gaps.begin(); gap != gaps.end(); ++gap) {
-		const auto [begin, size] = *gap;
+	for (auto gap = by_size.lower_bound({ p_size_bytes, 0 }); gap != by_size.end(); ++gap) {
+		const auto [size, begin] = *gap;
 		const uint64_t offset = (begin + p_alignment_bytes - 1) & ~(p_alignment_bytes - 1);
 		const uint64_t padding = offset - begin;
 		if (padding > size || size - padding < p_size_bytes) {
@@ -23,12 +33,12 @@ std::optional<uint64_t> RangeAllocator::allocate(
 		}
 		// What alignment skips stays a gap of its own, for smaller requests.
 		const uint64_t rest = size - padding - p_size_bytes;
-		gaps.erase(gap);
+		remove_gap(gaps.find(begin));
 		if (padding > 0) {
-			gaps[begin] = padding;
+			add_gap(begin, padding);
 		}
 		if (rest > 0) {
-			gaps[offset + p_size_bytes] = rest;
+			add_gap(offset + p_size_bytes, rest);
 		}
 		free_bytes -= p_size_bytes;
 		return offset;
@@ -51,14 +61,14 @@ void RangeAllocator::free(uint64_t p_offset_bytes, uint64_t p_size_bytes) {
 				before_end);
 		if (before_end == begin) {
 			begin = before->first;
-			gaps.erase(before);
+			remove_gap(before);
 		}
 	}
 	if (next != gaps.end() && next->first == end) {
 		end += next->second;
-		gaps.erase(next);
+		remove_gap(next);
 	}
-	gaps[begin] = end - begin;
+	add_gap(begin, end - begin);
 	free_bytes += p_size_bytes;
 }
 

@@ -3,11 +3,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace gnomon {
 
-/// Hands out ranges of one block of bytes: first fit, lowest offset first, neighbours joined when
-/// they come back. Knows nothing of what the bytes are.
+/// Hands out ranges of one block of bytes: from the smallest gap that fits, the lowest of equal
+/// ones; neighbours are joined when they come back. Knows nothing of what the bytes are. Time grows
+/// with the logarithm of the number of gaps.
 class RangeAllocator {
 public:
 	explicit RangeAllocator(uint64_t p_size_bytes);
@@ -24,9 +27,15 @@ public:
 	size_t get_gap_count() const { return gaps.size(); }
 
 private:
+	using Gaps = std::map<uint64_t, uint64_t>;
+
+	void add_gap(uint64_t p_offset_bytes, uint64_t p_size_bytes);
+	void remove_gap(Gaps::iterator p_gap);
+
 	uint64_t size_bytes;
 	uint64_t free_bytes;
-	std::map<uint64_t, uint64_t> gaps; // offset -> size
+	Gaps gaps;										 // offset -> size
+	std::set<std::pair<uint64_t, uint64_t>> by_size; // the same: size, offset
 };
 
 } // namespace gnomon

@@ -37,11 +37,11 @@ def make_yard(caster_count, has_walls, folder):
                 x = 0.45 * YARD_M - row * YARD_M / ROW_COUNT
                 z = (part - 0.5 * (WALLS_PER_ROW - 1)) * 2.3 * WALL_HALF[2]
                 document.add_object("Wall %d.%d" % (row, part), wall, material, (x, WALL_HALF[1] + 0.01, z))
-    ball = make_icosphere(1, 0.12)
+    ball = document.add_mesh("Ball", make_icosphere(1, 0.12), material)
     place = random.Random(5)
     for index in range(caster_count):
         at = (place.uniform(-0.48, 0.48) * YARD_M, place.uniform(0.13, 2.0), place.uniform(-0.45, 0.45) * YARD_M)
-        document.add_object("Ball %d" % index, ball, material, at)
+        document.add_node("Ball %d" % index, at, mesh=ball)
     return save(document, "yard_%d_%d" % (caster_count, has_walls), folder)
 
 
