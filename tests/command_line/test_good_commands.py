@@ -56,6 +56,19 @@ class GoodCommands(CommandLineTest):
         for value in cost["total"].values():
             self.assertTrue(math.isfinite(value) and value > 0.0)
 
+    def test_times_of_frames_in_which_nothing_moves(self):
+        # The fallback keeps its map: its pass is not there any more.
+        passes = {}
+        for name, words in (("moving", ()), ("still", ("--still",))):
+            times = self.path(name + ".json")
+            self.assert_mask(self.compute_mask(CONTACT_BOX, "--time", times, *words))
+            with open(times, encoding="utf-8") as file:
+                passes[name] = {item["name"] for item in json.load(file)["passes"]}
+        self.assertLess(passes["still"], passes["moving"])
+        result = self.compute_mask(CONTACT_BOX, "--still")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--time", result.stderr)
+
     def test_masks_of_other_sizes_are_not_compared(self):
         self.assert_mask(self.compute_mask(CONTACT_BOX))
         other = self.path("other.exr")
