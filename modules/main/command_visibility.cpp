@@ -105,8 +105,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 	}
 	if (!p_options.time.empty()) {
-		// The truth takes seconds a frame and nobody draws with it: one frame tells what it costs.
 		request.may_keep = p_options.is_still;
+		// The truth takes seconds a frame and nobody draws with it: one frame tells what it costs.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
 				measure_mask_time(renderer, request, is_reference ? 0 : WARM_UP_COUNT,

@@ -29,12 +29,6 @@ bool is_turned_to_light(
 	return (nx * to_light.x + ny * to_light.y) + nz * to_light.z > 0.0f;
 }
 
-uint32_t find_third(const MeshTopology &p_topology, uint32_t p_face, const MeshEdge &p_edge) {
-	const uint32_t *corners = &p_topology.triangles[3 * size_t(p_face)];
-	return *std::find_if(corners, corners + 3,
-			[&](uint32_t p_corner) { return p_corner != p_edge.a && p_corner != p_edge.b; });
-}
-
 } // namespace
 
 std::vector<uint8_t> compute_facing(
@@ -86,8 +80,10 @@ std::vector<uint32_t> find_silhouette_edges(
 		const MeshEdge &edge = p_topology.edges[i];
 		bool is_silhouette = edge.face1 == NO_FACE;
 		if (!is_silhouette) {
-			const glm::uvec3 face0 = { edge.a, edge.b, find_third(p_topology, edge.face0, edge) };
-			glm::uvec3 face1 = { edge.b, edge.a, find_third(p_topology, edge.face1, edge) };
+			const glm::uvec3 face0 = { edge.a, edge.b,
+				p_topology.find_opposite(edge.face0, edge.a, edge.b) };
+			glm::uvec3 face1 = { edge.b, edge.a,
+				p_topology.find_opposite(edge.face1, edge.a, edge.b) };
 			if (edge.is_inconsistent) {
 				std::swap(face1.x, face1.y);
 			}

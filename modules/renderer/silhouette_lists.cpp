@@ -51,6 +51,10 @@ glm::vec4 compute_light_node(const LightSnapshot &p_light, const glm::dmat4 &p_w
 	return glm::vec4(glm::inverse(p_world_from_node) * light_world);
 }
 
+bool is_light_node_usable(const glm::vec4 &p_light_node) {
+	return std::isfinite(glm::dot(p_light_node, glm::vec4(1.0f)));
+}
+
 const SilhouetteCaster *SilhouetteCasters::find(uint32_t p_instance_index) const {
 	const auto found = std::lower_bound(casters.begin(), casters.end(), p_instance_index,
 			[](const SilhouetteCaster &p_caster, uint32_t p_index) {
@@ -68,7 +72,7 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 		caster.instance_index = index;
 		caster.vertices_per_edge = p_vertices_per_edge;
 		caster.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		if (!std::isfinite(glm::dot(caster.light_node, glm::vec4(1.0f)))) {
+		if (!is_light_node_usable(caster.light_node)) {
 			++result.flat_instance_count;
 			continue;
 		}

@@ -57,5 +57,7 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 /// The light as seen from the instance's node, see SilhouettePush::light_node. Not finite when the
 /// transform is singular.
 glm::vec4 compute_light_node(const LightSnapshot &p_light, const glm::dmat4 &p_world_from_node);
+/// False when it is not finite: the caster is flat and has no inside.
+bool is_light_node_usable(const glm::vec4 &p_light_node);
 
 } // namespace gnomon

@@ -36,7 +36,7 @@ enum class Format {
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
 	D32_SFLOAT,
-	D32_SFLOAT_S8_UINT, // as an attachment only
+	D32_SFLOAT_S8_UINT, // an attachment; shaders read its depth; not copied
 };
 uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
@@ -128,8 +128,8 @@ enum class StencilOp {
 };
 /// Of one side of the triangles.
 struct StencilFace {
-	CompareOp compare =
-			CompareOp::ALWAYS; // of CommandList::set_stencil_reference with what is stored
+	/// Of CommandList::set_stencil_reference with what is stored.
+	CompareOp compare = CompareOp::ALWAYS;
 	StencilOp fail = StencilOp::KEEP;
 	StencilOp depth_fail = StencilOp::KEEP;
 	StencilOp pass = StencilOp::KEEP;

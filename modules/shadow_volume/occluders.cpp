@@ -8,7 +8,6 @@
 #include "shadow_volume/culling_shared.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon {
 
@@ -81,8 +80,7 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
 		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
 		// Without edges or an inside it has no volume, and hides nothing.
-		if (draw.gpu->edge_count > 0 &&
-				std::isfinite(glm::dot(draw.push.light_node, glm::vec4(1.0f)))) {
+		if (draw.gpu->edge_count > 0 && is_light_node_usable(draw.push.light_node)) {
 			draws.push_back(draw);
 		}
 	}

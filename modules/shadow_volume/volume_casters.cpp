@@ -94,7 +94,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		VolumeCaster caster;
 		caster.instance_index = index;
 		caster.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		if (!std::isfinite(glm::dot(caster.light_node, glm::vec4(1.0f)))) {
+		if (!is_light_node_usable(caster.light_node)) {
 			++result.flat_count;
 			continue;
 		}

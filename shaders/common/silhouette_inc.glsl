@@ -42,6 +42,21 @@ bool is_edge_silhouette(vec4 p_light, bool p_is_first_turned, uvec3 p_ids, vec3 
 			: p_is_first_turned != is_turned_to_light(p_light, p_ids.yxz, p_b, p_a, p_c);
 }
 
+/// The vertex of the edge's second face; of a boundary no vertex, to be asked for first.
+uint get_second_opposite(TopologyEdge p_edge) {
+	return p_edge.opposite1 & ~uint(TOPOLOGY_EDGE_INCONSISTENT);
+}
+
+/// Is an edge with two faces a silhouette? The positions of its a, b, opposite0 and second opposite.
+bool is_edge_record_silhouette(
+		vec4 p_light, TopologyEdge p_edge, vec3 p_a, vec3 p_b, vec3 p_first, vec3 p_second) {
+	const bool is_first_turned = is_turned_to_light(
+			p_light, uvec3(p_edge.a, p_edge.b, p_edge.opposite0), p_a, p_b, p_first);
+	const uint second = get_second_opposite(p_edge);
+	return is_edge_silhouette(p_light, is_first_turned, uvec3(p_edge.a, p_edge.b, second), p_a, p_b, p_second,
+			second != p_edge.opposite1);
+}
+
 /// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:
 /// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
 /// Each edge of the mesh belongs to one face, so that nobody draws it twice.

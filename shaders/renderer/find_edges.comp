@@ -23,18 +23,10 @@ layout(push_constant) uniform Push {
 };
 
 bool is_silhouette(TopologyEdge p_edge) {
-	if (p_edge.opposite1 == TOPOLOGY_NO_VERTEX) {
-		return true;
-	}
-	const vec3 a = positions_node[p_edge.a].xyz;
-	const vec3 b = positions_node[p_edge.b].xyz;
-	const vec3 c = positions_node[p_edge.opposite0].xyz;
-	const bool is_first_turned =
-			is_turned_to_light(push.light_node, uvec3(p_edge.a, p_edge.b, p_edge.opposite0), a, b, c);
-	const uint opposite1 = p_edge.opposite1 & ~TOPOLOGY_EDGE_INCONSISTENT;
-	const bool is_inconsistent = opposite1 != p_edge.opposite1;
-	return is_edge_silhouette(push.light_node, is_first_turned, uvec3(p_edge.a, p_edge.b, opposite1), a,
-			b, positions_node[opposite1].xyz, is_inconsistent);
+	return p_edge.opposite1 == TOPOLOGY_NO_VERTEX ||
+			is_edge_record_silhouette(push.light_node, p_edge, positions_node[p_edge.a].xyz,
+					positions_node[p_edge.b].xyz, positions_node[p_edge.opposite0].xyz,
+					positions_node[get_second_opposite(p_edge)].xyz);
 }
 
 void main() {

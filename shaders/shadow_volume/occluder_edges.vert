@@ -93,11 +93,9 @@ void main() {
 	const bool is_at_end = (corner & 1u) != 0u;
 	float depth = 0.0;
 	if (edge.opposite1 != TOPOLOGY_NO_VERTEX) {
-		const uint opposite1 = edge.opposite1 & ~TOPOLOGY_EDGE_INCONSISTENT;
-		const bool is_first_turned = is_turned_to_light(push.light_node,
-				uvec3(edge.a, edge.b, edge.opposite0), a_node, b_node, positions_node[edge.opposite0].xyz);
-		if (!is_edge_silhouette(push.light_node, is_first_turned, uvec3(edge.a, edge.b, opposite1), a_node,
-					b_node, positions_node[opposite1].xyz, opposite1 != edge.opposite1)) {
+		const uint opposite1 = get_second_opposite(edge);
+		if (!is_edge_record_silhouette(push.light_node, edge, a_node, b_node,
+					positions_node[edge.opposite0].xyz, positions_node[opposite1].xyz)) {
 			const vec4 c = project(edge.opposite0);
 			const vec4 d = project(opposite1);
 			const float change = max(compute_change(a, b, c), compute_change(b, a, d));
