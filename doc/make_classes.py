@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Writes doc/classes from the properties that the program declares.
 
-    make_classes.py            writes light_3d.md, one page for each technique of the build, and index.md
+    make_classes.py            writes light_3d.md, one page for each technique and mask filter of the build, and index.md
     make_classes.py --check    writes nothing; names each page that is not as it would be written
 
-The program is bin/gnomon, or $GNOMON. Pages of techniques that are not in this build stay as they are.
+The program is bin/gnomon, or $GNOMON. Pages of what is not in this build stay as they are.
 Exit code: 0 done, 1 a page is out of date or the program failed.
 """
 
@@ -25,8 +25,8 @@ PROPERTY_LINE = re.compile(r"^    (\w+) = (.*?) ?\((.+?)\): (.+)$")
 TIMEOUT_S = 60
 
 
-def run_techniques(*options):
-    command = [GNOMON, "techniques", *options]
+def run_gnomon(*arguments):
+    command = [GNOMON, *arguments]
     try:
         result = subprocess.run(command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     except OSError as error:
@@ -68,19 +68,19 @@ def format_table(properties):
     return lines
 
 
-def find_sibling(technique_id):
-    """The link to the page that explains the technique, where there is one."""
-    if os.path.isfile(os.path.join(ROOT, "doc", "techniques", technique_id + ".md")):
-        return ["", "How it works: [%s](../techniques/%s.md)." % (technique_id, technique_id)]
+def find_sibling(added_id):
+    """The link to the page that explains the technique or filter, where there is one."""
+    if os.path.isfile(os.path.join(ROOT, "doc", "techniques", added_id + ".md")):
+        return ["", "How it works: [%s](../techniques/%s.md)." % (added_id, added_id)]
     return []
 
 
-def make_technique_page(technique):
-    lines = ["# Properties of `%s`" % technique["id"], "", NOTE, "", "%s. Source: %s." % (technique["name"], technique["source"])]
-    lines += find_sibling(technique["id"]) + [""]
-    if technique["properties"]:
+def make_added_page(item):
+    lines = ["# Properties of `%s`" % item["id"], "", NOTE, "", "%s. Source: %s." % (item["name"], item["source"])]
+    lines += find_sibling(item["id"]) + [""]
+    if item["properties"]:
         lines += ["A light stores them in its `extras`; `--set` changes them for one run.", ""]
-        lines += format_table(technique["properties"])
+        lines += format_table(item["properties"])
     else:
         lines.append("It has none of its own.")
     return "\n".join(lines + ["", "Those of every light: [Light3D](light_3d.md).", ""])
@@ -101,9 +101,9 @@ def make_index(names):
 
 def make_pages():
     """File name -> text of every page."""
-    techniques = json.loads(run_techniques("--json"))
-    pages = {technique["id"] + ".md": make_technique_page(technique) for technique in techniques}
-    pages["light_3d.md"] = make_light_page(parse_common_properties(run_techniques()))
+    added = json.loads(run_gnomon("techniques", "--json")) + json.loads(run_gnomon("filters", "--json"))
+    pages = {item["id"] + ".md": make_added_page(item) for item in added}
+    pages["light_3d.md"] = make_light_page(parse_common_properties(run_gnomon("techniques")))
     kept = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
     names = {name for name in [*pages, *kept] if name.endswith(".md")} - {"light_3d.md", "index.md"}
     pages["index.md"] = make_index(sorted(name[: -len(".md")] for name in names))

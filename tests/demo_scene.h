@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/property.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/renderer/light_properties.h"
 #include "modules/scene/nodes.h"
 
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@ inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	}
 	GltfLoadOptions options;
 	options.project_folder = "demo_project";
-	options.find_technique_property = &ShadowRegistry::find_light_property;
+	options.find_technique_property = &find_added_light_property;
 	return load_gltf(path, options);
 }
 
@@ -35,7 +35,7 @@ inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_s
 	for (const auto &[name, value] : p_settings.items()) {
 		const PropertyInfo *info = Light3D::get_property_list().find(name);
 		if (info == nullptr) {
-			info = ShadowRegistry::find_light_property(name);
+			info = find_added_light_property(name);
 		}
 		if (info == nullptr) {
 			fail("Setting \"", name, "\": no light and no technique of this build has it.");

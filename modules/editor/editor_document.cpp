@@ -5,7 +5,7 @@
 #include "modules/core/module_registry.h"
 #include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/renderer/light_properties.h"
 #include "modules/scene/node_properties.h"
 #include "modules/scene/scene_snapshot.h"
 
@@ -77,7 +77,7 @@ EditorDocument::~EditorDocument() {
 void EditorDocument::open(const fs::path &p_file) {
 	GltfLoadOptions options;
 	options.project_folder = project.folder;
-	options.find_technique_property = &ShadowRegistry::find_light_property;
+	options.find_technique_property = &find_added_light_property;
 	std::unique_ptr<Scene> loaded = load_gltf(p_file, options);
 	selected = nullptr;
 	history = UndoHistory();

@@ -2,6 +2,7 @@
 
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_light_writer.h"
+#include "modules/gltf_scene/gltf_materials.h"
 
 #include <tiny_gltf.h>
 
@@ -25,10 +26,18 @@ size_t append_element(Json &r_json, const char *p_list, Json p_element) {
 } // namespace
 
 GltfMeshWriter::GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_first_byte,
-		std::map<const Material *, size_t> p_material_indices) :
+		const GltfDocument *p_document, std::set<const Material *> p_used) :
 		json(r_json),
-		buffer_index(p_buffer_index), first_byte(p_first_byte),
-		material_indices(std::move(p_material_indices)) {}
+		buffer_index(p_buffer_index), first_byte(p_first_byte), used(std::move(p_used)) {
+	if (p_document == nullptr) {
+		return;
+	}
+	material_indices = p_document->material_indices;
+	for (const auto &[material, index] : material_indices) {
+		loaded_materials.resize(std::max(loaded_materials.size(), index + 1));
+		loaded_materials[index] = material;
+	}
+}
 
 size_t GltfMeshWriter::append_mesh(
 		const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces) {
@@ -46,7 +55,7 @@ size_t GltfMeshWriter::append_mesh(
 								   { { "POSITION", made.positions }, { "NORMAL", made.normals } } },
 			{ "indices", made.indices } };
 		if (surface.material) {
-			primitive["material"] = append_material(*surface.material);
+			primitive["material"] = place_material(*surface.material);
 		}
 		mesh["primitives"].push_back(std::move(primitive));
 	}
@@ -82,46 +91,46 @@ size_t GltfMeshWriter::append_accessor(
 	return append_element(json, "accessors", std::move(p_accessor));
 }
 
-size_t GltfMeshWriter::append_material(const Material &p_material) {
+size_t GltfMeshWriter::place_material(const Material &p_material) {
 	if (const auto found = material_indices.find(&p_material); found != material_indices.end()) {
 		return found->second;
 	}
-	Json made = Json::object();
-	if (!p_material.name.empty()) {
-		made["name"] = p_material.name;
+	const size_t origin = static_cast<size_t>(p_material.file_index); // -1: beyond all
+	const Material *before = origin < loaded_materials.size() ? loaded_materials[origin] : nullptr;
+	Json made = before ? json["materials"][origin] : Json::object();
+	if (before && replaced.contains(origin)) {
+		made = replaced.at(origin); // as it was loaded
 	}
-	Json color = to_json(p_material.base_color);
-	color.push_back(1.0);
-	made["pbrMetallicRoughness"] = { { "baseColorFactor", std::move(color) },
-		{ "metallicFactor", to_json_number(p_material.metallic) },
-		{ "roughnessFactor", to_json_number(p_material.roughness) } };
-	const glm::vec3 &emissive = p_material.emissive;
-	const float strength = std::max({ 1.0f, emissive.x, emissive.y, emissive.z });
-	if (emissive != glm::vec3(0.0f)) {
-		made["emissiveFactor"] = to_json(emissive / strength);
+	const Json loaded = made;
+	write_material(p_material, before, json, made);
+	size_t index = origin;
+	if (before && !used.contains(before) &&
+			(!replaced.contains(origin) || json["materials"][origin] == made)) {
+		replaced.try_emplace(origin, loaded);
+		json["materials"][origin] = std::move(made);
+	} else {
+		index = append_element(json, "materials", std::move(made));
 	}
-	if (strength > 1.0f) { // the factor alone ends at 1
-		made["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
-				to_json_number(strength);
-		declare_extension(json, "KHR_materials_emissive_strength");
-	}
-	if (p_material.is_double_sided) {
-		made["doubleSided"] = true;
-	}
-	if (p_material.scatter != 0 || p_material.scatter_distance_m != 0) {
-		made["extras"] = { { "scatter", to_json_number(p_material.scatter) },
-			{ "scatter_distance", to_json_number(p_material.scatter_distance_m) } };
-	}
-	const size_t index = append_element(json, "materials", std::move(made));
 	material_indices[&p_material] = index;
 	return index;
 }
 
-void declare_extension(Json &r_json, const std::string &p_name) {
-	Json &used = r_json["extensionsUsed"];
-	if (std::find(used.begin(), used.end(), p_name) == used.end()) {
-		used.push_back(p_name);
+size_t GltfMeshWriter::change_materials(
+		size_t p_mesh, const std::vector<MeshInstance3D::Surface> &p_surfaces) {
+	Json mesh = json["meshes"][p_mesh];
+	for (size_t index = 0; index < p_surfaces.size(); ++index) {
+		if (p_surfaces[index].material) {
+			mesh["primitives"][index]["material"] = place_material(*p_surfaces[index].material);
+		}
 	}
+	if (mesh == json["meshes"][p_mesh]) {
+		return p_mesh;
+	}
+	const auto found = changed_meshes.find(mesh);
+	if (found != changed_meshes.end()) {
+		return found->second;
+	}
+	return changed_meshes[mesh] = append_element(json, "meshes", mesh);
 }
 
 } // namespace gnomon

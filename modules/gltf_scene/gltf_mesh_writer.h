@@ -1,24 +1,31 @@
 #pragma once
 
+#include "modules/gltf_scene/gltf_document.h"
 #include "modules/gltf_scene/gltf_json.h"
 #include "modules/scene/nodes.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
-/// Appends meshes and materials to a document's JSON, each once. Their bytes are collected for one
-/// buffer, which the caller stores.
+/// Writes new meshes and new or changed materials into a document's JSON, each once. Their bytes
+/// are collected for one buffer, which the caller stores.
 class GltfMeshWriter {
 public:
-	/// p_buffer_index, p_first_byte: where the bytes will stand. r_json must outlive it.
+	/// p_buffer_index, p_first_byte: where the bytes will stand. p_document may be null. p_used:
+	/// the materials of the scene that is written. r_json and p_document must outlive it.
 	GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_first_byte,
-			std::map<const Material *, size_t> p_material_indices);
+			const GltfDocument *p_document, std::set<const Material *> p_used);
 	/// Index of the new mesh. p_surfaces is not empty.
 	size_t append_mesh(
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
+	/// As append_mesh, of a mesh in the document whose materials alone are others: its vertices and
+	/// all that the program does not understand stay. p_surfaces: one for each primitive. Where the
+	/// materials stay in their places, it is that mesh itself.
+	size_t change_materials(size_t p_mesh, const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	const std::vector<uint8_t> &get_bytes() const { return bytes; }
 
 private:
@@ -30,7 +37,9 @@ private:
 	Accessors append_vertices(const Mesh &p_mesh);
 	size_t append_accessor(
 			std::span<const uint8_t> p_data, size_t p_count, Json p_accessor, int p_target);
-	size_t append_material(const Material &p_material);
+	/// Index of the material. A changed one takes the place of that it came from, where the scene
+	/// does not use that any more; else it is appended.
+	size_t place_material(const Material &p_material);
 
 	Json &json;
 	size_t buffer_index;
@@ -38,9 +47,10 @@ private:
 	std::vector<uint8_t> bytes;
 	std::map<const Mesh *, Accessors> accessors;
 	std::map<const Material *, size_t> material_indices;
+	std::vector<const Material *> loaded_materials; // by index in the file; null: not used there
+	std::set<const Material *> used;
+	std::map<size_t, Json> replaced; // definitions that took the place of loaded ones
+	std::map<Json, size_t> changed_meshes;
 };
-
-/// Names an extension in `extensionsUsed`, once.
-void declare_extension(Json &r_json, const std::string &p_name);
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_meshes.h"
 
 #include "modules/core/error.h"
+#include "modules/gltf_scene/gltf_materials.h"
 
 #include <tiny_gltf.h>
 
@@ -9,9 +10,6 @@
 namespace gnomon {
 
 namespace {
-
-const double MAX_SCATTER_DISTANCE_M = 1e4;
-const double MAX_EMISSIVE_CD_M2 = 1e9; // the sun's disc
 
 /// Three indices per triangle, wound as glTF 2.0, 3.7.2.1 says; an incomplete last one is left out,
 /// and so are triangles that a strip only makes to jump.
@@ -167,37 +165,7 @@ std::shared_ptr<const Material> GltfMeshes::load_material(const GltfObject &p_pr
 	std::shared_ptr<const Material> &material = materials[*index];
 	if (!material) {
 		material = std::make_shared<const Material>(
-				read_material(root.get_element("materials", *index)));
-	}
-	return material;
-}
-
-Material read_material(const GltfObject &p_material) {
-	Material material;
-	material.name = p_material.get_text("name");
-	material.base_color = glm::vec3(1.0f);
-	material.metallic = 1.0f;
-	if (const auto surface = p_material.find_object("pbrMetallicRoughness")) {
-		surface->read_color(
-				"baseColorFactor", 1.0, std::span<float, 3>(&material.base_color[0], 3));
-		material.metallic = static_cast<float>(surface->read_number("metallicFactor", 1, 0, 1));
-		material.roughness = static_cast<float>(surface->read_number("roughnessFactor", 1, 0, 1));
-		if (surface->find("baseColorTexture")) {
-			p_material.get_messages().warn(
-					"texture", p_material.get_path(), "has a texture; textures are not read yet.");
-		}
-	}
-	p_material.read_color("emissiveFactor", 1.0, std::span<float, 3>(&material.emissive[0], 3));
-	if (const auto strength = p_material.find_extension("KHR_materials_emissive_strength")) {
-		material.emissive *= static_cast<float>(
-				strength->read_number("emissiveStrength", 1, 0, MAX_EMISSIVE_CD_M2));
-	}
-	material.is_double_sided = p_material.read_bool("doubleSided", false);
-	if (const Json *extras = p_material.find("extras"); extras && extras->is_object()) {
-		const GltfObject values = *p_material.find_object("extras");
-		material.scatter = static_cast<float>(values.read_number("scatter", 0, 0, 1));
-		material.scatter_distance_m = static_cast<float>(
-				values.read_number("scatter_distance", 0, 0, MAX_SCATTER_DISTANCE_M, "m"));
+				read_material(root.get_element("materials", *index), int(*index)));
 	}
 	return material;
 }

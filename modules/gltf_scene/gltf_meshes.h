@@ -35,7 +35,4 @@ private:
 	uint64_t index_count = 0;
 };
 
-/// A material's values; bad ones are reported and replaced by their defaults.
-Material read_material(const GltfObject &p_material);
-
 } // namespace gnomon

@@ -77,6 +77,16 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 	buffer["uri"] = encode_uri(name);
 }
 
+std::set<const Material *> find_materials(const Scene &p_scene) {
+	std::set<const Material *> materials;
+	for (const MeshInstance3D *instance : p_scene.find_nodes<MeshInstance3D>()) {
+		for (const MeshInstance3D::Surface &surface : instance->surfaces) {
+			materials.insert(surface.material.get());
+		}
+	}
+	return materials;
+}
+
 } // namespace
 
 void save_gltf(const Scene &p_scene, const fs::path &p_path) {
@@ -93,8 +103,8 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 			container.json = make_empty_document();
 		}
 		const NewBuffer buffer = choose_buffer(container, form);
-		GltfMeshWriter meshes(container.json, buffer.index, buffer.first_byte,
-				document ? document->material_indices : std::map<const Material *, size_t>());
+		GltfMeshWriter meshes(
+				container.json, buffer.index, buffer.first_byte, document, find_materials(p_scene));
 		GltfNodeWriter(document, container.json, meshes).write(p_scene);
 		store_bytes(buffer, meshes.get_bytes(), p_path, !document, container, files);
 	} catch (const Json::exception &error) {

@@ -1,10 +1,11 @@
-// `gnomon techniques`, `gnomon modules` and `gnomon info`: what there is, as text or JSON.
+// `gnomon techniques`, `filters`, `modules` and `info`: what there is, as text or JSON.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/module_registry.h"
 #include "modules/core/property_json.h"
 #include "modules/main/commands.h"
+#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
@@ -64,6 +65,23 @@ void list_techniques(bool p_as_json) {
 	}
 	std::printf("every light\n");
 	print_properties(Light3D::get_property_list());
+}
+
+void list_filters(bool p_as_json) {
+	Json list = Json::array();
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+		const PropertyList &properties = MaskFilterRegistry::get_light_properties(info.id);
+		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
+				{ "properties", describe_properties(properties) } });
+		if (!p_as_json) {
+			std::printf("%s\n    %s. Source: %s\n", info.id.c_str(), info.name.c_str(),
+					info.source.c_str());
+			print_properties(properties);
+		}
+	}
+	if (p_as_json) {
+		std::printf("%s\n", list.dump(2).c_str());
+	}
 }
 
 void list_modules(bool p_as_json) {
@@ -126,6 +144,8 @@ void add_list_commands(CLI::App &r_app, CommonOptions &r_common) {
 		command->callback(p_function);
 	};
 	add("techniques", "Shadow techniques and their properties", [] { list_techniques(as_json); });
+	add("filters", "Mask filters, which run after every technique, and their properties",
+			[] { list_filters(as_json); });
 	add("modules", "Modules of this build", [] { list_modules(as_json); });
 	add("info", "Devices, CPU, cache", [&r_common] { print_info(as_json, r_common); });
 }

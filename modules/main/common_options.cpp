@@ -4,7 +4,7 @@
 #include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/renderer/light_properties.h"
 
 #include <unistd.h>
 
@@ -23,19 +23,16 @@ const PropertyInfo *find_property(const std::string &p_name) {
 	if (const PropertyInfo *info = Light3D::get_property_list().find(p_name)) {
 		return info;
 	}
-	return ShadowRegistry::find_light_property(p_name);
+	return find_added_light_property(p_name);
 }
 
 std::string list_properties() {
 	std::string names;
-	const auto add = [&](const PropertyList &p_list) {
-		for (const PropertyInfo &info : p_list.get_properties()) {
-			names += (names.empty() ? "" : ", ") + info.name;
-		}
-	};
-	add(Light3D::get_property_list());
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		add(ShadowRegistry::get_light_properties(info.id));
+	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
+		names += (names.empty() ? "" : ", ") + info.name;
+	}
+	for (const std::string &name : list_added_light_properties()) {
+		names += ", " + name;
 	}
 	return names;
 }
@@ -84,7 +81,7 @@ std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
 	disable_modules(place.project);
 	GltfLoadOptions options;
 	options.project_folder = place.project.folder;
-	options.find_technique_property = &ShadowRegistry::find_light_property;
+	options.find_technique_property = &find_added_light_property;
 	std::unique_ptr<Scene> scene = load_gltf(place.scene_path, options);
 	if (scene->find_nodes<MeshInstance3D>().empty()) {
 		fail("Scene ", place.scene_path,

@@ -36,18 +36,23 @@ glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_s
 }
 
 std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
-		const uint8_t *p_depths, const uint8_t *p_normals) {
+		const GBufferTexels &p_texels) {
+	const float tangent = glm::length(glm::vec3(p_frame.up_tangent));
 	std::vector<SurfacePoint> surfaces(size_t(p_size_px.x) * p_size_px.y);
 	for (size_t index = 0; index < surfaces.size(); ++index) {
 		float depth = 0;
 		uint32_t packed_normal = 0;
-		std::memcpy(&depth, p_depths + index * sizeof(depth), sizeof(depth));
-		std::memcpy(
-				&packed_normal, p_normals + index * sizeof(packed_normal), sizeof(packed_normal));
+		uint16_t material[4] = {};
+		std::memcpy(&depth, p_texels.depth + index * sizeof(depth), sizeof(depth));
+		std::memcpy(&packed_normal, p_texels.geometric_normal + index * sizeof(packed_normal),
+				sizeof(packed_normal));
+		std::memcpy(&material, p_texels.material + index * sizeof(material), sizeof(material));
 		if (depth > 0.0f) {
 			const glm::uvec2 pixel(index % p_size_px.x, index / p_size_px.x);
 			surfaces[index] = { true, compute_position(p_frame, p_size_px, pixel, depth),
-				unpack_normal(packed_normal) };
+				unpack_normal(packed_normal),
+				{ glm::unpackHalf1x16(material[0]), glm::unpackHalf1x16(material[1]) },
+				2.0f * p_frame.near_m / depth * tangent / static_cast<float>(p_size_px.y) };
 		}
 	}
 	return surfaces;
@@ -147,7 +152,11 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 		const Material &material = *instance.material;
 		shader::InstancePush push = {};
 		push.camera_relative_from_node = p_scene.get_camera_relative_from_node(instance);
-		push.base_color_roughness = glm::vec4(material.base_color, material.roughness);
+		// Below 0: Phong's, see brdf_inc.glsl.
+		const float roughness = material.shading_model == ShadingModel::PHONG
+				? -1.0f - material.roughness
+				: material.roughness;
+		push.base_color_roughness = glm::vec4(material.base_color, roughness);
 		push.emissive_metallic = glm::vec4(material.emissive, material.metallic);
 		push.scatter = material.scatter;
 		push.scatter_distance_m = material.scatter_distance_m;

@@ -28,10 +28,15 @@ shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm
 glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
 		glm::uvec2 p_pixel, float p_depth);
 
-/// What the camera sees in each pixel, for passes that run on the CPU: of the texels of `depth` and
-/// `geometric_normal`, rows from the top.
-std::vector<SurfacePoint> read_surfaces(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
-		const uint8_t *p_depths, const uint8_t *p_normals);
+/// The texels of a G-buffer's textures of those names, on the CPU, rows from the top.
+struct GBufferTexels {
+	const uint8_t *depth = nullptr;
+	const uint8_t *geometric_normal = nullptr;
+	const uint8_t *material = nullptr;
+};
+/// What the camera sees in each pixel, for passes that run on the CPU.
+std::vector<SurfacePoint> read_surfaces(
+		const shader::FrameConstants &p_frame, glm::uvec2 p_size_px, const GBufferTexels &p_texels);
 
 /// Scales radiance so that a white surface at the middle of the casters, facing the brightest
 /// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.

@@ -1,9 +1,12 @@
 #include "modules/renderer/light_properties.h"
 
-#include "modules/core/text.h"
+#include "modules/core/error.h"
+#include "modules/core/log.h"
 #include "modules/renderer/light_shadows.h"
+#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/shadow_registry.h"
-#include "modules/scene/scene_snapshot.h"
+
+#include <set>
 
 namespace gnomon {
 
@@ -28,6 +31,17 @@ PropertyInfo make_choice(const PropertyInfo &p_info) {
 	return info;
 }
 
+std::vector<const PropertyList *> get_added_lists() {
+	std::vector<const PropertyList *> lists;
+	for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_techniques()) {
+		lists.push_back(&ShadowRegistry::get_light_properties(technique.id));
+	}
+	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_filters()) {
+		lists.push_back(&MaskFilterRegistry::get_light_properties(filter.id));
+	}
+	return lists;
+}
+
 } // namespace
 
 void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
@@ -49,6 +63,61 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 				ShadowRegistry::get_light_properties(technique->id).get_properties()) {
 			r_list.add(info);
 		}
+	}
+	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_filters()) {
+		for (const PropertyInfo &info :
+				MaskFilterRegistry::get_light_properties(filter.id).get_properties()) {
+			r_list.add(info);
+		}
+	}
+}
+
+const PropertyInfo *find_added_light_property(std::string_view p_name) {
+	for (const PropertyList *list : get_added_lists()) {
+		if (const PropertyInfo *info = list->find(p_name)) {
+			return info;
+		}
+	}
+	return nullptr;
+}
+
+std::vector<std::string> list_added_light_properties() {
+	std::vector<std::string> names;
+	for (const PropertyList *list : get_added_lists()) {
+		for (const PropertyInfo &info : list->get_properties()) {
+			names.push_back(info.name);
+		}
+	}
+	return names;
+}
+
+PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list) {
+	static std::set<std::string> reported;
+	PropertyValues values;
+	for (const PropertyInfo &info : p_list.get_properties()) {
+		values[info.name] = info.default_value;
+		const auto stored = p_light.properties.find(info.name);
+		if (stored == p_light.properties.end()) {
+			continue;
+		}
+		const std::string refusal = check_property(info, stored->second);
+		if (refusal.empty()) {
+			values[info.name] = convert_property(info, stored->second);
+		} else if (const std::string line = text("Light \"", p_light.name, "\" (",
+						   p_light.file_path, "): ", info.name, " ", refusal, ". The default, ",
+						   format_property(info.default_value), ", is used.");
+				   reported.insert(line).second) {
+			log_error(line);
+		}
+	}
+	return values;
+}
+
+void check_own_properties(const std::string &p_id, const PropertyList &p_list) {
+	for (const PropertyInfo &property : p_list.get_properties()) {
+		GNOMON_ASSERT(property.name.rfind(p_id + "_", 0) == 0, "property ", property.name,
+				" must begin with ", p_id, "_");
+		GNOMON_ASSERT(!property.tooltip.empty(), "property ", property.name, " has no tooltip");
 	}
 }
 

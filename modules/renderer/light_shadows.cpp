@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/renderer/light_properties.h"
 #include "modules/renderer/lighting.h"
 
 #include <algorithm>
@@ -63,28 +64,6 @@ TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string
 				". `gnomon techniques` lists those that are.") };
 }
 
-PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list) {
-	static std::set<std::string> reported;
-	PropertyValues values;
-	for (const PropertyInfo &info : p_list.get_properties()) {
-		values[info.name] = info.default_value;
-		const auto stored = p_light.properties.find(info.name);
-		if (stored == p_light.properties.end()) {
-			continue;
-		}
-		const std::string refusal = check_property(info, stored->second);
-		if (refusal.empty()) {
-			values[info.name] = convert_property(info, stored->second);
-		} else if (const std::string line = text("Light \"", p_light.name, "\" (",
-						   p_light.file_path, "): ", info.name, " ", refusal, ". The default, ",
-						   format_property(info.default_value), ", is used.");
-				   reported.insert(line).second) {
-			log_error(line);
-		}
-	}
-	return values;
-}
-
 ShadowTechnique &LightShadows::get_technique(
 		const LightSnapshot &p_light, const ShadowTechniqueInfo &p_info) {
 	Slot &slot = slots[p_light.name];
@@ -121,10 +100,16 @@ void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 }
 
 RGTexture LightShadows::add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		RGTexture p_mask, TechniquePlan &r_plan) {
-	for (const std::unique_ptr<MaskFilter> &filter : filters) {
-		if (filter->plan(p_inputs, r_plan)) {
-			p_mask = filter->apply(r_graph, p_inputs, p_mask);
+		bool p_is_exact, RGTexture p_mask, TechniquePlan &r_plan) {
+	for (size_t index = 0; index < filters.size(); ++index) {
+		const MaskFilterInfo &info = MaskFilterRegistry::get_filters()[index];
+		if (p_is_exact && info.spread) {
+			continue;
+		}
+		const PropertyValues properties = resolve_light_properties(
+				p_inputs.light, MaskFilterRegistry::get_light_properties(info.id));
+		if (filters[index]->plan(p_inputs, properties, r_plan)) {
+			p_mask = filters[index]->apply(r_graph, p_inputs, properties, p_mask);
 		}
 	}
 	return p_mask;
@@ -170,12 +155,13 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 		technique.after_light_view(r_graph, inputs, index);
 	}
 	plan.run("resolve");
-	RGTexture mask = technique.resolve(r_graph, inputs);
+	const RGTexture mask = add_filters(
+			r_graph, inputs, choice.info->is_reference, technique.resolve(r_graph, inputs), plan);
 	if (p_request.wants_debug_views) {
 		technique.get_debug_views(r_debug_views);
 		r_debug_views.push_back({ "mask", mask });
 	}
-	return add_filters(r_graph, inputs, mask, plan);
+	return mask;
 }
 
 } // namespace gnomon

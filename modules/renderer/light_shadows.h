@@ -19,10 +19,6 @@ struct TechniqueChoice {
 /// p_override: an id that replaces every light's own; must exist when not empty.
 TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string &p_override);
 
-/// The technique's properties of the light with defaults filled in. A stored value that is out of
-/// range is logged once per light and value, and its default is used.
-PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
-
 /// Makes and keeps the technique of each light, culls its casters, and calls its hooks in order.
 class LightShadows {
 public:
@@ -59,13 +55,14 @@ private:
 		std::unique_ptr<ShadowTechnique> technique;
 	};
 	ShadowTechnique &get_technique(const LightSnapshot &p_light, const ShadowTechniqueInfo &p_info);
+	/// p_is_exact: the mask is a reference's, which has done already what filters approximate.
 	RGTexture add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-			RGTexture p_mask, TechniquePlan &r_plan);
+			bool p_is_exact, RGTexture p_mask, TechniquePlan &r_plan);
 
 	RenderingDevice &device;
 	MeshStore &meshes;
-	std::map<std::string, Slot> slots; // by light name
-	std::vector<std::unique_ptr<MaskFilter>> filters;
+	std::map<std::string, Slot> slots;				  // by light name
+	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
 	std::set<std::string> warned;
 	uint64_t technique_revision = 0;
 	uint64_t filter_revision = 0;

@@ -1,12 +1,16 @@
 #include "modules/renderer/mask_filter.h"
 
 #include "modules/core/error.h"
+#include "modules/renderer/light_properties.h"
+
+#include <map>
 
 namespace gnomon {
 
 namespace {
 
 std::vector<MaskFilterInfo> filters;
+std::map<std::string, PropertyList, std::less<>> light_properties;
 uint64_t revision = 0;
 
 } // namespace
@@ -15,17 +19,30 @@ void MaskFilterRegistry::add(MaskFilterInfo p_info) {
 	for (const MaskFilterInfo &info : filters) {
 		GNOMON_ASSERT(info.id != p_info.id, "mask filter ", p_info.id, " is registered twice");
 	}
+	PropertyList list;
+	p_info.make()->get_light_properties(list);
+	check_own_properties(p_info.id, list);
+	light_properties[p_info.id] = std::move(list);
 	filters.push_back(std::move(p_info));
 	++revision;
 }
 
 void MaskFilterRegistry::remove(std::string_view p_id) {
 	std::erase_if(filters, [&](const MaskFilterInfo &p_info) { return p_info.id == p_id; });
+	if (const auto found = light_properties.find(p_id); found != light_properties.end()) {
+		light_properties.erase(found);
+	}
 	++revision;
 }
 
 const std::vector<MaskFilterInfo> &MaskFilterRegistry::get_filters() {
 	return filters;
+}
+
+const PropertyList &MaskFilterRegistry::get_light_properties(std::string_view p_id) {
+	const auto found = light_properties.find(p_id);
+	GNOMON_ASSERT(found != light_properties.end(), "mask filter ", p_id, " is not registered");
+	return found->second;
 }
 
 uint64_t MaskFilterRegistry::get_revision() {

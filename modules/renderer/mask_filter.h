@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/renderer/shadow_technique.h"
+#include "modules/renderer/surface_spread.h"
 
 #include <functional>
 #include <memory>
@@ -15,13 +16,16 @@ namespace gnomon {
 class MaskFilter {
 public:
 	virtual ~MaskFilter() = default;
-	/// Light properties the filter reads; names begin with the filter's id.
+	/// Properties this filter adds to every light; names begin with the filter's id. Called on any
+	/// instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
-	/// False, with the reason in the plan, when the mask would stay as it is.
-	virtual bool plan(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan) = 0;
-	/// Called when plan() returned true. Returns the new mask, of the same kind.
-	virtual RGTexture apply(
-			RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, RGTexture p_mask) = 0;
+	/// False, with the reason in the plan, when the mask would stay as it is. p_properties: the
+	/// filter's own of the light, with defaults filled in and every value in range.
+	virtual bool plan(const ShadowTechnique::Inputs &p_inputs, const PropertyValues &p_properties,
+			TechniquePlan &r_plan) = 0;
+	/// Called when plan() returned true. Returns the new mask, of the same format and size.
+	virtual RGTexture apply(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+			const PropertyValues &p_properties, RGTexture p_mask) = 0;
 	virtual std::vector<std::string> get_shader_files() const = 0;
 };
 
@@ -30,6 +34,9 @@ struct MaskFilterInfo {
 	std::string name;
 	std::string source;
 	std::function<std::unique_ptr<MaskFilter>()> make;
+	/// What the filter approximates. A reference integrates it, and the filter does not run then.
+	/// Null: it runs after the reference too.
+	std::shared_ptr<const SurfaceSpread> spread = nullptr;
 };
 
 /// All mask filters there are. Modules add and remove; main thread only.
@@ -38,6 +45,9 @@ public:
 	static void add(MaskFilterInfo p_info);
 	static void remove(std::string_view p_id);
 	static const std::vector<MaskFilterInfo> &get_filters();
+	/// Light properties of one filter, which must exist.
+	static const PropertyList &get_light_properties(std::string_view p_id);
+	/// Counts adds and removes.
 	static uint64_t get_revision();
 };
 

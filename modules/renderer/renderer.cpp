@@ -62,6 +62,7 @@ struct Renderer::Frame {
 	std::vector<uint8_t> receiver_bytes;
 	std::vector<uint8_t> depth_bytes;
 	std::vector<uint8_t> normal_bytes;
+	std::vector<uint8_t> material_bytes;
 	Format mask_format = Format::R16_SFLOAT;
 };
 
@@ -154,6 +155,7 @@ void Renderer::add_mask_only(Frame &r_frame) {
 			if (request.wants_surfaces) {
 				add_readback(r_frame, r_frame.gbuffer.depth, r_frame.depth_bytes);
 				add_readback(r_frame, r_frame.gbuffer.geometric_normal, r_frame.normal_bytes);
+				add_readback(r_frame, r_frame.gbuffer.material, r_frame.material_bytes);
 			}
 		} else {
 			r_frame.graph.add_pass("mask").reads(mask, Access::SHADER_READ_COMPUTE).keep();
@@ -268,7 +270,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	RenderResult result;
 	shadows.collect_garbage(scene);
 	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, false, {}, {}, {},
-		{}, Format::R16_SFLOAT };
+		{}, {}, Format::R16_SFLOAT };
 	frame.constants = frame.graph.upload_constants(
 			"frame constants", compute_frame_constants(scene, p_request.size_px));
 	try {
@@ -303,8 +305,10 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();
 	result.aliased_bytes = frame.graph.get_aliased_bytes();
 	if (!frame.depth_bytes.empty()) {
-		result.surfaces = read_surfaces(compute_frame_constants(scene, p_request.size_px),
-				p_request.size_px, frame.depth_bytes.data(), frame.normal_bytes.data());
+		result.surfaces =
+				read_surfaces(compute_frame_constants(scene, p_request.size_px), p_request.size_px,
+						{ frame.depth_bytes.data(), frame.normal_bytes.data(),
+								frame.material_bytes.data() });
 	}
 	if (!frame.mask_bytes.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);

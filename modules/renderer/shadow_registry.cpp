@@ -1,6 +1,7 @@
 #include "modules/renderer/shadow_registry.h"
 
 #include "modules/core/error.h"
+#include "modules/renderer/light_properties.h"
 
 #include <algorithm>
 #include <map>
@@ -19,11 +20,7 @@ void ShadowRegistry::add(ShadowTechniqueInfo p_info) {
 	GNOMON_ASSERT(!find(p_info.id), "technique ", p_info.id, " is registered twice");
 	PropertyList list;
 	p_info.make()->get_light_properties(list);
-	for (const PropertyInfo &property : list.get_properties()) {
-		GNOMON_ASSERT(property.name.rfind(p_info.id + "_", 0) == 0, "property ", property.name,
-				" must begin with ", p_info.id, "_");
-		GNOMON_ASSERT(!property.tooltip.empty(), "property ", property.name, " has no tooltip");
-	}
+	check_own_properties(p_info.id, list);
 	light_properties[p_info.id] = std::move(list);
 	techniques.push_back(std::move(p_info));
 	++revision;
@@ -94,15 +91,6 @@ const PropertyList &ShadowRegistry::get_light_properties(std::string_view p_id) 
 	const auto found = light_properties.find(p_id);
 	GNOMON_ASSERT(found != light_properties.end(), "technique ", p_id, " is not registered");
 	return found->second;
-}
-
-const PropertyInfo *ShadowRegistry::find_light_property(std::string_view p_name) {
-	for (const auto &[id, list] : light_properties) {
-		if (const PropertyInfo *info = list.find(p_name)) {
-			return info;
-		}
-	}
-	return nullptr;
 }
 
 uint64_t ShadowRegistry::get_revision() {

@@ -48,8 +48,6 @@ public:
 	static const ShadowTechniqueInfo *find_reference();
 	/// Light properties of one technique, which must exist.
 	static const PropertyList &get_light_properties(std::string_view p_id);
-	/// The property of whichever technique declares that name, or null.
-	static const PropertyInfo *find_light_property(std::string_view p_name);
 	/// Counts adds and removes.
 	static uint64_t get_revision();
 };

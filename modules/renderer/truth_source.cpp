@@ -23,6 +23,8 @@ uint64_t compute_truth_hash(
 		hash = compute_value_hash(instance.mesh->id, hash);
 		hash = compute_value_hash(instance.world_from_node, hash);
 		hash = compute_value_hash(instance.casts_shadow, hash);
+		hash = compute_value_hash(instance.material->scatter, hash);
+		hash = compute_value_hash(instance.material->scatter_distance_m, hash);
 	}
 	return hash;
 }

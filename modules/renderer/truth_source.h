@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/renderer/surface_spread.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <atomic>
@@ -17,6 +18,8 @@ struct SurfacePoint {
 	bool is_there = false;						  // false: background
 	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative: the world's axes, in metres
 	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
+	SurfaceMaterial material;
+	float pixel_size_m = 0; // how wide a pixel is there, across the view
 };
 
 struct TruthQuestion {

@@ -47,16 +47,4 @@ struct Mesh {
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices);
 
-/// What a surface looks like. Colours are linear.
-struct Material {
-	std::string name;
-	glm::vec3 base_color = glm::vec3(0.8f);
-	glm::vec3 emissive = glm::vec3(0.0f); // cd/m^2
-	float metallic = 0.0f;				  // 0..1
-	float roughness = 1.0f;				  // 0..1
-	float scatter = 0.0f;				  // s in 0..1; 0 = opaque (seeds: Wang, Xiao 2015)
-	float scatter_distance_m = 0.0f;	  // 0..1e4
-	bool is_double_sided = false;
-};
-
 } // namespace gnomon

@@ -92,6 +92,23 @@ std::vector<NodeField> make_node_fields() {
 				&read_part<&TransformParts::scale>, &write_part<&TransformParts::scale> } };
 }
 
+std::vector<NodeField> make_mesh_fields() {
+	std::vector<NodeField> fields = {
+		{ make_info("cast_shadow", PropertyType::BOOL, true, "", "Whether the mesh hides lights.",
+				  "", "Shadow"),
+				&read_flag<MeshInstance3D, &MeshInstance3D::casts_shadow>,
+				&write_flag<MeshInstance3D, &MeshInstance3D::casts_shadow> },
+		{ make_info("shadow_planar_receiver", PropertyType::BOOL, false, "",
+				  "A flat mesh that planar shadows fall on.", "", "Shadow"),
+				&read_flag<MeshInstance3D, &MeshInstance3D::is_planar_receiver>,
+				&write_flag<MeshInstance3D, &MeshInstance3D::is_planar_receiver> }
+	};
+	for (NodeField &field : make_material_fields()) {
+		fields.push_back(std::move(field));
+	}
+	return extend_node_fields(std::move(fields));
+}
+
 } // namespace
 
 std::vector<NodeField> extend_node_fields(std::vector<NodeField> p_more) {
@@ -118,15 +135,7 @@ void Node3D::assign(const Node3D &p_other) {
 }
 
 const std::vector<NodeField> &MeshInstance3D::get_fields() const {
-	static const std::vector<NodeField> fields = extend_node_fields(
-			{ { make_info("cast_shadow", PropertyType::BOOL, true, "",
-						"Whether the mesh hides lights.", "", "Shadow"),
-					  &read_flag<MeshInstance3D, &MeshInstance3D::casts_shadow>,
-					  &write_flag<MeshInstance3D, &MeshInstance3D::casts_shadow> },
-					{ make_info("shadow_planar_receiver", PropertyType::BOOL, false, "",
-							  "A flat mesh that planar shadows fall on.", "", "Shadow"),
-							&read_flag<MeshInstance3D, &MeshInstance3D::is_planar_receiver>,
-							&write_flag<MeshInstance3D, &MeshInstance3D::is_planar_receiver> } });
+	static const std::vector<NodeField> fields = make_mesh_fields();
 	return fields;
 }
 

@@ -50,6 +50,9 @@ inline PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyV
 	return { p_name, p_type, std::move(p_default), p_hint, p_tooltip, p_unit, p_group };
 }
 
+/// Those of a mesh's materials, for its node.
+std::vector<NodeField> make_material_fields();
+
 /// The fields of every node, then more.
 std::vector<NodeField> extend_node_fields(std::vector<NodeField> p_more);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/core/property.h"
+#include "modules/scene/material.h"
 #include "modules/scene/mesh.h"
 
 #include <glm/glm.hpp>

@@ -163,6 +163,11 @@ float LightSnapshot::get_disc_radius() const {
 	return light_size_m;
 }
 
+glm::vec3 InstanceSnapshot::compute_transmittance() const {
+	const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_node))));
+	return material->compute_transmittance(static_cast<float>(scale));
+}
+
 bool InstanceSnapshot::is_mirrored() const {
 	return glm::determinant(glm::dmat3(world_from_node)) < 0;
 }

@@ -57,6 +57,8 @@ struct InstanceSnapshot {
 
 	/// True when the transform turns the mesh inside out, so that front faces wind the other way.
 	bool is_mirrored() const;
+	/// What it leaves of the light that meets it, see Material::compute_transmittance.
+	glm::vec3 compute_transmittance() const;
 };
 
 /// Everything one frame needs of the scene, by value; never changes once built.

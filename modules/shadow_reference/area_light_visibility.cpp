@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/embree_scene.h"
+#include "modules/shadow_reference/spread_visibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,34 +15,11 @@ namespace gnomon {
 namespace {
 
 constexpr float START_OFFSET = 5e-5f; // of S; the techniques move P by the same
-/// Rays to a disc at a finite distance end here, so that a lamp's own surface at the disc does not
-/// hide it. Many float roundings, far below a sample's share.
-constexpr float RAY_END = 1.0f - 1e-5f;
-constexpr float MAX_RADIUS = 1e18f; // Embree drops coordinates beyond 1.8e18
+constexpr float MAX_RADIUS = 1e18f;	  // Embree drops coordinates beyond 1.8e18
 constexpr uint32_t MAX_SAMPLE_COUNT = 65536;
 constexpr uint32_t TILE_SIZE_PX = 8; // neighbours share the tree's nodes in the cache
 constexpr float PENUMBRA_MINIMUM = 0.002f;
 constexpr float PENUMBRA_MAXIMUM = 0.998f;
-
-bool is_finite(const glm::vec3 &p_value) {
-	return std::isfinite(p_value.x) && std::isfinite(p_value.y) && std::isfinite(p_value.z);
-}
-
-/// Two unit vectors perpendicular to a unit vector and to each other (Duff et al. 2017).
-void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y) {
-	const float sign = std::copysign(1.0f, p_normal.z);
-	const float a = -1.0f / (sign + p_normal.z);
-	const float b = p_normal.x * p_normal.y * a;
-	r_x = glm::vec3(1.0f + sign * p_normal.x * p_normal.x * a, sign * b, -sign * p_normal.x);
-	r_y = glm::vec3(b, sign + p_normal.y * p_normal.y * a, -p_normal.y);
-}
-
-/// Unit vector; scaled first, because squares of long or short vectors leave float's range.
-glm::vec3 normalize_safely(const glm::vec3 &p_vector) {
-	const float largest =
-			std::max({ std::abs(p_vector.x), std::abs(p_vector.y), std::abs(p_vector.z) });
-	return glm::normalize(p_vector / largest);
-}
 
 void check_light(const AreaLight &p_light) {
 	if (!(p_light.disc_radius >= 0.0f && p_light.disc_radius <= MAX_RADIUS)) {
@@ -69,16 +47,6 @@ void check_options(const VisibilityOptions &p_options) {
 	}
 }
 
-/// Towards the disc from one start: centre + radius (x basis_x + y basis_y), rays to be cut at
-/// `end`.
-struct DiscView {
-	glm::vec3 origin = glm::vec3(0.0f);
-	glm::vec3 centre = glm::vec3(0.0f);	 // relative to the origin
-	glm::vec3 basis_x = glm::vec3(0.0f); // length: the disc's radius
-	glm::vec3 basis_y = glm::vec3(0.0f);
-	float end = RAY_END;
-};
-
 /// How many rays of one half of a pixel's samples meet nothing.
 uint32_t count_visible(const EmbreeScene &p_scene, const DiscView &p_view,
 		const DiscSamples &p_samples, uint64_t p_hash) {
@@ -97,12 +65,10 @@ uint32_t count_visible(const EmbreeScene &p_scene, const DiscView &p_view,
 			rays.org_x[i] = p_view.origin.x;
 			rays.org_y[i] = p_view.origin.y;
 			rays.org_z[i] = p_view.origin.z;
-			rays.dir_x[i] = p_view.centre.x + packet.x[i] * p_view.basis_x.x +
-					packet.y[i] * p_view.basis_y.x;
-			rays.dir_y[i] = p_view.centre.y + packet.x[i] * p_view.basis_x.y +
-					packet.y[i] * p_view.basis_y.y;
-			rays.dir_z[i] = p_view.centre.z + packet.x[i] * p_view.basis_x.z +
-					packet.y[i] * p_view.basis_y.z;
+			const glm::vec3 ray = p_view.compute_ray(packet.x[i], packet.y[i]);
+			rays.dir_x[i] = ray.x;
+			rays.dir_y[i] = ray.y;
+			rays.dir_z[i] = ray.z;
 			rays.tnear[i] = 0.0f;
 			rays.tfar[i] = p_view.end;
 			rays.time[i] = 0.0f;
@@ -129,7 +95,8 @@ struct Job {
 	DiscSamples second_half;
 	bool has_second_half;
 	std::vector<float> &visibility;
-	std::vector<float> half_difference; // A - B, for the standard error
+	uint32_t spread_sample_count;
+	std::vector<float> half_error; // (A - B) sqrt(a b) / (a + b), see VisibilityResult
 	std::atomic<uint64_t> ray_count = 0;
 	std::atomic<uint32_t> next_tile = 0;
 	std::atomic<uint32_t> done_tile_count = 0;
@@ -142,54 +109,54 @@ struct Job {
 	}
 };
 
-/// False where v is known without rays; r_visibility is then set.
-bool find_disc_view(
-		const Job &p_job, const ReceiverPoint &p_point, DiscView &r_view, float &r_visibility) {
-	r_visibility = 0.0f;
-	if (!p_point.is_receiver || !is_finite(p_point.position) ||
-			!is_finite(p_point.geometric_normal)) {
-		return false;
+/// The receiver sees what the surface about it sees. Returns the number of rays.
+uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
+	const ReceiverPoint &point = r_job.points[p_pixel];
+	const SpreadMean mean = r_job.options.spread->compute(r_job.scene, r_job.light,
+			{ point.position, point.geometric_normal, point.spread_radius_m }, p_offset_m,
+			r_job.spread_sample_count, p_hash);
+	const double count = mean.counts[0] + mean.counts[1];
+	if (count > 0) {
+		r_job.visibility[p_pixel] = static_cast<float>(mean.compute_mean());
 	}
-	r_view.origin = p_point.position +
-			p_point.geometric_normal * (START_OFFSET * p_job.options.scene_size_m);
-	glm::vec3 axis;
-	if (p_job.light.is_directional) {
-		axis = -normalize_safely(p_job.light.direction);
-		r_view.centre = axis;
-		r_view.end = std::numeric_limits<float>::infinity();
-	} else {
-		r_view.centre = p_job.light.position - r_view.origin;
-		if (!is_finite(r_view.centre)) {
-			return false;
-		}
-		if (r_view.centre == glm::vec3(0.0f)) {
-			r_visibility = 1.0f;
-			return false;
-		}
-		axis = normalize_safely(r_view.centre);
+	if (mean.counts[0] > 0 && mean.counts[1] > 0) {
+		const double difference =
+				mean.visible_counts[0] / mean.counts[0] - mean.visible_counts[1] / mean.counts[1];
+		r_job.half_error[p_pixel] =
+				static_cast<float>(difference * std::sqrt(mean.counts[0] * mean.counts[1]) / count);
 	}
-	find_basis(axis, r_view.basis_x, r_view.basis_y);
-	r_view.basis_x *= p_job.light.disc_radius;
-	r_view.basis_y *= p_job.light.disc_radius;
-	return true;
+	return static_cast<uint64_t>(count);
 }
 
 /// Returns the number of rays.
 uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
-	DiscView view;
-	if (!find_disc_view(r_job, r_job.points[p_pixel], view, r_job.visibility[p_pixel])) {
+	const ReceiverPoint &point = r_job.points[p_pixel];
+	if (!point.is_receiver) {
 		return 0;
 	}
+	const float offset_m = START_OFFSET * r_job.options.scene_size_m;
 	const uint64_t hash = mix_bits(mix_bits(r_job.options.seed) ^ p_pixel);
+	DiscView view;
+	if (!find_disc_view(r_job.light, point.position, point.geometric_normal, offset_m, view,
+				r_job.visibility[p_pixel])) {
+		return 0;
+	}
+	if (point.spread_radius_m > 0.0f && r_job.options.spread != nullptr) {
+		return trace_spread_pixel(r_job, p_pixel, offset_m, hash);
+	}
 	const uint32_t first = count_visible(r_job.scene, view, r_job.first_half, mix_bits(hash ^ 1));
 	const uint32_t second = r_job.has_second_half
 			? count_visible(r_job.scene, view, r_job.second_half, mix_bits(hash ^ 2))
 			: 0;
-	const float sample_count = static_cast<float>(r_job.options.sample_count);
-	r_job.visibility[p_pixel] = static_cast<float>(first + second) / sample_count;
-	r_job.half_difference[p_pixel] =
-			static_cast<float>(first) / static_cast<float>(r_job.first_half.get_count()) -
-			static_cast<float>(second) / static_cast<float>(r_job.second_half.get_count());
+	const float first_count = static_cast<float>(r_job.first_half.get_count());
+	const float second_count = static_cast<float>(r_job.second_half.get_count());
+	r_job.visibility[p_pixel] =
+			static_cast<float>(first + second) / static_cast<float>(r_job.options.sample_count);
+	if (r_job.has_second_half) {
+		r_job.half_error[p_pixel] = (static_cast<float>(first) / first_count -
+											static_cast<float>(second) / second_count) *
+				std::sqrt(first_count * second_count) / (first_count + second_count);
+	}
 	return r_job.options.sample_count;
 }
 
@@ -223,25 +190,19 @@ void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {
 
 /// Serial, so that the sum does not depend on the threads.
 void compute_standard_error(const Job &p_job, VisibilityResult &r_result) {
-	const double first_count = p_job.first_half.get_count();
-	const double second_count = p_job.has_second_half ? p_job.second_half.get_count() : 0;
 	double square_sum = 0;
 	for (size_t i = 0; i < r_result.visibility.size(); ++i) {
 		if (r_result.visibility[i] > PENUMBRA_MINIMUM &&
 				r_result.visibility[i] < PENUMBRA_MAXIMUM) {
 			++r_result.penumbra_pixel_count;
-			square_sum += static_cast<double>(p_job.half_difference[i]) * p_job.half_difference[i];
+			square_sum += static_cast<double>(p_job.half_error[i]) * p_job.half_error[i];
 		}
 	}
-	if (p_job.light.disc_radius == 0.0f) {
-		r_result.standard_error = 0.0f;
-	} else if (!p_job.has_second_half) {
+	if (!p_job.has_second_half && p_job.light.disc_radius > 0.0f) {
 		r_result.standard_error = -1.0f;
 	} else if (r_result.penumbra_pixel_count > 0) {
 		r_result.standard_error = static_cast<float>(
-				std::sqrt(square_sum / static_cast<double>(r_result.penumbra_pixel_count) *
-						first_count * second_count) /
-				(first_count + second_count));
+				std::sqrt(square_sum / static_cast<double>(r_result.penumbra_pixel_count)));
 	}
 }
 
@@ -272,7 +233,7 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 	Job job{ *scene, p_points, p_size_px, p_light, options,
 		DiscSamples(sample_count - sample_count / 2, options.seed),
 		DiscSamples(std::max(sample_count / 2, 1u), options.seed), sample_count > 1,
-		result.visibility, std::vector<float>(p_points.size(), 0.0f) };
+		result.visibility, p_options.sample_count, std::vector<float>(p_points.size(), 0.0f) };
 
 	uint32_t thread_count = options.thread_count;
 	if (thread_count == 0) {

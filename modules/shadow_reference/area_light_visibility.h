@@ -1,5 +1,7 @@
 #pragma once
 
+#include "modules/shadow_reference/light_disc.h"
+
 #include <glm/glm.hpp>
 
 #include <atomic>
@@ -12,16 +14,7 @@
 namespace gnomon {
 
 class EmbreeScene;
-
-/// The light as the truth sees it. Lengths in metres, in the space of the triangles.
-struct AreaLight {
-	bool is_directional = false;
-	glm::vec3 position = glm::vec3(0.0f);	   // L, the disc's centre; spot and omni
-	glm::vec3 direction = glm::vec3(0, -1, 0); // towards which it shines; directional; any length
-	/// 0..1e18. Spot and omni: R; the disc at L is perpendicular to L - P. Directional: the tangent
-	/// of half the apparent diameter; the disc lies at unit distance. 0: a hard shadow, one ray.
-	float disc_radius = 0.0f;
-};
+class SpreadVisibility;
 
 /// One pixel.
 struct ReceiverPoint {
@@ -29,6 +22,8 @@ struct ReceiverPoint {
 	/// Unit, on the side that is seen. Zero moves the start nowhere.
 	glm::vec3 geometric_normal = glm::vec3(0.0f);
 	bool is_receiver = false; // decided by the renderer; otherwise v = 0 and no ray
+	/// Above 0: light that leaves here entered about here, see VisibilityOptions::spread.
+	float spread_radius_m = 0.0f;
 };
 
 struct VisibilityOptions {
@@ -40,6 +35,8 @@ struct VisibilityOptions {
 	/// stops.
 	std::function<void(float)> progress;
 	const std::atomic<bool> *is_cancelled = nullptr; // may be set from any thread
+	/// For receivers with a spread radius. Null: they see the light as all others do.
+	const SpreadVisibility *spread = nullptr;
 };
 
 struct VisibilityResult {

@@ -25,4 +25,30 @@ inline void find_occluded_8(RTCScene p_scene, const int *p_valid, RTCRay8 &r_ray
 #endif
 }
 
+/// As find_occluded_8, for one ray.
+inline void find_occluded_1(RTCScene p_scene, RTCRay &r_ray) {
+#if RTC_VERSION_MAJOR >= 4
+	RTCOccludedArguments arguments = {};
+	rtcInitOccludedArguments(&arguments);
+	rtcOccluded1(p_scene, &r_ray, &arguments);
+#else
+	RTCIntersectContext context = {};
+	rtcInitIntersectContext(&context);
+	rtcOccluded1(p_scene, &context, &r_ray);
+#endif
+}
+
+/// Sets tfar and the hit; its geomID stays as it is when nothing is hit.
+inline void find_nearest_1(RTCScene p_scene, RTCRayHit &r_query) {
+#if RTC_VERSION_MAJOR >= 4
+	RTCIntersectArguments arguments = {};
+	rtcInitIntersectArguments(&arguments);
+	rtcIntersect1(p_scene, &r_query, &arguments);
+#else
+	RTCIntersectContext context = {};
+	rtcInitIntersectContext(&context);
+	rtcIntersect1(p_scene, &context, &r_query);
+#endif
+}
+
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "modules/shadow_reference/embree_scene.h"
 
 #include "modules/core/error.h"
+#include "modules/shadow_reference/light_disc.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,17 @@ namespace gnomon {
 
 namespace {
 
-bool is_finite(const glm::vec3 &p_value) {
-	return std::isfinite(p_value.x) && std::isfinite(p_value.y) && std::isfinite(p_value.z);
+RTCRay make_ray(const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p_end) {
+	RTCRay ray = {};
+	ray.org_x = p_origin.x;
+	ray.org_y = p_origin.y;
+	ray.org_z = p_origin.z;
+	ray.dir_x = p_direction.x;
+	ray.dir_y = p_direction.y;
+	ray.dir_z = p_direction.z;
+	ray.tfar = p_end;
+	ray.mask = 0xffffffffu;
+	return ray;
 }
 
 /// Embree leaves the space of a triangle that is not finite to us.
@@ -65,6 +75,28 @@ void EmbreeScene::check() const {
 		fail("Reference: Embree reports error ", static_cast<int>(error),
 				" while building the scene. Free memory or use fewer triangles.");
 	}
+}
+
+SurfaceHit EmbreeScene::find_nearest(
+		const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p_reach_m) const {
+	RTCRayHit query = {};
+	query.ray = make_ray(p_origin, p_direction, p_reach_m);
+	query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+	find_nearest_1(scene, query);
+	if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+		return {};
+	}
+	const glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+	const float largest = std::max({ std::abs(normal.x), std::abs(normal.y), std::abs(normal.z) });
+	return { true, query.ray.tfar,
+		largest > 0.0f ? glm::normalize(normal / largest) : glm::vec3(0.0f) };
+}
+
+bool EmbreeScene::is_occluded(
+		const glm::vec3 &p_origin, const glm::vec3 &p_ray, float p_end) const {
+	RTCRay ray = make_ray(p_origin, p_ray, p_end);
+	find_occluded_1(scene, ray);
+	return ray.tfar < 0.0f;
 }
 
 void EmbreeScene::build(

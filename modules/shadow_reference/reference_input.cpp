@@ -1,14 +1,46 @@
 #include "modules/shadow_reference/reference_input.h"
 
+#include "modules/renderer/mask_filter.h"
+
+#include <cmath>
+
 namespace gnomon {
 
+namespace {
+
+void add_triangles(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance,
+		std::vector<glm::vec3> &r_positions, std::vector<uint32_t> &r_indices) {
+	const glm::mat4 matrix = p_scene.get_camera_relative_from_node(p_instance);
+	const uint32_t first = static_cast<uint32_t>(r_positions.size());
+	for (const glm::vec3 &position : p_instance.mesh->positions_node) {
+		r_positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
+	}
+	for (uint32_t index : p_instance.mesh->indices) {
+		r_indices.push_back(first + index);
+	}
+}
+
+} // namespace
+
+std::shared_ptr<const SurfaceSpread> find_surface_spread() {
+	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_filters()) {
+		if (filter.spread) {
+			return filter.spread;
+		}
+	}
+	return nullptr;
+}
+
 std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
-		const std::function<bool(size_t)> &p_is_receiver) {
+		const SurfaceSpread *p_spread, const std::function<bool(size_t)> &p_is_receiver) {
 	std::vector<ReceiverPoint> points(p_surfaces.size());
 	for (size_t pixel = 0; pixel < points.size(); ++pixel) {
-		if (p_surfaces[pixel].is_there && p_is_receiver(pixel)) {
-			points[pixel] = { p_surfaces[pixel].position, p_surfaces[pixel].geometric_normal,
-				true };
+		const SurfacePoint &surface = p_surfaces[pixel];
+		if (surface.is_there && p_is_receiver(pixel)) {
+			points[pixel] = { surface.position, surface.geometric_normal, true,
+				p_spread != nullptr
+						? p_spread->compute_radius_m(surface.material, surface.pixel_size_m)
+						: 0.0f };
 		}
 	}
 	return points;
@@ -17,19 +49,25 @@ std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_
 CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
 	CasterTriangles triangles;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (!instance.casts_shadow) {
-			continue;
-		}
-		const glm::mat4 matrix = p_scene.get_camera_relative_from_node(instance);
-		const uint32_t first = static_cast<uint32_t>(triangles.positions.size());
-		for (const glm::vec3 &position : instance.mesh->positions_node) {
-			triangles.positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
-		}
-		for (uint32_t index : instance.mesh->indices) {
-			triangles.indices.push_back(first + index);
+		if (instance.casts_shadow) {
+			add_triangles(p_scene, instance, triangles.positions, triangles.indices);
 		}
 	}
 	return triangles;
+}
+
+std::vector<SpreadBody> collect_spread_bodies(
+		const SceneSnapshot &p_scene, const SurfaceSpread *p_spread) {
+	std::vector<SpreadBody> bodies;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const SurfaceMaterial material = { instance.material->scatter,
+			instance.material->scatter_distance_m };
+		if (p_spread != nullptr && p_spread->compute_radius_m(material, 1.0f) > 0.0f) {
+			SpreadBody &body = bodies.emplace_back();
+			add_triangles(p_scene, instance, body.positions, body.indices);
+		}
+	}
+	return bodies;
 }
 
 AreaLight make_area_light(const SceneSnapshot &p_scene, const LightSnapshot &p_light) {
@@ -40,6 +78,8 @@ AreaLight make_area_light(const SceneSnapshot &p_scene, const LightSnapshot &p_l
 	}
 	light.direction = glm::vec3(p_light.get_direction_world());
 	light.disc_radius = p_light.get_disc_radius();
+	light.range_m = p_light.range_m;
+	light.cos_outer = p_light.type == LightType::SPOT ? std::cos(p_light.outer_cone_rad) : -1.0f;
 	return light;
 }
 

@@ -3,8 +3,10 @@
 #include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadow_reference/area_light_visibility.h"
+#include "modules/shadow_reference/spread_visibility.h"
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,9 +20,14 @@ struct CasterTriangles {
 	std::vector<uint32_t> indices;
 };
 
-/// p_is_receiver: of a pixel, does the light reach there?
-std::vector<ReceiverPoint> make_receiver_points(
-		std::span<const SurfacePoint> p_surfaces, const std::function<bool(size_t)> &p_is_receiver);
+/// What a mask filter approximates that is registered; null: none has an exact form.
+std::shared_ptr<const SurfaceSpread> find_surface_spread();
+/// p_is_receiver: of a pixel, does the light reach there? p_spread may be null.
+std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
+		const SurfaceSpread *p_spread, const std::function<bool(size_t)> &p_is_receiver);
+/// Those on which light spreads, of all instances with that property. p_spread may be null.
+std::vector<SpreadBody> collect_spread_bodies(
+		const SceneSnapshot &p_scene, const SurfaceSpread *p_spread);
 CasterTriangles collect_triangles(const SceneSnapshot &p_scene);
 AreaLight make_area_light(const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 

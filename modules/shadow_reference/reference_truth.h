@@ -2,6 +2,7 @@
 
 #include "modules/renderer/truth_source.h"
 #include "modules/shadow_reference/area_light_visibility.h"
+#include "modules/shadow_reference/spread_visibility.h"
 
 #include <optional>
 
@@ -19,6 +20,8 @@ private:
 	TruthQuestion question;
 	std::vector<ReceiverPoint> points;
 	std::optional<AreaLightVisibility> tracer;
+	std::shared_ptr<const SurfaceSpread> spread;
+	std::optional<SpreadVisibility> spread_visibility;
 };
 
 } // namespace gnomon

@@ -30,8 +30,11 @@ struct ShadowReference::Job {
 	AreaLight light;
 	VisibilityOptions options;
 	CasterTriangles triangles;
+	std::shared_ptr<const SurfaceSpread> spread;
+	std::vector<SpreadBody> spread_bodies;
 	RGBuffer depth;
 	RGBuffer normal;
+	RGBuffer material;
 	RGBuffer receivers;
 	RGBuffer mask;
 	std::string light_name;
@@ -46,6 +49,17 @@ struct ShadowReference::Job {
 			points.push_back(point.is_receiver ? point.geometric_normal : glm::vec3(0.0f));
 		}
 		key = add_to_hash(std::span<const glm::vec3>(points), key);
+		if (!spread_bodies.empty()) {
+			std::vector<float> spread_values = { light.range_m, light.cos_outer };
+			for (const ReceiverPoint &point : p_points) {
+				spread_values.push_back(point.spread_radius_m);
+			}
+			for (const SpreadBody &body : spread_bodies) {
+				key = add_to_hash(std::span<const glm::vec3>(body.positions), key);
+				key = add_to_hash(std::span<const uint32_t>(body.indices), key);
+			}
+			key = add_to_hash(std::span<const float>(spread_values), key);
+		}
 		const float numbers[] = { light.is_directional ? 1.0f : 0.0f, light.position.x,
 			light.position.y, light.position.z, light.direction.x, light.direction.y,
 			light.direction.z, light.disc_radius, options.scene_size_m,
@@ -68,6 +82,11 @@ void ShadowReference::compute(
 	const AreaLightVisibility tracer(p_job.triangles.positions, p_job.triangles.indices);
 	Progress progress("Tracing the reference of light \"" + p_job.light_name + "\"");
 	VisibilityOptions options = p_job.options;
+	std::optional<SpreadVisibility> spread;
+	if (!p_job.spread_bodies.empty()) {
+		spread.emplace(p_job.spread_bodies, *p_job.spread);
+		options.spread = &*spread;
+	}
 	options.progress = [&](float p_fraction) { progress.update(p_fraction); };
 	VisibilityResult result = tracer.compute(p_points, p_job.size_px, p_job.light, options);
 	r_truth.visibility = std::move(result.visibility);
@@ -83,9 +102,10 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 	const size_t pixel_count = size_t(p_job.size_px.x) * p_job.size_px.y;
 	const uint8_t *receivers = p_context.get_mapped(p_job.receivers);
 	const std::vector<ReceiverPoint> points = make_receiver_points(
-			read_surfaces(p_job.frame, p_job.size_px, p_context.get_mapped(p_job.depth),
-					p_context.get_mapped(p_job.normal)),
-			[&](size_t p_pixel) { return receivers[p_pixel] != 0; });
+			read_surfaces(p_job.frame, p_job.size_px,
+					{ p_context.get_mapped(p_job.depth), p_context.get_mapped(p_job.normal),
+							p_context.get_mapped(p_job.material) }),
+			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
 	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
 		const std::optional<Truth> stored =
@@ -117,6 +137,8 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->options.sample_count =
 			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("reference_samples")));
 	job->triangles = collect_triangles(p_inputs.scene);
+	job->spread = find_surface_spread();
+	job->spread_bodies = collect_spread_bodies(p_inputs.scene, job->spread.get());
 
 	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
 	const auto add_copy = [&](RGTexture p_texture) {
@@ -135,12 +157,14 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	};
 	job->depth = add_copy(p_inputs.depth);
 	job->normal = add_copy(p_inputs.geometric_normal);
+	job->material = add_copy(p_inputs.material);
 	job->receivers = add_copy(p_inputs.receivers);
 	job->mask = r_graph.create_buffer({ "reference mask", pixel_count * sizeof(float),
 			BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD });
 	r_graph.add_pass("trace")
 			.reads(job->depth, Access::HOST_READ)
 			.reads(job->normal, Access::HOST_READ)
+			.reads(job->material, Access::HOST_READ)
 			.reads(job->receivers, Access::HOST_READ)
 			.writes(job->mask, Access::HOST_WRITE)
 			.execute_on_host([this, job](HostContext &p_context) { run(*job, p_context); });

@@ -18,4 +18,33 @@ float interleaved_noise(ivec2 p_pixel) {
 	return fract(52.9829189 * fract(dot(vec2(p_pixel), vec2(0.06711056, 0.00583715))));
 }
 
+/// Two unit vectors perpendicular to a unit vector and to each other (Duff et al. 2017).
+void find_tangents(vec3 p_normal, out vec3 r_x, out vec3 r_y) {
+	const float turn = p_normal.z >= 0.0 ? 1.0 : -1.0;
+	const float a = -1.0 / (turn + p_normal.z);
+	const float b = p_normal.x * p_normal.y * a;
+	r_x = vec3(1.0 + turn * p_normal.x * p_normal.x * a, turn * b, -turn * p_normal.x);
+	r_y = vec3(b, turn + p_normal.y * p_normal.y * a, -p_normal.y);
+}
+
+/// The start of a pixel's random numbers, always the same for the same pixel (pcg2d of Jarzynski,
+/// Olano 2020, Hash functions for GPU rendering).
+uint hash_pixel(uvec2 p_pixel) {
+	uvec2 v = p_pixel * 1664525u + 1013904223u;
+	v.x += v.y * 1664525u;
+	v.y += v.x * 1664525u;
+	v ^= v >> 16u;
+	v.x += v.y * 1664525u;
+	v.y += v.x * 1664525u;
+	v ^= v >> 16u;
+	return v.x;
+}
+
+/// The next of them, evenly in 0..1 without 1 (pcg, ibid.).
+float next_random(inout uint r_state) {
+	r_state = r_state * 747796405u + 2891336453u;
+	const uint word = ((r_state >> ((r_state >> 28u) + 4u)) ^ r_state) * 277803737u;
+	return float(((word >> 22u) ^ word) >> 8u) / 16777216.0;
+}
+
 #endif

@@ -36,9 +36,10 @@ void main() {
 			position_from_depth(frame, pixel, texelFetch(depth_texture, pixel, 0).r);
 	const vec3 to_light = vector_to_light(light, position);
 	const vec4 material = texelFetch(material_texture, pixel, 0);
-	const vec3 reflected = reflect_light(texelFetch(base_color_texture, pixel, 0).rgb, material.a,
-			material.b, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
-			normalize(-position), normalize(to_light));
+	const Surface surface = make_surface(texelFetch(base_color_texture, pixel, 0).rgb, material);
+	const vec3 reflected =
+			reflect_light(surface, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
+					normalize(-position), normalize(to_light));
 	// Exposure before half floats, so that lights of 1e6 cd do not overflow.
 	const vec3 added = reflected * illuminance(light, to_light) * visibility * frame.ambient.a;
 	imageStore(radiance_image, pixel,

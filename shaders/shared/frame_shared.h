@@ -20,7 +20,7 @@ SHARED_OFFSET(FrameConstants, size_px, 112);
 /// Push constants of gbuffer.vert and gbuffer.frag.
 struct SHARED_ALIGN InstancePush {
 	mat4 camera_relative_from_node;
-	vec4 base_color_roughness; // rgb linear
+	vec4 base_color_roughness; // rgb linear; a: -1 - roughness for Phong's model
 	vec4 emissive_metallic;	   // rgb in cd/m^2
 	float scatter;			   // s in 0..1
 	float scatter_distance_m;

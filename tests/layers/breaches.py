@@ -53,6 +53,13 @@ def break_config(root, name, dependencies, layer):
     add_file(root, "modules/%s/config.py" % name, MODULE_CONFIG % (dependencies, layer))
 
 
+def add_filter(root):
+    text = 'MaskFilterRegistry::add({ "mist", "x", [] { return std::make_unique<Mist>(); } });\n'
+    add_module(root, "receiver_mist", ["core", "renderer"], 4)
+    add_file(root, "modules/receiver_mist/register_types.cpp", text)
+    add_file(root, "modules/renderer/a.cpp", 'find("mist");\n')
+
+
 # What is broken, how, and the rule that must notice.
 BREACHES = (
     ("an include from the file's own folder", "check_root_relative_includes",
@@ -83,6 +90,8 @@ BREACHES = (
      lambda root: break_config(root, "mesh_tools", ["core", "rendering_device"], 2)),
     ("mesh_tools on the device by way of the renderer", "check_modules_without_device",
      lambda root: break_config(root, "mesh_tools", ["core", "renderer"], 4)),
+    ("an id of a mask filter in the renderer", "check_technique_names",
+     add_filter),
     ("an id that is no literal", "check_registration_is_readable",
      lambda root: add_file(root, "modules/renderer/register_types.cpp", "ShadowRegistry::add(make_info());\n")),
     ("an id in the renderer", "check_technique_names",

@@ -29,7 +29,10 @@ WITHOUT_DEVICE = ("scene", "mesh_tools")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
-REGISTRATION = re.compile(r"(?:ShadowRegistry::add\s*\(|ShadowTechniqueInfo)[\s\w=({]*?\"([a-z0-9_]+)\"")
+REGISTRATION = re.compile(
+    r"(?:(?:Shadow|MaskFilter)Registry::add\s*\(|ShadowTechniqueInfo|MaskFilterInfo)[\s\w=({]*?\"([a-z0-9_]+)\""
+)
+REGISTRY = re.compile(r"(?:Shadow|MaskFilter)Registry::add")
 CLASS_MADE = re.compile(r"make_unique<\s*(?:gnomon::)?([A-Z]\w+)\s*>")
 
 
@@ -104,7 +107,7 @@ class Tree:
             if path not in self.files:
                 continue
             ids = set(REGISTRATION.findall(self.get_text(path)))
-            if "ShadowRegistry::add" in self.get_text(path):
+            if REGISTRY.search(self.get_text(path)):
                 found[name] = (ids, set(CLASS_MADE.findall(self.get_text(path))))
         return found
 
@@ -192,7 +195,7 @@ def check_registration_is_readable(tree):
 
 
 def check_technique_names(tree):
-    """A technique's id and class occur only where they go when it is deleted."""
+    """The id and class of a technique or mask filter occur only where they go when it is deleted."""
     techniques = tree.find_techniques()
     shown = SOURCES + ("SCsub", "SConstruct", ".json", ".cfg", ".html")
     for path in tree.files:

@@ -1,8 +1,12 @@
+#include "modules/renderer/light_properties.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/mask_filter.h"
 #include "modules/renderer/tests/render_fixture.h"
+#include "modules/scene/node_properties.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
 
 using namespace gnomon;
 
@@ -13,15 +17,21 @@ class QuarterFilter : public MaskFilter {
 public:
 	static inline bool is_needed = true;
 
-	bool plan(const ShadowTechnique::Inputs & /*p_inputs*/, TechniquePlan &r_plan) override {
+	void get_light_properties(PropertyList &r_list) const override {
+		r_list.add({ "quarter_share", PropertyType::FLOAT, 0.25, "0,1,0.25",
+				"What is left of the light." });
+	}
+	bool plan(const ShadowTechnique::Inputs & /*p_inputs*/, const PropertyValues & /*p_values*/,
+			TechniquePlan &r_plan) override {
 		if (!is_needed) {
 			r_plan.leave_out("quarter filter", "not needed");
 		}
 		return is_needed;
 	}
 	RGTexture apply(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-			RGTexture /*p_mask*/) override {
-		return add_constant_mask(r_graph, p_inputs.size_px, 0.25f);
+			const PropertyValues &p_values, RGTexture /*p_mask*/) override {
+		return add_constant_mask(r_graph, p_inputs.size_px,
+				static_cast<float>(std::get<double>(p_values.at("quarter_share"))));
 	}
 	std::vector<std::string> get_shader_files() const override { return {}; }
 };
@@ -43,10 +53,16 @@ TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the pl
 			CHECK(filtered.visibility[index] == 0.25f * filtered.receiver[index]);
 		}
 	}
+	scene.light->properties["quarter_share"] = 0.5;
+	const RenderResult half = fixture.render_mask(scene, any);
+	CHECK(*std::max_element(half.visibility.begin(), half.visibility.end()) == 0.5f);
+	CHECK(find_added_light_property("quarter_share") != nullptr);
+	CHECK(list_node_properties(*scene.light).find("quarter_share") != nullptr);
 	QuarterFilter::is_needed = false;
 	const RenderResult left_out = fixture.render_mask(scene, any);
 	CHECK(left_out.visibility == before.visibility);
 	CHECK(left_out.plan.is_left_out("Light", "quarter filter"));
 	MaskFilterRegistry::remove("quarter");
+	CHECK(find_added_light_property("quarter_share") == nullptr);
 	CHECK(fixture.render_mask(scene, any).visibility == before.visibility);
 }

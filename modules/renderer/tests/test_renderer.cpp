@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
+#include "modules/renderer/light_properties.h"
 #include "modules/renderer/tests/render_fixture.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/core/text.h"
-#include "modules/renderer/light_shadows.h"
+#include "modules/renderer/light_properties.h"
 #include "modules/renderer/tests/render_fixture.h"
 #include "modules/shadow_edge_count/count_visibility.h"
 #include "modules/shadow_edge_count/shadow_edge_count.h"

@@ -1,0 +1,121 @@
+#include "modules/receiver_scatter/receiver_scatter.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/receiver_scatter/scatter_samples.h"
+#include "modules/render_graph/compute_pass.h"
+#include "modules/renderer/gbuffer.h"
+
+#include "receiver_scatter/receiver_scatter_shared.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+const char ENABLED[] = "receiver_scatter_enabled";
+const char METHOD[] = "receiver_scatter_method";
+const char SAMPLES[] = "receiver_scatter_samples";
+const char REFUSAL[] = "receiver_scatter_refusal";
+const std::vector<std::string> METHODS = { "auto", "metres", "pixels" }; // SCATTER_METHOD_*
+const std::vector<std::string> REFUSALS = { "auto", "on", "off" };		 // SCATTER_REFUSAL_*
+
+uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
+		const std::vector<std::string> &p_choices) {
+	const std::string &value = std::get<std::string>(p_properties.at(p_name));
+	return static_cast<uint32_t>(
+			std::find(p_choices.begin(), p_choices.end(), value) - p_choices.begin());
+}
+
+/// Is there a translucent surface that the camera may see, of whichever method?
+bool has_scatter(const ShadowTechnique::Inputs &p_inputs) {
+	const LightView camera_view = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
+	return std::any_of(p_inputs.scene.instances.begin(), p_inputs.scene.instances.end(),
+			[&](const InstanceSnapshot &p_instance) {
+				return clamp_scatter(p_instance.material->scatter) > 0.0f &&
+						camera_view.may_see(p_instance.bounds_world);
+			});
+}
+
+} // namespace
+
+void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
+	const char GROUP[] = "Receiver scatter";
+	r_list.add({ ENABLED, PropertyType::BOOL, true, "",
+			"Whether shadows soften on materials whose scatter is above 0.", "", GROUP });
+	r_list.add({ METHOD, PropertyType::ENUM, std::string("auto"), "auto,metres,pixels",
+			"How wide shadows soften: metres = scatter times the material's scatter_distance, "
+			"pixels = "
+			"16 times scatter, auto = metres where the material has a scatter_distance.",
+			"", GROUP });
+	r_list.add({ SAMPLES, PropertyType::INT, int64_t(48), "8,1024,8",
+			"Samples per pixel; in pixels that many at scatter 0.5, and twice at 1. Few make "
+			"noise, "
+			"many cost time.",
+			"", GROUP });
+	r_list.add({ REFUSAL, PropertyType::ENUM, std::string("auto"), "auto,on,off",
+			"Whether samples on other surfaces are left out, so that light does not leak between "
+			"them; auto = in metres only, as the paper's pixels take all.",
+			"", GROUP });
+}
+
+bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
+		const PropertyValues &p_properties, TechniquePlan &r_plan) {
+	if (!std::get<bool>(p_properties.at(ENABLED))) {
+		r_plan.leave_out("scatter", text(ENABLED, " is false"));
+		return false;
+	}
+	if (p_inputs.may_leave_out && !has_scatter(p_inputs)) {
+		r_plan.leave_out("scatter", "no visible surface scatters");
+		return false;
+	}
+	r_plan.run("scatter");
+	return true;
+}
+
+RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const PropertyValues &p_properties, RGTexture p_mask) {
+	shader::ReceiverScatterPush push = {};
+	push.sample_count = static_cast<uint32_t>(std::get<int64_t>(p_properties.at(SAMPLES)));
+	push.sector_count = compute_sector_count(push.sample_count);
+	push.method = find_choice(p_properties, METHOD, METHODS);
+	push.refusal = find_choice(p_properties, REFUSAL, REFUSALS);
+	const std::vector<glm::vec2> points = make_scatter_samples(spread, push.sample_count);
+	const RGBuffer samples = r_graph.upload(
+			"scatter samples", BufferUsage::STORAGE, bytes_of(std::span<const glm::vec2>(points)));
+	const auto add_pass = [&](const char *p_name, const char *p_shader,
+								  std::vector<PassBinding> p_own_bindings) {
+		TextureDesc desc = r_graph.get_desc(p_mask);
+		desc.name = "scattered mask";
+		desc.usage = TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE;
+		const RGTexture result = r_graph.create_texture(desc);
+		std::vector<PassBinding> bindings = std::move(p_own_bindings);
+		bindings.insert(bindings.end(),
+				{
+						PassBinding::constants(SCATTER_BINDING_FRAME, p_inputs.frame),
+						PassBinding::read(SCATTER_BINDING_DEPTH, p_inputs.depth),
+						PassBinding::read(SCATTER_BINDING_NORMAL, p_inputs.geometric_normal),
+						PassBinding::read(SCATTER_BINDING_MATERIAL, p_inputs.material),
+						PassBinding::read(SCATTER_BINDING_RECEIVERS, p_inputs.receivers),
+						PassBinding::read(SCATTER_BINDING_MASK, p_mask),
+						PassBinding::write(SCATTER_BINDING_RESULT, result),
+				});
+		add_compute_pass(r_graph, p_name,
+				p_inputs.device.get_compute_pipeline({ p_name, p_shader, {} }), std::move(bindings),
+				p_inputs.size_px, push);
+		p_mask = result;
+	};
+	add_pass("scatter", "receiver_scatter/spread.comp",
+			{ PassBinding::read(SCATTER_BINDING_SAMPLES, samples) });
+	if (push.method != SCATTER_METHOD_PIXELS) {
+		add_pass("scatter average", "receiver_scatter/average.comp", {});
+	}
+	return p_mask;
+}
+
+std::vector<std::string> ReceiverScatter::get_shader_files() const {
+	return { "receiver_scatter/spread.comp", "receiver_scatter/average.comp" };
+}
+
+} // namespace gnomon

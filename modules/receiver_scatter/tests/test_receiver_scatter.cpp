@@ -1,0 +1,342 @@
+#include "modules/receiver_scatter/dipole_spread.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+std::shared_ptr<const Material> make_wax(float p_scatter, float p_distance_m) {
+	auto material = std::make_shared<Material>();
+	material->scatter = p_scatter;
+	material->scatter_distance_m = p_distance_m;
+	return material;
+}
+
+/// A technique with sharp edges, so that all softness is the filter's.
+std::string find_technique() {
+	return ShadowRegistry::find_default()->id;
+}
+
+/// The hard shadow of half a plane, straight below a light, on a translucent ground that fills the
+/// picture of a camera that looks straight down.
+struct EdgeScene : SmallScene {
+	EdgeScene(float p_scatter, float p_distance_m) : SmallScene(LightType::DIRECTIONAL) {
+		ground->surfaces[0].material = make_wax(p_scatter, p_distance_m);
+		box->surfaces[0].mesh = make_box_mesh("half plane", glm::vec3(3.0f, 0.01f, 3.0f));
+		box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(-3.0, 8.0, 0.0));
+		light->parent_from_node = look_at(glm::dvec3(0, 5, 0), glm::dvec3(0));
+		light->properties["light_angular_distance"] = 0.0;
+		const glm::dmat4 down = glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), { 1, 0, 0 });
+		camera->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 4, 0)) * down;
+	}
+
+	/// What each column of the picture sees, and how far it is from the edge.
+	static float get_x_m(uint32_t p_column, uint32_t p_size_px) {
+		const float half_m = 4.0f * std::tan(0.5f * 0.785398163f);
+		return half_m * ((p_column + 0.5f) / p_size_px * 2.0f - 1.0f);
+	}
+	static float compute_column(const RenderResult &p_result, uint32_t p_column) {
+		const uint32_t size_px =
+				static_cast<uint32_t>(std::lround(std::sqrt(double(p_result.visibility.size()))));
+		double sum = 0;
+		for (uint32_t row = size_px / 4; row < 3 * size_px / 4; ++row) {
+			sum += p_result.visibility[row * size_px + p_column];
+		}
+		return static_cast<float>(sum / (size_px / 2));
+	}
+};
+
+/// What a hard edge looks like after a spread: the share of the light from beyond it.
+double compute_edge(double p_x_radii) {
+	const DipoleSpread spread;
+	const int STEPS = 20000;
+	double beyond = 0;
+	for (int i = 0; i < STEPS; ++i) {
+		const double distance = spread.compute_distance((i + 0.5f) / STEPS);
+		const double cosine = std::abs(p_x_radii) / distance;
+		beyond += cosine < 1 ? std::acos(cosine) / 3.14159265358979 / STEPS : 0;
+	}
+	return p_x_radii > 0 ? 1 - beyond : beyond;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][ReceiverScatter] a sharp edge on a flat body becomes the dipole's, in metres") {
+	RenderFixture fixture;
+	EdgeScene scene(0.5f, 1.0f); // a radius of half a metre
+	const RenderResult result = fixture.render_mask(scene, find_technique(), glm::uvec2(128));
+	CHECK(is_valid_mask(result));
+	double error = 0;
+	double largest = 0;
+	for (uint32_t column = 0; column < 128; ++column) {
+		const double x_m = EdgeScene::get_x_m(column, 128);
+		const double difference =
+				std::abs(EdgeScene::compute_column(result, column) - compute_edge(x_m / 0.5));
+		error += difference / 128;
+		largest = std::max(largest, difference);
+	}
+	MESSAGE("mean error ", error, ", largest ", largest);
+	CHECK(error < 0.004);
+	CHECK(largest < 0.03);
+	// Every row sees the same edge: what differs is noise.
+	double noise = 0;
+	for (uint32_t column = 32; column < 96; ++column) {
+		for (uint32_t row = 32; row < 96; ++row) {
+			noise += std::abs(result.visibility[row * 128 + column] -
+							 EdgeScene::compute_column(result, column)) /
+					(64 * 64);
+		}
+	}
+	CHECK(noise < 0.002);
+}
+
+TEST_CASE("[GPU][ReceiverScatter] the reference integrates the same edge") {
+	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
+	REQUIRE(reference != nullptr);
+	RenderFixture fixture;
+	EdgeScene scene(0.5f, 1.0f);
+	scene.light->properties[reference->id + "_samples"] = int64_t(4096);
+	const RenderResult result = fixture.render_mask(scene, reference->id, glm::uvec2(32));
+	for (uint32_t column = 0; column < 32; ++column) {
+		const double x_m = EdgeScene::get_x_m(column, 32);
+		CAPTURE(x_m);
+		CHECK(EdgeScene::compute_column(result, column) ==
+				doctest::Approx(compute_edge(x_m / 0.5)).epsilon(0.004));
+	}
+	CHECK(result.standard_error > 0);
+	CHECK(result.standard_error < 0.01);
+}
+
+TEST_CASE("[GPU][ReceiverScatter] in metres the edge is as wide at every resolution") {
+	RenderFixture fixture;
+	EdgeScene scene(0.5f, 0.8f);
+	const RenderResult coarse = fixture.render_mask(scene, find_technique(), glm::uvec2(64));
+	const RenderResult fine = fixture.render_mask(scene, find_technique(), glm::uvec2(256));
+	double difference = 0;
+	for (uint32_t column = 4; column < 60; ++column) {
+		double mean = 0;
+		for (uint32_t part = 0; part < 4; ++part) {
+			mean += EdgeScene::compute_column(fine, 4 * column + part) / 4;
+		}
+		CAPTURE(column);
+		const float value = EdgeScene::compute_column(coarse, column);
+		CHECK(std::abs(value - mean) < 0.04); // the radius is 8 pixels
+		difference += std::abs(value - mean) / 56;
+	}
+	CHECK(difference < 0.01);
+}
+
+TEST_CASE(
+		"[GPU][ReceiverScatter] the source's disc reaches 16 s pixels and weighs near ones more") {
+	RenderFixture fixture;
+	for (const float scatter : { 0.15f, 0.5f, 0.8f, 1.0f }) {
+		CAPTURE(scatter);
+		EdgeScene scene(scatter, 0.0f);
+		scene.light->properties["receiver_scatter_samples"] = int64_t(1024);
+		const RenderResult result = fixture.render_mask(scene, find_technique(), glm::uvec2(128));
+		CHECK(is_valid_mask(result));
+		const double radius_px = 16 * scatter;
+		float last = 0;
+		for (uint32_t column = 0; column < 128; ++column) {
+			const double x_px = double(column) + 0.5 - 64; // from the edge
+			const float value = EdgeScene::compute_column(result, column);
+			CAPTURE(x_px);
+			if (std::abs(x_px) > radius_px + 1.5) { // points are rounded to pixels
+				CHECK(value == (x_px > 0 ? 1.0f : 0.0f));
+			}
+			CHECK(value >= last - 0.02f);
+			last = value;
+		}
+		// A disc of even weight would have 0.391 of its light beyond a line at 0.17 R.
+		const uint32_t near_column = static_cast<uint32_t>(64 - std::lround(0.17 * radius_px) - 1);
+		CHECK(EdgeScene::compute_column(result, near_column) < 0.39f);
+		// It does reach most of the way that it may.
+		const uint32_t far_column = static_cast<uint32_t>(64 - std::lround(0.7 * radius_px));
+		CHECK(EdgeScene::compute_column(result, far_column) > 0.0f);
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] opaque receivers stay to the bit as they are") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult before = fixture.render_mask(scene, find_technique());
+	CHECK(before.plan.is_left_out("Light", "scatter"));
+	const RenderResult whole = fixture.render_mask(scene, find_technique(), glm::uvec2(64), false);
+	CHECK_FALSE(whole.plan.is_left_out("Light", "scatter"));
+	CHECK(whole.visibility == before.visibility);
+	// Another surface that scatters changes nothing on the ground, unless it is seen there.
+	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);
+	const RenderResult wax = fixture.render_mask(scene, find_technique());
+	CHECK_FALSE(wax.plan.is_left_out("Light", "scatter"));
+	scene.light->properties["receiver_scatter_enabled"] = false;
+	const RenderResult disabled = fixture.render_mask(scene, find_technique());
+	CHECK(disabled.plan.is_left_out("Light", "scatter"));
+	CHECK(disabled.visibility == before.visibility);
+	// Out of sight it is left out, with the same picture.
+	scene.light->properties.erase("receiver_scatter_enabled");
+	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 40, 0));
+	const RenderResult hidden = fixture.render_mask(scene, find_technique());
+	CHECK(hidden.plan.is_left_out("Light", "scatter"));
+	CHECK(hidden.visibility ==
+			fixture.render_mask(scene, find_technique(), glm::uvec2(64), false).visibility);
+}
+
+TEST_CASE("[GPU][ReceiverScatter] every opaque pixel beside a translucent body keeps its bits") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult before = fixture.render_mask(scene, find_technique());
+	scene.box->surfaces[0].material = make_wax(1.0f, 0.5f);
+	const RenderResult after = fixture.render_mask(scene, find_technique());
+	scene.scene.root->remove_child(*scene.box);
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(64);
+	request.mask_light = scene.light->name;
+	request.wants_mask = request.wants_surfaces = true;
+	const RenderResult empty = fixture.renderer->render(request);
+	size_t count = 0;
+	for (size_t index = 0; index < before.visibility.size(); ++index) {
+		const SurfacePoint &surface = empty.surfaces[index];
+		// On the ground where the box does not stand before it.
+		const bool is_ground = surface.is_there && before.receiver[index] > 0 &&
+				before.visibility[index] > 0 && before.visibility[index] < 1;
+		count += is_ground;
+		if (is_ground) {
+			CHECK(after.visibility[index] == before.visibility[index]);
+		}
+	}
+	CHECK(count > 50);
+}
+
+TEST_CASE("[GPU][ReceiverScatter] light does not leak between surfaces, unless it is told to") {
+	// A translucent pillar before a translucent ground: neighbours in the picture, far in space.
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.ground->surfaces[0].material = make_wax(1.0f, 0.4f);
+	scene.box->surfaces[0].material = make_wax(0.999f, 0.4f);
+	for (const char *method : { "metres", "pixels" }) {
+		CAPTURE(method);
+		scene.light->properties["receiver_scatter_method"] = std::string(method);
+		scene.light->properties["receiver_scatter_refusal"] = std::string("on");
+		const RenderResult refusing = fixture.render_mask(scene, find_technique(), glm::uvec2(128));
+		scene.light->properties["receiver_scatter_refusal"] = std::string("off");
+		const RenderResult taking = fixture.render_mask(scene, find_technique(), glm::uvec2(128));
+		CHECK(is_valid_mask(refusing));
+		CHECK(is_valid_mask(taking));
+		// The box's top sees all of the light: nothing beside it may darken it.
+		RenderRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(128);
+		request.mask_light = scene.light->name;
+		request.wants_mask = request.wants_surfaces = true;
+		const std::vector<SurfacePoint> surfaces = fixture.renderer->render(request).surfaces;
+		double refusing_loss = 0;
+		double taking_loss = 0;
+		for (size_t index = 0; index < surfaces.size(); ++index) {
+			if (surfaces[index].material.scatter < 1.0f &&
+					surfaces[index].material.scatter > 0.0f &&
+					surfaces[index].geometric_normal.y > 0.9f) {
+				refusing_loss += 1 - refusing.visibility[index];
+				taking_loss += 1 - taking.visibility[index];
+			}
+		}
+		CHECK(refusing_loss == doctest::Approx(0));
+		CHECK(taking_loss > 1);
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] each of several lights has its own spread") {
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.ground->surfaces[0].material = make_wax(0.8f, 0.5f);
+	Light3D &second = scene.add_light("Second", LightType::OMNI, { -2, 3, 1 }, { 0, 0, 0 });
+	const RenderResult one = fixture.render_mask(scene, find_technique());
+	second.properties["receiver_scatter_enabled"] = false;
+	CHECK(fixture.render_mask(scene, find_technique()).visibility == one.visibility);
+	scene.light = &second;
+	const RenderResult off = fixture.render_mask(scene, find_technique());
+	second.properties["receiver_scatter_enabled"] = true;
+	const RenderResult on = fixture.render_mask(scene, find_technique());
+	CHECK(compute_mask_difference(off, on) > 0.002);
+	CHECK_NOTHROW(fixture.render_picture(scene));
+}
+
+TEST_CASE("[GPU][ReceiverScatter] extreme materials and pictures give valid masks") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult opaque = fixture.render_mask(scene, find_technique());
+	const auto render = [&](float p_scatter, float p_distance_m, glm::uvec2 p_size_px) {
+		scene.ground->surfaces[0].material = make_wax(p_scatter, p_distance_m);
+		return fixture.render_mask(scene, find_technique(), p_size_px);
+	};
+	for (const float scatter : { 0.0f, NOT_A_NUMBER, -1.0f }) {
+		CAPTURE(scatter);
+		CHECK(render(scatter, 0.5f, glm::uvec2(64)).visibility == opaque.visibility);
+	}
+	for (const float scatter : { 1e-4f, 1.0f, 5.0f, INFINITE }) {
+		for (const float distance_m : { 0.0f, 1e-6f, 0.5f, 1e4f, INFINITE, NOT_A_NUMBER }) {
+			CAPTURE(scatter);
+			CAPTURE(distance_m);
+			CHECK(is_valid_mask(render(scatter, distance_m, glm::uvec2(64))));
+		}
+	}
+	// A radius far below a pixel changes nothing that is to be seen.
+	CHECK(compute_mask_difference(render(1.0f, 1e-5f, glm::uvec2(64)), opaque) < 1e-3);
+	for (const glm::uvec2 size_px :
+			{ glm::uvec2(1, 1), glm::uvec2(1, 64), glm::uvec2(64, 1), glm::uvec2(3, 5) }) {
+		CAPTURE(size_px.x);
+		CAPTURE(size_px.y);
+		for (const float distance_m : { 0.0f, 0.5f }) {
+			CHECK(is_valid_mask(render(1.0f, distance_m, size_px)));
+		}
+	}
+	// Everything lit stays lit up to the picture's border: what lies outside does not count.
+	scene.box->casts_shadow = false;
+	for (const float distance_m : { 0.0f, 2.0f }) {
+		const RenderResult lit = render(1.0f, distance_m, glm::uvec2(64));
+		size_t dark_count = 0;
+		for (size_t index = 0; index < lit.visibility.size(); ++index) {
+			// Half floats, and the box's own sides, which face away from the light.
+			dark_count += lit.receiver[index] > 0 && lit.visibility[index] < 0.999f;
+		}
+		CAPTURE(distance_m);
+		CHECK(dark_count == (distance_m > 0 ? 0 : dark_count));
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] a receiver of one pixel keeps its own mask") {
+	RenderFixture fixture;
+	SmallScene scene;
+	// Crumbs so small that each shows in a pixel or none.
+	const auto crumb = make_box_mesh("crumb", glm::vec3(0.02f));
+	for (int i = 0; i < 9; ++i) {
+		MeshInstance3D &node = add_mesh(scene.scene, "Crumb " + std::to_string(i), crumb,
+				glm::dvec3(-0.8 + 0.2 * i, 0.3, 0.9));
+		node.surfaces[0].material = make_wax(1.0f, 0.01f * float(i + 1));
+	}
+	for (const char *method : { "metres", "pixels" }) {
+		scene.light->properties["receiver_scatter_method"] = std::string(method);
+		scene.light->properties["receiver_scatter_refusal"] = std::string("on");
+		CHECK(is_valid_mask(fixture.render_mask(scene, find_technique(), glm::uvec2(48))));
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] the same frame twice is the same to the bit") {
+	RenderFixture fixture;
+	SmallScene scene;
+	for (const float distance_m : { 0.0f, 0.5f }) {
+		scene.ground->surfaces[0].material = make_wax(0.7f, distance_m);
+		const RenderResult first = fixture.render_mask(scene, find_technique());
+		CHECK(fixture.render_mask(scene, find_technique()).visibility == first.visibility);
+	}
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace gnomon {
+
+class EmbreeScene;
+
+/// The light as the truth sees it. Lengths in metres, in the space of the triangles.
+struct AreaLight {
+	bool is_directional = false;
+	glm::vec3 position = glm::vec3(0.0f);	   // L, the disc's centre; spot and omni
+	glm::vec3 direction = glm::vec3(0, -1, 0); // towards which it shines; any length above 0
+	/// 0..1e18. Spot and omni: R; the disc at L is perpendicular to L - P. Directional: the tangent
+	/// of half the apparent diameter; the disc lies at unit distance. 0: a hard shadow, one ray.
+	float disc_radius = 0.0f;
+	float range_m = 0.0f;	 // 0 = unlimited
+	float cos_outer = -1.0f; // of the spot's outer half angle; -1: it shines all round
+
+	/// Does the light reach a surface there, without its shadow? light_inc.glsl's is_receiver.
+	bool reaches(const glm::vec3 &p_position, const glm::vec3 &p_normal) const;
+};
+
+/// Towards the light's disc from the start of rays: centre + x basis_x + y basis_y, for (x, y) on
+/// the unit disc. Rays are cut at `end`.
+struct DiscView {
+	glm::vec3 origin = glm::vec3(0.0f);
+	glm::vec3 centre = glm::vec3(0.0f);	 // relative to the origin
+	glm::vec3 basis_x = glm::vec3(0.0f); // length: the disc's radius
+	glm::vec3 basis_y = glm::vec3(0.0f);
+	float end = 1.0f;
+
+	glm::vec3 compute_ray(float p_x, float p_y) const {
+		return centre + p_x * basis_x + p_y * basis_y;
+	}
+};
+
+/// From a point moved by p_offset_m along its normal. False where v is known without rays:
+/// r_visibility is then 0 for what is not finite, 1 exactly on the light.
+bool find_disc_view(const AreaLight &p_light, const glm::vec3 &p_position,
+		const glm::vec3 &p_normal, float p_offset_m, DiscView &r_view, float &r_visibility);
+
+/// Two unit vectors perpendicular to a unit vector and to each other (Duff et al. 2017).
+void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y);
+
+bool is_finite(const glm::vec3 &p_value);
+
+} // namespace gnomon

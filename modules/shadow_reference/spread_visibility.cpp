@@ -1,0 +1,124 @@
+#include "modules/shadow_reference/spread_visibility.h"
+
+#include "modules/shadow_reference/disc_samples.h"
+#include "modules/shadow_reference/embree_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+constexpr float TWO_PI = 6.283185307f;
+constexpr float BODY_REACH = 20.0f; // in start offsets: a receiver is that near to its body
+
+/// Points of the four-dimensional unit cube, even for every count: Roberts' generalised golden
+/// ratio, an additive sequence whose steps are powers of the root of x^5 = x + 1, begun anywhere.
+/// 32-bit fractions, so that thousands of steps lose nothing.
+class EvenPoints {
+public:
+	explicit EvenPoints(uint64_t p_hash) {
+		for (uint32_t axis = 0; axis < 4; ++axis) {
+			places[axis] = static_cast<uint32_t>(mix_bits(p_hash + axis) >> 32);
+		}
+	}
+	void step() {
+		static constexpr uint32_t STEPS[4] = { 3679390609u, 3152041523u, 2700274806u, 2313257605u };
+		for (uint32_t axis = 0; axis < 4; ++axis) {
+			places[axis] += STEPS[axis];
+		}
+	}
+	/// In 0..1, without 1.
+	float get(uint32_t p_axis) const { return static_cast<float>(places[p_axis] >> 8) * 0x1p-24f; }
+
+private:
+	uint32_t places[4];
+};
+
+} // namespace
+
+SpreadVisibility::SpreadVisibility(
+		std::span<const SpreadBody> p_bodies, const SurfaceSpread &p_spread) :
+		spread(p_spread) {
+	for (const SpreadBody &body : p_bodies) {
+		bodies.push_back(std::make_unique<EmbreeScene>(body.positions, body.indices));
+	}
+}
+
+SpreadVisibility::~SpreadVisibility() = default;
+
+/// The body on which the receiver lies; null: none is as near.
+const EmbreeScene *SpreadVisibility::find_body(
+		const SpreadReceiver &p_receiver, float p_reach_m) const {
+	const EmbreeScene *nearest = nullptr;
+	float nearest_m = 2.0f * p_reach_m;
+	const glm::vec3 start = p_receiver.position + p_reach_m * p_receiver.normal;
+	for (const std::unique_ptr<EmbreeScene> &body : bodies) {
+		const SurfaceHit hit = body->find_nearest(start, -p_receiver.normal, nearest_m);
+		if (hit.is_there) {
+			nearest_m = hit.distance;
+			nearest = body.get();
+		}
+	}
+	return nearest;
+}
+
+std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const EmbreeScene &p_body,
+		const SpreadReceiver &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m) {
+	// Both ways begin a little before the plane, so that a flat body is not missed.
+	const glm::vec3 up = p_receiver.normal;
+	const float reach_m = p_receiver.radius_m + p_offset_m;
+	const SurfaceHit below = p_body.find_nearest(p_on_plane + p_offset_m * up, -up, reach_m);
+	const SurfaceHit above = p_body.find_nearest(
+			p_on_plane - p_offset_m * up, up, below.is_there ? below.distance : reach_m);
+	const SurfaceHit &hit = above.is_there ? above : below;
+	const float facing = glm::dot(hit.normal, up);
+	if (!hit.is_there || facing == 0.0f) {
+		return std::nullopt;
+	}
+	const float height_m = (hit.distance - p_offset_m) * (above.is_there ? 1.0f : -1.0f);
+	return Point{ p_on_plane + height_m * up, facing > 0.0f ? hit.normal : -hit.normal };
+}
+
+SpreadMean SpreadVisibility::compute(const EmbreeScene &p_casters, const AreaLight &p_light,
+		const SpreadReceiver &p_receiver, float p_offset_m, uint32_t p_sample_count,
+		uint64_t p_hash) const {
+	SpreadMean mean;
+	const EmbreeScene *body = find_body(p_receiver, BODY_REACH * p_offset_m);
+	glm::vec3 axis_x;
+	glm::vec3 axis_y;
+	find_basis(p_receiver.normal, axis_x, axis_y);
+	for (uint32_t half = 0; half < 2; ++half) {
+		EvenPoints points(mix_bits(p_hash ^ (half + 1)));
+		for (uint32_t i = half; i < p_sample_count; i += 2) {
+			points.step();
+			const float distance_m = p_receiver.radius_m * spread.compute_distance(points.get(0));
+			const float angle_rad = TWO_PI * points.get(1);
+			const glm::vec3 on_plane = p_receiver.position +
+					distance_m * (std::cos(angle_rad) * axis_x + std::sin(angle_rad) * axis_y);
+			std::optional<Point> point = Point{ on_plane, p_receiver.normal };
+			if (body != nullptr) {
+				point = find_point(*body, p_receiver, on_plane, p_offset_m);
+			}
+			if (!point || !p_light.reaches(point->position, point->normal)) {
+				continue;
+			}
+			mean.counts[half] += 1;
+			DiscView view;
+			float visibility = 0.0f;
+			if (find_disc_view(
+						p_light, point->position, point->normal, p_offset_m, view, visibility)) {
+				const float radius = std::sqrt(points.get(2));
+				const float turn_rad = TWO_PI * points.get(3);
+				const glm::vec3 ray =
+						view.compute_ray(radius * std::cos(turn_rad), radius * std::sin(turn_rad));
+				visibility = p_casters.is_occluded(view.origin, ray, view.end) ? 0.0f : 1.0f;
+			}
+			mean.visible_counts[half] += visibility;
+		}
+	}
+	return mean;
+}
+
+} // namespace gnomon

@@ -1,0 +1,45 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "receiver_scatter/receiver_inc.glsl"
+
+// Averages the neighbours of spread.comp, which took their samples from different sets. A block's width
+// and one pixel more each way, the outer ones by half, hold every set equally often and shift nothing.
+layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
+
+const float SMALLEST_COSINE = 0.7; // between the normals of neighbours; a box's edge is 0
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	vec3 mask = load_mask(pixel);
+	Receiver receiver;
+	int reach = 0;
+	if (load_receiver(pixel, receiver) && is_metric(receiver)) {
+		reach = find_block_width(receiver) / 2;
+	}
+	if (reach > 0) {
+		vec3 sum = vec3(0.0);
+		float weight_sum = 0.0;
+		for (int y = -reach; y <= reach; ++y) {
+			for (int x = -reach; x <= reach; ++x) {
+				const ivec2 other = pixel + ivec2(x, y);
+				Receiver neighbour;
+				if (!is_in_picture(other) || !load_receiver(other, neighbour) ||
+						!is_same_material(receiver, neighbour) ||
+						dot(neighbour.normal, receiver.normal) < SMALLEST_COSINE ||
+						abs(dot(neighbour.position - receiver.position, receiver.normal)) >
+								float(reach) * receiver.pixel_size_m) {
+					continue;
+				}
+				const float weight = (abs(x) == reach ? 0.5 : 1.0) * (abs(y) == reach ? 0.5 : 1.0);
+				sum += weight * load_mask(other);
+				weight_sum += weight;
+			}
+		}
+		mask = sum / weight_sum; // the pixel itself always counts
+	}
+	imageStore(result_image, pixel, vec4(mask, 1.0));
+}

@@ -1,0 +1,22 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "receiver_scatter/dipole_inc.glsl"
+#include "receiver_scatter/disc_inc.glsl"
+
+// The mask's mean about each translucent receiver.
+layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (!is_in_picture(pixel)) {
+		return;
+	}
+	vec3 mask = load_mask(pixel);
+	Receiver receiver;
+	if (load_receiver(pixel, receiver)) {
+		mask = is_metric(receiver) ? spread_in_metres(pixel, receiver)
+								   : spread_in_pixels(pixel, receiver);
+	}
+	imageStore(result_image, pixel, vec4(mask, 1.0));
+}

@@ -1,0 +1,116 @@
+#include "tests/shaders/kernel_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr double PI = 3.14159265358979;
+
+/// Radians from the normal, and the viewer's turn about it away from the light's side.
+struct Directions {
+	double light = 0;
+	double viewer = 0;
+	double turn = 0;
+};
+
+/// s, roughness (-1 - roughness: Phong's model), metallic.
+struct Case {
+	float scatter = 0;
+	float roughness = 0.5f;
+	float metallic = 0;
+	glm::vec3 base_color = glm::vec3(0.8f);
+};
+
+std::vector<double> reflect(
+		KernelFixture &r_fixture, const Case &p_case, const std::vector<Directions> &p_directions) {
+	std::vector<glm::vec4> input;
+	for (const Directions &directions : p_directions) {
+		input.push_back(glm::vec4(p_case.scatter, 0.0f, p_case.roughness, p_case.metallic));
+		input.push_back(glm::vec4(p_case.base_color, 1.0f));
+		input.push_back(glm::vec4(directions.light, directions.viewer, directions.turn, 0.0));
+	}
+	std::vector<double> values;
+	for (const glm::vec4 &result : r_fixture.run("brdf.comp", input, p_directions.size(), 1)) {
+		values.push_back(result.x);
+	}
+	return values;
+}
+
+/// The share of the light from one direction that leaves in any.
+double compute_reflected_share(KernelFixture &r_fixture, const Case &p_case, double p_light) {
+	const int STEPS = 96;
+	std::vector<Directions> directions;
+	std::vector<double> weights;
+	for (int i = 0; i < STEPS; ++i) {
+		for (int k = 0; k < STEPS; ++k) {
+			const double viewer = (i + 0.5) * 0.5 * PI / STEPS;
+			directions.push_back({ p_light, viewer, (k + 0.5) * PI / STEPS });
+			weights.push_back(
+					std::sin(viewer) * std::cos(viewer) * (0.5 * PI / STEPS) * (2 * PI / STEPS));
+		}
+	}
+	const std::vector<double> values = reflect(r_fixture, p_case, directions);
+	double sum = 0;
+	for (size_t index = 0; index < values.size(); ++index) {
+		sum += values[index] * weights[index] / std::cos(p_light);
+	}
+	return sum;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Brdf] a white surface reflects about as much light as it gets") {
+	KernelFixture fixture;
+	for (const float roughness : { 0.3f, 0.6f, 1.0f, -1.3f, -1.6f, -2.0f }) {
+		for (const float scatter : { 0.0f, 0.5f, 1.0f }) {
+			for (const double light : { 0.1, 0.8, 1.3 }) {
+				CAPTURE(roughness);
+				CAPTURE(scatter);
+				CAPTURE(light);
+				const double share = compute_reflected_share(
+						fixture, { scatter, roughness, 0.0f, glm::vec3(1.0f) }, light);
+				CHECK(share > 0.5);
+				// Neither glTF's sum of lobes nor Burley's lobe is normalised at grazing light.
+				CHECK(share < (light > 1 ? 1.4 : 1.1));
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][Brdf] what is reflected does not change when light and viewer change places") {
+	KernelFixture fixture;
+	for (const float roughness : { 0.4f, -1.4f }) {
+		for (const float scatter : { 0.0f, 0.7f }) {
+			const std::vector<double> values = reflect(
+					fixture, { scatter, roughness }, { { 0.3, 1.1, 0.4 }, { 1.1, 0.3, 0.4 } });
+			CHECK(values[0] / std::cos(0.3) == doctest::Approx(values[1] / std::cos(1.1)));
+		}
+	}
+}
+
+TEST_CASE("[GPU][Brdf] Phong's highlight lies where a mirror would send the light") {
+	KernelFixture fixture;
+	const std::vector<double> values = reflect(fixture, { 0.0f, -1.3f },
+			{ { 0.5, 0.5, PI }, { 0.5, 0.45, PI }, { 0.5, 0.55, PI }, { 0.5, 0.5, 0.0 } });
+	CHECK(values[0] > values[1]);
+	CHECK(values[1] == doctest::Approx(values[2]).epsilon(1e-3));
+	CHECK(values[3] < 0.5 * values[0]);
+	// Away from it a rough Phong surface is Lambert's.
+	CHECK(values[3] == doctest::Approx(0.96 * 0.8 / PI * std::cos(0.5)).epsilon(0.05));
+}
+
+TEST_CASE("[GPU][Brdf] a translucent surface shines more evenly than an opaque one") {
+	KernelFixture fixture;
+	const std::vector<Directions> directions = { { 0.2, 0.4, 1.0 }, { 1.35, 0.4, 1.0 } };
+	const std::vector<double> opaque = reflect(fixture, { 0.0f, 1.0f }, directions);
+	const std::vector<double> half = reflect(fixture, { 0.5f, 1.0f }, directions);
+	const std::vector<double> wax = reflect(fixture, { 1.0f, 1.0f }, directions);
+	CHECK(wax[1] / wax[0] > 1.1 * opaque[1] / opaque[0]);
+	CHECK(half[0] == doctest::Approx(0.5 * (opaque[0] + wax[0])).epsilon(1e-3));
+	// No light reaches what is turned away.
+	CHECK(reflect(fixture, { 1.0f, 1.0f }, { { 1.6, 0.4, 1.0 } })[0] == 0);
+}
