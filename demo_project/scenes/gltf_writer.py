@@ -201,8 +201,8 @@ class Document:
         self.root["accessors"].append(accessor)
         return len(self.root["accessors"]) - 1
 
-    def add_material(self, name, color, roughness=0.7, metallic=0.0, is_double_sided=False):
-        """Colour is linear."""
+    def add_material(self, name, color, roughness=0.7, metallic=0.0, is_double_sided=False, extras=None):
+        """Colour is linear. extras: scatter, scatter_distance, shading_model."""
         material = {
             "name": name,
             "pbrMetallicRoughness": {
@@ -213,6 +213,8 @@ class Document:
         }
         if is_double_sided:
             material["doubleSided"] = True
+        if extras:
+            material["extras"] = extras
         self.root["materials"].append(material)
         return len(self.root["materials"]) - 1
 
@@ -273,11 +275,12 @@ class Document:
         rotation = None if light["type"] == "point" else quaternion_look_at(eye, target)
         self.add_node(name, eye, rotation, extensions=extension)
 
-    def build_files(self, stem):
-        """File name -> bytes of the .gltf and the .bin."""
-        self.root["buffers"] = [{"uri": stem + ".bin", "byteLength": len(self.binary)}]
+    def build_files(self, stem, binary_stem=None):
+        """File name -> bytes of the .gltf and the .bin, which scenes of the same meshes may share."""
+        binary = (binary_stem or stem) + ".bin"
+        self.root["buffers"] = [{"uri": binary, "byteLength": len(self.binary)}]
         text = json.dumps(self.root, indent="\t", allow_nan=False) + "\n"
-        return {stem + ".gltf": text.encode("utf-8"), stem + ".bin": bytes(self.binary)}
+        return {stem + ".gltf": text.encode("utf-8"), binary: bytes(self.binary)}
 
 
 def save_files(files, folder):

@@ -20,7 +20,9 @@ from shapes import (
     make_cylinder,
     make_icosphere,
     make_sheet,
+    make_teapot,
     make_terrain,
+    make_torus,
     make_torus_knot,
 )
 
@@ -44,6 +46,10 @@ MOSS = (0.28, 0.46, 0.12)
 SKY = (0.22, 0.46, 0.80)
 BARK = (0.28, 0.17, 0.10)
 SAND = (0.66, 0.52, 0.34)
+JADE = (0.46, 0.74, 0.56)
+
+# What 16 pixels show of the teapot in a picture of 512 x 512: there both ways to spread light agree.
+SCATTER_DISTANCE_M = 0.12
 
 
 def make_ground():
@@ -182,6 +188,44 @@ def make_three_lights_scene():
     return document
 
 
+def make_wall():
+    """Upright, behind the things that stand before it."""
+    return make_box((4.2, 2.4, 0.1))
+
+
+def add_translucent_set(document, light_eye=(-2.6, 4.3, 4.6)):
+    """Camera, a point light, ground and wall of Wang and Xiao 2015, section 2: opaque, and shaded as there."""
+    document.add_camera("Camera", (0.5, 2.1, 6.6), (0.05, 0.78, 0.0), math.radians(30.0))
+    light = {
+        "type": "spot",
+        "color": WARM_WHITE,
+        "intensity": 310.0,
+        "spot": {"innerConeAngle": round(math.atan(0.75), 9), "outerConeAngle": round(math.atan(0.85), 9)},
+    }
+    document.add_light("Light", light, light_eye, (0.0, 0.7, 0.0), make_light_extras("light_size", 0.0))
+    opaque = document.add_material("Ground", GROUND_COLOR, roughness=0.9, extras={"shading_model": "phong"})
+    document.add_object("Ground", make_ground(), opaque, extras={"shadow_planar_receiver": True})
+    wall = document.add_material("Wall", (0.5, 0.53, 0.6), roughness=0.9, extras={"shading_model": "phong"})
+    document.add_object("Wall", make_wall(), wall, (0.0, 2.4, -1.8), extras={"shadow_planar_receiver": True})
+
+
+def make_scatter_extras(scatter):
+    return {"scatter": scatter, "scatter_distance": SCATTER_DISTANCE_M}
+
+
+def make_teapot_scene(scatter):
+    """The source's figures 4 to 7: an opaque ring casts on a translucent teapot."""
+    document = Document(SCENE_SIZE_M)
+    add_translucent_set(document)
+    jade = document.add_material("Jade", JADE, roughness=0.35, extras=make_scatter_extras(scatter))
+    turn = quaternion_about((0.0, 1.0, 0.0), 0.35)
+    document.add_object("Teapot", make_teapot(0.5, 10), jade, (0.0, 0.0, 0.0), turn)
+    coral = document.add_material("Ring", CORAL, roughness=0.6, extras={"shading_model": "phong"})
+    towards_light = quaternion_from_y((-2.6, 3.4, 4.6))
+    document.add_object("Ring", make_torus(0.42, 0.085, 64, 24), coral, (-0.72, 1.8, 1.35), towards_light)
+    return document
+
+
 SCENES = {
     "sphere": make_sphere_scene,
     "contact_box": make_contact_box_scene,
@@ -191,13 +235,18 @@ SCENES = {
     "terrain": make_terrain_scene,
     "open_sheets": make_open_sheets_scene,
     "three_lights": make_three_lights_scene,
+    "teapot_s15": lambda: make_teapot_scene(0.15),
+    "teapot_s50": lambda: make_teapot_scene(0.50),
+    "teapot_s80": lambda: make_teapot_scene(0.80),
 }
+# Scenes that differ in their materials alone share their .bin.
+BINARIES = {"teapot_s15": "teapot", "teapot_s50": "teapot", "teapot_s80": "teapot"}
 
 
 def build_all_files():
     files = {}
     for name, build in SCENES.items():
-        files.update(build().build_files(name))
+        files.update(build().build_files(name, BINARIES.get(name)))
     return files
 
 

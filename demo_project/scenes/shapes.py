@@ -1,6 +1,8 @@
 """Meshes of the demo scenes. Each function returns a gltf_writer.Mesh in its own space."""
 
+import json
 import math
+import os
 import random
 
 from gltf_writer import Mesh, add, cross, normalize, scale, subtract
@@ -91,6 +93,63 @@ def make_torus_knot(size, tube_radius, along_count, around_count):
             here, there = i * around_count, (i + 1) % along_count * around_count
             k = (j + 1) % around_count
             mesh.add_quad(here + j, here + k, there + k, there + j)
+    return mesh
+
+
+def make_torus(radius, tube_radius, along_count, around_count):
+    """A ring about +Y."""
+    mesh = Mesh()
+    for i in range(along_count):
+        turn = 2.0 * math.pi * i / along_count
+        outward = (math.cos(turn), 0.0, math.sin(turn))
+        for j in range(around_count):
+            angle = 2.0 * math.pi * j / around_count
+            normal = add(scale(outward, math.cos(angle)), (0.0, math.sin(angle), 0.0))
+            mesh.add_vertex(add(scale(outward, radius), scale(normal, tube_radius)), normal)
+    for i in range(along_count):
+        for j in range(around_count):
+            here, there = i * around_count, (i + 1) % along_count * around_count
+            k = (j + 1) % around_count
+            mesh.add_quad(here + j, here + k, there + k, there + j)
+    return mesh
+
+
+def evaluate_bezier(points, t):
+    """A point of the cubic through four control points."""
+    s = 1.0 - t
+    weights = (s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t)
+    return tuple(sum(weight * point[axis] for weight, point in zip(weights, points)) for axis in range(3))
+
+
+def make_teapot(size, step_count):
+    """Newell's teapot (1975), see third_party/teapot: 3 sizes high, on the plane y = 0. Each of its
+    32 patches becomes step_count^2 quads. It has edges: lid, body, handle and spout are open surfaces."""
+    folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    with open(os.path.join(folder, "third_party", "teapot", "patches.json"), encoding="utf-8") as file:
+        data = json.load(file)
+    mesh = Mesh(is_closed=False)
+    known = {}
+
+    def add_point(point):
+        # Patches meet in equal points but for rounding.
+        key = tuple(round(value, 6) + 0.0 for value in (point[0] * size, point[2] * size, -point[1] * size))
+        if key not in known:
+            known[key] = mesh.add_vertex(key, (0.0, 1.0, 0.0))
+        return known[key]
+
+    for patch in data["patches"]:
+        rows = [[data["vertices"][index] for index in patch[4 * row : 4 * row + 4]] for row in range(4)]
+        grid = []
+        for i in range(step_count + 1):
+            curve = [evaluate_bezier(row, i / step_count) for row in rows]
+            grid.append([add_point(evaluate_bezier(curve, j / step_count)) for j in range(step_count + 1)])
+        for i in range(step_count):
+            for j in range(step_count):
+                corners = (grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1])
+                for triangle in ((corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])):
+                    if len(set(triangle)) == 3:
+                        mesh.triangles.append(triangle)
+    mesh.set_smooth_normals()
     return mesh
 
 
