@@ -218,6 +218,22 @@ class Document:
         self.root["materials"].append(material)
         return len(self.root["materials"]) - 1
 
+    def add_glass(self, name, color, transmission, thickness_m=0.0, attenuation_color=None, attenuation_distance_m=None):
+        """A material through which light goes: KHR_materials_transmission, and _volume where it has a thickness."""
+        index = self.add_material(name, color, roughness=0.1)
+        extensions = {"KHR_materials_transmission": {"transmissionFactor": transmission}}
+        if thickness_m > 0.0:
+            extensions["KHR_materials_volume"] = {
+                "thicknessFactor": thickness_m,
+                "attenuationColor": list(attenuation_color),
+                "attenuationDistance": attenuation_distance_m,
+            }
+        self.root["materials"][index]["extensions"] = extensions
+        for extension in extensions:
+            if extension not in self.root["extensionsUsed"]:
+                self.root["extensionsUsed"].append(extension)
+        return index
+
     def add_mesh(self, name, mesh, material):
         mesh.check(name)
         positions = self._add_vectors(mesh.positions, True)

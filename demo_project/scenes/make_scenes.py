@@ -226,6 +226,24 @@ def make_teapot_scene(scatter):
     return document
 
 
+def make_stained_glass_scene():
+    """Panes and a ball that colour the light, one behind another, on an opaque ground and a translucent block."""
+    document = make_document()
+    add_ground(document)
+    wax = document.add_material("Wax", (0.85, 0.80, 0.68), roughness=0.5, extras={"scatter": 0.8, "scatter_distance": 0.25})
+    document.add_object("Block", make_box((0.55, 0.12, 0.55)), wax, (-1.15, 0.12, 0.75))
+    red = document.add_glass("Red glass", (0.95, 0.16, 0.10), 0.9)
+    blue = document.add_glass("Blue glass", (0.12, 0.30, 0.95), 0.9)
+    pane = make_box((0.55, 0.45, 0.015))
+    document.add_object("Red pane", pane, red, (-0.45, 1.45, 0.3), quaternion_about((0.3, 1.0, 0.1), 0.7))
+    document.add_object("Blue pane", pane, blue, (0.05, 0.75, -0.05), quaternion_about((0.3, 1.0, -0.2), 0.5))
+    amber = document.add_glass("Amber glass", (1.0, 0.82, 0.40), 0.95, 0.6, (0.95, 0.72, 0.40), 0.5)
+    document.add_object("Amber ball", make_icosphere(4, 0.34), amber, (0.75, 1.15, 0.65))
+    moss = document.add_material("Moss", MOSS, roughness=0.7)
+    document.add_object("Ring", make_torus(0.3, 0.06, 48, 16), moss, (0.25, 1.9, 0.45), quaternion_from_y((1.0, 2.0, 0.3)))
+    return document
+
+
 SCENES = {
     "sphere": make_sphere_scene,
     "contact_box": make_contact_box_scene,
@@ -235,6 +253,7 @@ SCENES = {
     "terrain": make_terrain_scene,
     "open_sheets": make_open_sheets_scene,
     "three_lights": make_three_lights_scene,
+    "stained_glass": make_stained_glass_scene,
     "teapot_s15": lambda: make_teapot_scene(0.15),
     "teapot_s50": lambda: make_teapot_scene(0.50),
     "teapot_s80": lambda: make_teapot_scene(0.80),

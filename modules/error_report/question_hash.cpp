@@ -62,6 +62,8 @@ void add_instance(const InstanceSnapshot &p_instance, Hasher &r_hasher) {
 	r_hasher.add(p_instance.is_planar_receiver);
 	r_hasher.add(p_instance.material->scatter);
 	r_hasher.add(p_instance.material->scatter_distance_m);
+	const glm::vec3 transmittance = p_instance.compute_transmittance();
+	r_hasher.add_values(&transmittance[0], 3);
 	r_hasher.add(p_instance.material->is_double_sided);
 }
 

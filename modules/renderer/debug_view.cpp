@@ -31,7 +31,8 @@ ShadowTechnique::DebugView add_error_view(RenderGraph &r_graph, RenderingDevice 
 	const RGTexture error = r_graph.create_texture({ "mask error", Format::RGBA8_UNORM, p_size_px,
 			1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
 	add_compute_pass(r_graph, "mask error",
-			p_device.get_compute_pipeline({ "mask error", "renderer/error_view.comp", {} }),
+			p_device.get_compute_pipeline({ "mask error", "renderer/error_view.comp",
+					make_mask_constants(r_graph, p_mask) }),
 			{
 					PassBinding::read(RENDERER_BINDING_TRUTH, buffer),
 					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),

@@ -5,6 +5,9 @@
 #include "modules/core/log.h"
 #include "modules/renderer/light_properties.h"
 #include "modules/renderer/lighting.h"
+#include "modules/renderer/map_resolve.h"
+
+#include "renderer/renderer_shared.h"
 
 #include <algorithm>
 
@@ -33,11 +36,21 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, b
 	return casters;
 }
 
+std::string describe_forced(const LightSnapshot &p_light, const TranslucentCasters &p_casters) {
+	if (p_casters.forced_count == 0) {
+		return {};
+	}
+	return text("Light \"", p_light.name, "\": ", p_casters.forced_count,
+			" translucent casters share the colour of others, as it can tell ",
+			TranslucentCasters::MAX_GROUP_COUNT,
+			" groups apart. Give casters of one colour the same transmission, or fewer colours.");
+}
+
 } // namespace
 
 void TechniquePlan::leave_out_light_view(uint32_t p_view_index, const std::string &p_reason) {
 	if (left_out_views.insert(p_view_index).second) {
-		plan.leave_out(text("light view ", p_view_index), p_reason);
+		leave_out(text("light view ", p_view_index), p_reason);
 	}
 }
 
@@ -64,19 +77,28 @@ TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string
 				". `gnomon techniques` lists those that are.") };
 }
 
-ShadowTechnique &LightShadows::get_technique(
-		const LightSnapshot &p_light, const ShadowTechniqueInfo &p_info) {
-	Slot &slot = slots[p_light.name];
+struct LightShadows::Work {
+	RenderGraph &graph;
+	const Request &request;
+	const ShadowTechniqueInfo &info;
+	const PropertyValues &properties;
+	FramePlan &plan;
+	std::vector<ShadowTechnique::DebugView> &debug_views;
+};
+
+LightShadows::Slot &LightShadows::get_slot(
+		const SlotKey &p_key, const ShadowTechniqueInfo &p_info) {
+	Slot &slot = slots[p_key];
 	if (!slot.technique || slot.technique_id != p_info.id) {
 		slot.technique.reset(); // before the new one takes memory
 		slot.technique = p_info.make();
 		slot.technique_id = p_info.id;
 	}
-	return *slot.technique;
+	return slot;
 }
 
 float LightShadows::get_standard_error(const std::string &p_light_name) const {
-	const auto slot = slots.find(p_light_name);
+	const auto slot = slots.find({ p_light_name, 0 });
 	return slot == slots.end() ? 0.0f : slot->second.technique->get_standard_error();
 }
 
@@ -95,8 +117,14 @@ void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 	}
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return std::none_of(p_scene.lights.begin(), p_scene.lights.end(),
-				[&](const LightSnapshot &p_light) { return p_light.name == p_slot.first; });
+				[&](const LightSnapshot &p_light) { return p_light.name == p_slot.first.first; });
 	});
+}
+
+void LightShadows::warn_once(const std::string &p_warning) {
+	if (!p_warning.empty() && warned.insert(p_warning).second) {
+		log_warning(p_warning);
+	}
 }
 
 RGTexture LightShadows::add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
@@ -115,13 +143,73 @@ RGTexture LightShadows::add_filters(RenderGraph &r_graph, const ShadowTechnique:
 	return p_mask;
 }
 
+RGTexture LightShadows::add_technique(const Work &p_work, ShadowTechnique &r_technique,
+		const SceneSnapshot &p_scene, const std::string &p_run) {
+	const Request &request = p_work.request;
+	TechniquePlan plan(p_work.plan, p_run.empty() ? "" : p_run + ": ");
+	const bool wants_debug_views = request.wants_debug_views && p_run.empty();
+	std::vector<LightView> views;
+	r_technique.get_light_views(request.light, p_scene, p_work.properties, views);
+	std::vector<CasterList> casters;
+	for (const LightView &view : views) {
+		casters.push_back(cull_casters(p_scene, view, request.may_leave_out));
+	}
+	const ShadowTechnique::Inputs inputs = { device, meshes, p_scene, request.light,
+		p_work.properties, views, casters, request.size_px, request.gbuffer.depth,
+		request.gbuffer.geometric_normal, request.gbuffer.shading_normal, request.gbuffer.material,
+		request.receivers, request.frame, request.light_constants, request.may_leave_out,
+		request.may_keep, wants_debug_views };
+	r_technique.plan(inputs, plan);
+	for (uint32_t index = 0; index < views.size(); ++index) {
+		if (plan.is_light_view_left_out(index)) {
+			continue;
+		}
+		plan.run(text("light view ", index));
+		r_technique.before_light_view(p_work.graph, inputs, index);
+		r_technique.at_light_view(p_work.graph, inputs, index);
+		r_technique.after_light_view(p_work.graph, inputs, index);
+	}
+	plan.run("resolve");
+	const RGTexture mask = r_technique.resolve(p_work.graph, inputs);
+	if (wants_debug_views) {
+		r_technique.get_debug_views(p_work.debug_views);
+	}
+	return mask;
+}
+
+RGTexture LightShadows::add_translucent_casters(
+		const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque) {
+	const Request &request = p_work.request;
+	RGTexture mask = p_opaque;
+	for (size_t index = 0; index < p_casters.groups.size(); ++index) {
+		const TranslucentGroup &group = p_casters.groups[index];
+		const std::string name = text("translucent ", index + 1);
+		p_work.graph.set_pass_prefix(text(request.light.name, ": ", name, ": "));
+		Slot &slot = get_slot({ request.light.name, index + 1 }, p_work.info);
+		slot.scene = make_opaque_scene(request.scene, p_casters, &group);
+		const RGTexture both = add_technique(p_work, *slot.technique, *slot.scene, name);
+		const RGTexture tinted = create_mask(p_work.graph, request.size_px, Format::RGBA16_SFLOAT);
+		add_compute_pass(p_work.graph, "tint",
+				device.get_compute_pipeline(
+						{ "tint", "renderer/tint.comp", make_mask_constants(p_work.graph, mask) }),
+				{
+						PassBinding::read(RENDERER_BINDING_RECEIVERS, p_opaque),
+						PassBinding::read(RENDERER_BINDING_MASK, both),
+						PassBinding::read(RENDERER_BINDING_RADIANCE, mask),
+						PassBinding::write(RENDERER_BINDING_OUTPUT, tinted),
+				},
+				request.size_px, shader::TintPush{ glm::vec4(group.transmittance, 0.0f) });
+		mask = tinted;
+	}
+	p_work.graph.set_pass_prefix(request.light.name + ": ");
+	return mask;
+}
+
 RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_request,
 		FramePlan &r_plan, std::vector<ShadowTechnique::DebugView> &r_debug_views) {
 	const LightSnapshot &light = p_request.light;
 	const TechniqueChoice choice = choose_technique(light, p_request.technique_override);
-	if (!choice.warning.empty() && warned.insert(choice.warning).second) {
-		log_warning(choice.warning);
-	}
+	warn_once(choice.warning);
 	if (!choice.info) {
 		r_plan.leave_out("shadow", "no technique is enabled");
 		return add_constant_mask(r_graph, p_request.size_px, 1.0f);
@@ -129,37 +217,37 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 	if (!choice.warning.empty()) {
 		r_plan.leave_out(light.technique_id, "not enabled; " + choice.info->id + " runs instead");
 	}
-	ShadowTechnique &technique = get_technique(light, *choice.info);
 	const PropertyValues properties =
 			resolve_light_properties(light, ShadowRegistry::get_light_properties(choice.info->id));
-	std::vector<LightView> views;
-	technique.get_light_views(light, p_request.scene, properties, views);
-	std::vector<CasterList> casters;
-	for (const LightView &view : views) {
-		casters.push_back(cull_casters(p_request.scene, view, p_request.may_leave_out));
+	const Work work = { r_graph, p_request, *choice.info, properties, r_plan, r_debug_views };
+	Slot &slot = get_slot({ light.name, 0 }, *choice.info);
+	slot.scene.reset();
+	RGTexture mask;
+	TranslucentCasters translucent;
+	if (!slot.technique->sees_translucent_casters()) {
+		translucent = find_translucent_casters(p_request.scene, light);
 	}
-	const ShadowTechnique::Inputs inputs = { device, meshes, p_request.scene, light, properties,
-		views, casters, p_request.size_px, p_request.gbuffer.depth,
-		p_request.gbuffer.geometric_normal, p_request.gbuffer.shading_normal,
-		p_request.gbuffer.material, p_request.receivers, p_request.frame, p_request.light_constants,
-		p_request.may_leave_out, p_request.may_keep, p_request.wants_debug_views };
+	std::erase_if(slots, [&](const auto &p_slot) { // of groups that there are no more
+		return p_slot.first.first == light.name && p_slot.first.second > translucent.groups.size();
+	});
+	if (translucent.is_empty()) {
+		mask = add_technique(work, *slot.technique, p_request.scene, "");
+	} else {
+		warn_once(describe_forced(light, translucent));
+		slot.scene = make_opaque_scene(p_request.scene, translucent, nullptr);
+		mask = add_technique(work, *slot.technique, *slot.scene, "");
+		mask = add_translucent_casters(work, translucent, mask);
+	}
+	const ShadowTechnique::Inputs inputs = { device, meshes, p_request.scene, light, properties, {},
+		{}, p_request.size_px, p_request.gbuffer.depth, p_request.gbuffer.geometric_normal,
+		p_request.gbuffer.shading_normal, p_request.gbuffer.material, p_request.receivers,
+		p_request.frame, p_request.light_constants, p_request.may_leave_out, p_request.may_keep,
+		p_request.wants_debug_views };
 	TechniquePlan plan(r_plan);
-	technique.plan(inputs, plan);
-	for (uint32_t index = 0; index < views.size(); ++index) {
-		if (plan.is_light_view_left_out(index)) {
-			continue;
-		}
-		plan.run(text("light view ", index));
-		technique.before_light_view(r_graph, inputs, index);
-		technique.at_light_view(r_graph, inputs, index);
-		technique.after_light_view(r_graph, inputs, index);
-	}
-	plan.run("resolve");
-	const RGTexture mask = add_filters(
-			r_graph, inputs, choice.info->is_reference, technique.resolve(r_graph, inputs), plan);
+	mask = add_filters(r_graph, inputs, choice.info->is_reference, mask, plan);
 	if (p_request.wants_debug_views) {
-		technique.get_debug_views(r_debug_views);
 		r_debug_views.push_back({ "mask", mask });
+		r_debug_views.back().is_color = is_colored_mask(r_graph, mask);
 	}
 	return mask;
 }

@@ -3,6 +3,7 @@
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/mask_filter.h"
 #include "modules/renderer/shadow_registry.h"
+#include "modules/renderer/translucent_casters.h"
 
 #include <map>
 #include <memory>
@@ -53,15 +54,27 @@ private:
 	struct Slot {
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
+		/// Of the last frame, where casters are translucent: other than the frame's own.
+		std::shared_ptr<const SceneSnapshot> scene;
 	};
-	ShadowTechnique &get_technique(const LightSnapshot &p_light, const ShadowTechniqueInfo &p_info);
+	/// Of a light: 0, and 1 + i for its group i of translucent casters.
+	using SlotKey = std::pair<std::string, size_t>;
+	/// What the runs of one technique for one light share.
+	struct Work;
+	Slot &get_slot(const SlotKey &p_key, const ShadowTechniqueInfo &p_info);
+	/// p_run: empty for the opaque casters, else the name of the translucent ones.
+	RGTexture add_technique(const Work &p_work, ShadowTechnique &r_technique,
+			const SceneSnapshot &p_scene, const std::string &p_run);
+	RGTexture add_translucent_casters(
+			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);
+	void warn_once(const std::string &p_warning); // empty: nothing
 	/// p_is_exact: the mask is a reference's, which has done already what filters approximate.
 	RGTexture add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			bool p_is_exact, RGTexture p_mask, TechniquePlan &r_plan);
 
 	RenderingDevice &device;
 	MeshStore &meshes;
-	std::map<std::string, Slot> slots;				  // by light name
+	std::map<SlotKey, Slot> slots;
 	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
 	std::set<std::string> warned;
 	uint64_t technique_revision = 0;

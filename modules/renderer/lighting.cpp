@@ -67,6 +67,16 @@ RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_
 	return mask;
 }
 
+bool is_colored_mask(const RenderGraph &p_graph, RGTexture p_mask) {
+	const Format format = p_graph.get_desc(p_mask).format;
+	return format == Format::RGBA16_SFLOAT || format == Format::RGBA32_SFLOAT;
+}
+
+std::vector<SpecializationConstant> make_mask_constants(
+		const RenderGraph &p_graph, RGTexture p_mask) {
+	return { { RENDERER_CONSTANT_IS_COLORED, is_colored_mask(p_graph, p_mask) ? 1u : 0u } };
+}
+
 RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px) {
 	const PipelineRID pipeline =
@@ -88,8 +98,8 @@ RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
 		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
 		RGTexture p_radiance, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "lighting", "renderer/lighting.comp", {} });
+	const PipelineRID pipeline = p_device.get_compute_pipeline(
+			{ "lighting", "renderer/lighting.comp", make_mask_constants(r_graph, p_mask) });
 	add_compute_pass(r_graph, "lighting", pipeline,
 			{
 					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),

@@ -21,6 +21,13 @@ RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 /// A mask of one value; for lights without a shadow.
 RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility);
 
+/// Has the mask a value for each colour? A technique's has one; behind translucent casters it has
+/// three.
+bool is_colored_mask(const RenderGraph &p_graph, RGTexture p_mask);
+/// RENDERER_CONSTANT_IS_COLORED of shaders that read a mask.
+std::vector<SpecializationConstant> make_mask_constants(
+		const RenderGraph &p_graph, RGTexture p_mask);
+
 /// RGBA16_SFLOAT, exposed: ambient and emitted light.
 RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px);

@@ -33,6 +33,23 @@ bool has_debug_light(const RenderRequest &p_request) {
 	return light != nullptr && light->casts_shadow;
 }
 
+/// The colours of a mask that has three, else none.
+std::vector<glm::vec3> read_mask_colors(
+		const std::vector<uint8_t> &p_bytes, Format p_format, size_t p_count) {
+	std::vector<glm::vec3> colors;
+	for (size_t index = 0; p_format == Format::RGBA16_SFLOAT && index < p_count; ++index) {
+		uint64_t halves = 0;
+		std::memcpy(&halves, p_bytes.data() + 8 * index, sizeof(halves));
+		colors.push_back(glm::vec3(glm::unpackHalf4x16(halves)));
+	}
+	for (size_t index = 0; p_format == Format::RGBA32_SFLOAT && index < p_count; ++index) {
+		glm::vec4 color;
+		std::memcpy(&color, p_bytes.data() + sizeof(color) * index, sizeof(color));
+		colors.push_back(glm::vec3(color));
+	}
+	return colors;
+}
+
 std::vector<float> read_mask(const std::vector<uint8_t> &p_bytes, Format p_format, size_t p_count) {
 	std::vector<float> values(p_count);
 	if (p_format == Format::R32_SFLOAT) {
@@ -313,12 +330,21 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	if (!frame.mask_bytes.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);
 		const size_t pixel_count = size_t(p_request.size_px.x) * p_request.size_px.y;
-		result.visibility = read_mask(frame.mask_bytes, frame.mask_format, pixel_count);
+		result.colors = read_mask_colors(frame.mask_bytes, frame.mask_format, pixel_count);
+		for (const glm::vec3 &color : result.colors) {
+			result.visibility.push_back(compute_mask_luminance(color));
+		}
+		if (result.colors.empty()) {
+			result.visibility = read_mask(frame.mask_bytes, frame.mask_format, pixel_count);
+		}
 		result.receiver.resize(pixel_count);
 		for (size_t index = 0; index < pixel_count; ++index) {
 			result.receiver[index] = frame.receiver_bytes[index] != 0 ? 1.0f : 0.0f;
 			if (result.receiver[index] == 0.0f) {
 				result.visibility[index] = 0.0f;
+				if (!result.colors.empty()) {
+					result.colors[index] = glm::vec3(0.0f);
+				}
 			}
 		}
 	}

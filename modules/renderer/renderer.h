@@ -63,6 +63,7 @@ struct RenderResult {
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
 	std::vector<std::string> debug_views; // that there are, when one was asked for
 	std::vector<float> visibility;		  // Y: 0 where receiver is 0
+	std::vector<glm::vec3> colors;		  // of the mask behind translucent casters; else empty
 	std::vector<float> receiver;		  // 1 or 0
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel

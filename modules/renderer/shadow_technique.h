@@ -26,11 +26,13 @@ struct CasterList {
 /// What a technique decides before any pass is recorded. Names the light in the frame's plan.
 class TechniquePlan {
 public:
-	explicit TechniquePlan(FramePlan &p_plan) : plan(p_plan) {}
+	/// p_prefix: tells the runs of one technique for one light apart, see sees_translucent_casters.
+	explicit TechniquePlan(FramePlan &p_plan, std::string p_prefix = {}) :
+			plan(p_plan), prefix(std::move(p_prefix)) {}
 
-	void run(const std::string &p_pass) { plan.run(p_pass); }
+	void run(const std::string &p_pass) { plan.run(prefix + p_pass); }
 	void leave_out(const std::string &p_pass, const std::string &p_reason) {
-		plan.leave_out(p_pass, p_reason);
+		plan.leave_out(prefix + p_pass, p_reason);
 	}
 	/// The renderer then calls none of the view's three hooks.
 	void leave_out_light_view(uint32_t p_view_index, const std::string &p_reason);
@@ -40,6 +42,7 @@ public:
 
 private:
 	FramePlan &plan;
+	std::string prefix;
 	std::set<uint32_t> left_out_views;
 };
 
@@ -108,6 +111,10 @@ public:
 	/// Returns the visibility mask: R16_SFLOAT (R32_SFLOAT where the precision is needed), 0 =
 	/// hidden, 1 = fully lit, one texel per camera pixel, ready to be sampled. Never NaN.
 	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
+	/// True: resolve() sees translucent casters itself and returns a mask of three colours where
+	/// there are any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: it is asked once for the opaque ones
+	/// and once more for each group of others, as if they were opaque, and the renderer colours.
+	virtual bool sees_translucent_casters() const { return false; }
 	/// Called after resolve() while a debug view is shown.
 	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}
 	/// Called after the frame ran: the standard error of its mask where the technique takes samples

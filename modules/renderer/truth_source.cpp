@@ -2,7 +2,13 @@
 
 #include "modules/core/files.h"
 
+#include "shared/mask_shared.h"
+
 namespace gnomon {
+
+float compute_mask_luminance(const glm::vec3 &p_mask) {
+	return glm::dot(p_mask, glm::vec3(MASK_LUMINANCE_R, MASK_LUMINANCE_G, MASK_LUMINANCE_B));
+}
 
 uint64_t compute_truth_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px) {
@@ -25,6 +31,7 @@ uint64_t compute_truth_hash(
 		hash = compute_value_hash(instance.casts_shadow, hash);
 		hash = compute_value_hash(instance.material->scatter, hash);
 		hash = compute_value_hash(instance.material->scatter_distance_m, hash);
+		hash = compute_value_hash(instance.compute_transmittance(), hash);
 	}
 	return hash;
 }

@@ -48,6 +48,9 @@ public:
 			const std::function<void(float)> &p_progress) = 0;
 };
 
+/// One value for a mask of three colours: its luminance, mask_luminance of mask_inc.glsl.
+float compute_mask_luminance(const glm::vec3 &p_mask);
+
 /// Of everything that the light's exact mask depends on, the camera included: equal hashes, equal
 /// masks.
 uint64_t compute_truth_hash(

@@ -15,7 +15,11 @@ glm::vec3 Material::compute_transmittance(float p_scale) const {
 		left *= glm::pow(
 				attenuation_color, glm::vec3(thickness_m * p_scale / attenuation_distance_m));
 	}
-	return glm::clamp(left, 0.0f, 1.0f);
+	for (int axis = 0; axis < 3; ++axis) {
+		left[axis] =
+				left[axis] > 0.0f ? glm::min(left[axis], 1.0f) : 0.0f; // also what is no number
+	}
+	return left;
 }
 
 } // namespace gnomon

@@ -1,8 +1,9 @@
 #include "modules/shadow_reference/area_light_visibility.h"
 
 #include "modules/core/error.h"
+#include "modules/renderer/truth_source.h"
+#include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/disc_samples.h"
-#include "modules/shadow_reference/embree_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
 
 #include <algorithm>
@@ -47,12 +48,12 @@ void check_options(const VisibilityOptions &p_options) {
 	}
 }
 
-/// How many rays of one half of a pixel's samples meet nothing.
-uint32_t count_visible(const EmbreeScene &p_scene, const DiscView &p_view,
+/// The sum of what is left of the rays of one half of a pixel's samples.
+glm::dvec3 sum_visible(const CasterScene &p_scene, const DiscView &p_view,
 		const DiscSamples &p_samples, uint64_t p_hash) {
 	const uint32_t scramble_u = static_cast<uint32_t>(p_hash);
 	const uint32_t scramble_v = static_cast<uint32_t>(p_hash >> 32);
-	uint32_t visible_count = 0;
+	glm::dvec3 sum(0.0);
 	DiscSamples::Packet packet = {};
 	alignas(32) RTCRay8 rays = {};
 	for (uint32_t index = 0; index < p_samples.get_packet_count(); ++index) {
@@ -76,17 +77,18 @@ uint32_t count_visible(const EmbreeScene &p_scene, const DiscView &p_view,
 			rays.id[i] = 0;
 			rays.flags[i] = 0;
 		}
-		find_occluded_8(p_scene.get(), valid, rays);
+		glm::vec3 left[DiscSamples::PACKET_SIZE];
+		p_scene.trace(valid, rays, left);
 		for (uint32_t i = 0; i < lane_count; ++i) {
-			visible_count += rays.tfar[i] >= 0.0f ? 1 : 0;
+			sum += glm::dvec3(left[i]);
 		}
 	}
-	return visible_count;
+	return sum;
 }
 
 /// What all threads share while one image is made.
 struct Job {
-	const EmbreeScene &scene;
+	const CasterScene &scene;
 	std::span<const ReceiverPoint> points;
 	glm::uvec2 size_px;
 	const AreaLight &light;
@@ -95,6 +97,7 @@ struct Job {
 	DiscSamples second_half;
 	bool has_second_half;
 	std::vector<float> &visibility;
+	std::vector<glm::vec3> &colors; // empty: all are alike
 	uint32_t spread_sample_count;
 	std::vector<float> half_error; // (A - B) sqrt(a b) / (a + b), see VisibilityResult
 	std::atomic<uint64_t> ray_count = 0;
@@ -109,6 +112,28 @@ struct Job {
 	}
 };
 
+void store_visibility(Job &r_job, uint32_t p_pixel, const glm::dvec3 &p_visibility) {
+	if (r_job.colors.empty()) {
+		r_job.visibility[p_pixel] = static_cast<float>(p_visibility.x);
+		return;
+	}
+	r_job.colors[p_pixel] = glm::vec3(p_visibility);
+	r_job.visibility[p_pixel] = compute_mask_luminance(r_job.colors[p_pixel]);
+}
+
+/// Of the means of two halves of a pixel's rays: |A - B| sqrt(a b) / (a + b).
+float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
+		const glm::dvec3 &p_second_sum, double p_second_count) {
+	if (p_first_count == 0 || p_second_count == 0) {
+		return 0.0f;
+	}
+	const float difference = compute_mask_luminance(
+			glm::vec3(p_first_sum / p_first_count - p_second_sum / p_second_count));
+	return difference *
+			static_cast<float>(
+					std::sqrt(p_first_count * p_second_count) / (p_first_count + p_second_count));
+}
+
 /// The receiver sees what the surface about it sees. Returns the number of rays.
 uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
@@ -117,13 +142,9 @@ uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint
 			r_job.spread_sample_count, p_hash);
 	const double count = mean.counts[0] + mean.counts[1];
 	if (count > 0) {
-		r_job.visibility[p_pixel] = static_cast<float>(mean.compute_mean());
-	}
-	if (mean.counts[0] > 0 && mean.counts[1] > 0) {
-		const double difference =
-				mean.visible_counts[0] / mean.counts[0] - mean.visible_counts[1] / mean.counts[1];
-		r_job.half_error[p_pixel] =
-				static_cast<float>(difference * std::sqrt(mean.counts[0] * mean.counts[1]) / count);
+		store_visibility(r_job, p_pixel, mean.compute_mean());
+		r_job.half_error[p_pixel] = compute_half_error(
+				mean.visible_counts[0], mean.counts[0], mean.visible_counts[1], mean.counts[1]);
 	}
 	return static_cast<uint64_t>(count);
 }
@@ -137,25 +158,23 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	const float offset_m = START_OFFSET * r_job.options.scene_size_m;
 	const uint64_t hash = mix_bits(mix_bits(r_job.options.seed) ^ p_pixel);
 	DiscView view;
-	if (!find_disc_view(r_job.light, point.position, point.geometric_normal, offset_m, view,
-				r_job.visibility[p_pixel])) {
+	float known = 0.0f;
+	if (!find_disc_view(
+				r_job.light, point.position, point.geometric_normal, offset_m, view, known)) {
+		store_visibility(r_job, p_pixel, glm::dvec3(known));
 		return 0;
 	}
 	if (point.spread_radius_m > 0.0f && r_job.options.spread != nullptr) {
 		return trace_spread_pixel(r_job, p_pixel, offset_m, hash);
 	}
-	const uint32_t first = count_visible(r_job.scene, view, r_job.first_half, mix_bits(hash ^ 1));
-	const uint32_t second = r_job.has_second_half
-			? count_visible(r_job.scene, view, r_job.second_half, mix_bits(hash ^ 2))
-			: 0;
-	const float first_count = static_cast<float>(r_job.first_half.get_count());
-	const float second_count = static_cast<float>(r_job.second_half.get_count());
-	r_job.visibility[p_pixel] =
-			static_cast<float>(first + second) / static_cast<float>(r_job.options.sample_count);
+	const glm::dvec3 first = sum_visible(r_job.scene, view, r_job.first_half, mix_bits(hash ^ 1));
+	const glm::dvec3 second = r_job.has_second_half
+			? sum_visible(r_job.scene, view, r_job.second_half, mix_bits(hash ^ 2))
+			: glm::dvec3(0.0);
+	store_visibility(r_job, p_pixel, (first + second) / double(r_job.options.sample_count));
 	if (r_job.has_second_half) {
-		r_job.half_error[p_pixel] = (static_cast<float>(first) / first_count -
-											static_cast<float>(second) / second_count) *
-				std::sqrt(first_count * second_count) / (first_count + second_count);
+		r_job.half_error[p_pixel] = compute_half_error(
+				first, r_job.first_half.get_count(), second, r_job.second_half.get_count());
 	}
 	return r_job.options.sample_count;
 }
@@ -208,9 +227,10 @@ void compute_standard_error(const Job &p_job, VisibilityResult &r_result) {
 
 } // namespace
 
-AreaLightVisibility::AreaLightVisibility(
-		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) :
-		scene(std::make_unique<EmbreeScene>(p_positions, p_triangle_indices)) {}
+AreaLightVisibility::AreaLightVisibility(std::span<const glm::vec3> p_positions,
+		std::span<const uint32_t> p_triangle_indices,
+		std::span<const TranslucentTriangles> p_translucent) :
+		scene(std::make_unique<CasterScene>(p_positions, p_triangle_indices, p_translucent)) {}
 
 AreaLightVisibility::~AreaLightVisibility() = default;
 AreaLightVisibility::AreaLightVisibility(AreaLightVisibility &&) noexcept = default;
@@ -226,6 +246,9 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 	check_options(p_options);
 	VisibilityResult result;
 	result.visibility.assign(p_points.size(), 0.0f);
+	if (scene->is_colored()) {
+		result.colors.assign(p_points.size(), glm::vec3(0.0f));
+	}
 	// All samples of a point light are one.
 	const uint32_t sample_count = p_light.disc_radius == 0.0f ? 1 : p_options.sample_count;
 	VisibilityOptions options = p_options;
@@ -233,7 +256,8 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 	Job job{ *scene, p_points, p_size_px, p_light, options,
 		DiscSamples(sample_count - sample_count / 2, options.seed),
 		DiscSamples(std::max(sample_count / 2, 1u), options.seed), sample_count > 1,
-		result.visibility, p_options.sample_count, std::vector<float>(p_points.size(), 0.0f) };
+		result.visibility, result.colors, p_options.sample_count,
+		std::vector<float>(p_points.size(), 0.0f) };
 
 	uint32_t thread_count = options.thread_count;
 	if (thread_count == 0) {

@@ -13,8 +13,9 @@
 
 namespace gnomon {
 
-class EmbreeScene;
+class CasterScene;
 class SpreadVisibility;
+struct TranslucentTriangles;
 
 /// One pixel.
 struct ReceiverPoint {
@@ -42,6 +43,8 @@ struct VisibilityOptions {
 struct VisibilityResult {
 	/// v in 0..1, one per pixel. 0 where nothing was asked.
 	std::vector<float> visibility;
+	/// Where casters are translucent: of each colour; visibility is then its luminance. Else empty.
+	std::vector<glm::vec3> colors;
 	/// Of the mean over all samples: root mean square over the penumbra pixels (0.002 < v < 0.998)
 	/// of |A - B| sqrt(a b) / (a + b), where A and B are the means of the pixel's two halves of a
 	/// and b samples. The halves are scrambled independently, so the estimate is unbiased (halves
@@ -61,8 +64,10 @@ public:
 	/// Three indices per triangle. Positions relative to an origin near the camera, so that float32
 	/// suffices. Triangles with a position that is not finite are left out; an index out of range
 	/// is our mistake. Embree failing is an Error.
-	AreaLightVisibility(
-			std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices);
+	/// p_translucent: each leaves its part of the rays that meet it; several multiply.
+	AreaLightVisibility(std::span<const glm::vec3> p_positions,
+			std::span<const uint32_t> p_triangle_indices,
+			std::span<const TranslucentTriangles> p_translucent = {});
 	~AreaLightVisibility();
 	AreaLightVisibility(AreaLightVisibility &&) noexcept;
 	AreaLightVisibility &operator=(AreaLightVisibility &&) noexcept;
@@ -74,7 +79,7 @@ public:
 			const AreaLight &p_light, const VisibilityOptions &p_options) const;
 
 private:
-	std::unique_ptr<EmbreeScene> scene;
+	std::unique_ptr<CasterScene> scene;
 };
 
 } // namespace gnomon

@@ -8,15 +8,15 @@ namespace gnomon {
 
 namespace {
 
-void add_triangles(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance,
-		std::vector<glm::vec3> &r_positions, std::vector<uint32_t> &r_indices) {
+void add_triangles(
+		const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance, Triangles &r_triangles) {
 	const glm::mat4 matrix = p_scene.get_camera_relative_from_node(p_instance);
-	const uint32_t first = static_cast<uint32_t>(r_positions.size());
+	const uint32_t first = static_cast<uint32_t>(r_triangles.positions.size());
 	for (const glm::vec3 &position : p_instance.mesh->positions_node) {
-		r_positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
+		r_triangles.positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
 	}
 	for (uint32_t index : p_instance.mesh->indices) {
-		r_indices.push_back(first + index);
+		r_triangles.indices.push_back(first + index);
 	}
 }
 
@@ -49,22 +49,29 @@ std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_
 CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
 	CasterTriangles triangles;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow) {
-			add_triangles(p_scene, instance, triangles.positions, triangles.indices);
+		const glm::vec3 transmittance = instance.compute_transmittance();
+		if (!instance.casts_shadow) {
+			continue;
+		}
+		if (transmittance == glm::vec3(0.0f)) {
+			add_triangles(p_scene, instance, triangles.opaque);
+		} else if (transmittance != glm::vec3(1.0f)) {
+			TranslucentTriangles &body = triangles.translucent.emplace_back();
+			body.transmittance = transmittance;
+			add_triangles(p_scene, instance, body.triangles);
 		}
 	}
 	return triangles;
 }
 
-std::vector<SpreadBody> collect_spread_bodies(
+std::vector<Triangles> collect_spread_bodies(
 		const SceneSnapshot &p_scene, const SurfaceSpread *p_spread) {
-	std::vector<SpreadBody> bodies;
+	std::vector<Triangles> bodies;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const SurfaceMaterial material = { instance.material->scatter,
 			instance.material->scatter_distance_m };
 		if (p_spread != nullptr && p_spread->compute_radius_m(material, 1.0f) > 0.0f) {
-			SpreadBody &body = bodies.emplace_back();
-			add_triangles(p_scene, instance, body.positions, body.indices);
+			add_triangles(p_scene, instance, bodies.emplace_back());
 		}
 	}
 	return bodies;

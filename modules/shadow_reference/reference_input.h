@@ -3,6 +3,7 @@
 #include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadow_reference/area_light_visibility.h"
+#include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
 
 #include <functional>
@@ -14,10 +15,10 @@
 
 namespace gnomon {
 
-/// Triangles of all casters.
+/// Triangles of all casters: the opaque ones together, each other by itself.
 struct CasterTriangles {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
+	Triangles opaque;
+	std::vector<TranslucentTriangles> translucent;
 };
 
 /// What a mask filter approximates that is registered; null: none has an exact form.
@@ -26,7 +27,7 @@ std::shared_ptr<const SurfaceSpread> find_surface_spread();
 std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
 		const SurfaceSpread *p_spread, const std::function<bool(size_t)> &p_is_receiver);
 /// Those on which light spreads, of all instances with that property. p_spread may be null.
-std::vector<SpreadBody> collect_spread_bodies(
+std::vector<Triangles> collect_spread_bodies(
 		const SceneSnapshot &p_scene, const SurfaceSpread *p_spread);
 CasterTriangles collect_triangles(const SceneSnapshot &p_scene);
 AreaLight make_area_light(const SceneSnapshot &p_scene, const LightSnapshot &p_light);

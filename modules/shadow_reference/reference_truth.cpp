@@ -17,7 +17,7 @@ TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<boo
 		points = make_receiver_points(question.surfaces, spread.get(),
 				[&](size_t p_pixel) { return question.receiver[p_pixel] >= 0.5f; });
 		const CasterTriangles triangles = collect_triangles(*question.scene);
-		tracer.emplace(triangles.positions, triangles.indices);
+		tracer.emplace(triangles.opaque.positions, triangles.opaque.indices, triangles.translucent);
 		if (spread) {
 			spread_visibility.emplace(
 					collect_spread_bodies(*question.scene, spread.get()), *spread);

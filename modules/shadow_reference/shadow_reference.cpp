@@ -22,6 +22,11 @@ template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t
 	return compute_hash(bytes_of(p_values), p_hash);
 }
 
+uint64_t add_to_hash(const Triangles &p_triangles, uint64_t p_hash) {
+	return add_to_hash(std::span<const uint32_t>(p_triangles.indices),
+			add_to_hash(std::span<const glm::vec3>(p_triangles.positions), p_hash));
+}
+
 } // namespace
 
 struct ShadowReference::Job {
@@ -31,7 +36,7 @@ struct ShadowReference::Job {
 	VisibilityOptions options;
 	CasterTriangles triangles;
 	std::shared_ptr<const SurfaceSpread> spread;
-	std::vector<SpreadBody> spread_bodies;
+	std::vector<Triangles> spread_bodies;
 	RGBuffer depth;
 	RGBuffer normal;
 	RGBuffer material;
@@ -41,8 +46,11 @@ struct ShadowReference::Job {
 	bool may_keep = true;
 
 	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
-		uint64_t key = add_to_hash(std::span<const glm::vec3>(triangles.positions), TRUTH_VERSION);
-		key = add_to_hash(std::span<const uint32_t>(triangles.indices), key);
+		uint64_t key = add_to_hash(triangles.opaque, TRUTH_VERSION);
+		for (const TranslucentTriangles &body : triangles.translucent) {
+			key = add_to_hash(body.triangles, key);
+			key = compute_value_hash(body.transmittance, key);
+		}
 		std::vector<glm::vec3> points;
 		for (const ReceiverPoint &point : p_points) {
 			points.push_back(point.is_receiver ? point.position : glm::vec3(0.0f));
@@ -54,9 +62,8 @@ struct ShadowReference::Job {
 			for (const ReceiverPoint &point : p_points) {
 				spread_values.push_back(point.spread_radius_m);
 			}
-			for (const SpreadBody &body : spread_bodies) {
-				key = add_to_hash(std::span<const glm::vec3>(body.positions), key);
-				key = add_to_hash(std::span<const uint32_t>(body.indices), key);
+			for (const Triangles &body : spread_bodies) {
+				key = add_to_hash(body, key);
 			}
 			key = add_to_hash(std::span<const float>(spread_values), key);
 		}
@@ -79,7 +86,8 @@ void ShadowReference::get_light_properties(PropertyList &r_list) const {
 void ShadowReference::compute(
 		const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth) {
 	const auto start = std::chrono::steady_clock::now();
-	const AreaLightVisibility tracer(p_job.triangles.positions, p_job.triangles.indices);
+	const AreaLightVisibility tracer(p_job.triangles.opaque.positions,
+			p_job.triangles.opaque.indices, p_job.triangles.translucent);
 	Progress progress("Tracing the reference of light \"" + p_job.light_name + "\"");
 	VisibilityOptions options = p_job.options;
 	std::optional<SpreadVisibility> spread;
@@ -90,6 +98,7 @@ void ShadowReference::compute(
 	options.progress = [&](float p_fraction) { progress.update(p_fraction); };
 	VisibilityResult result = tracer.compute(p_points, p_job.size_px, p_job.light, options);
 	r_truth.visibility = std::move(result.visibility);
+	r_truth.colors = std::move(result.colors);
 	r_truth.standard_error = result.standard_error;
 	r_truth.penumbra_pixel_count = result.penumbra_pixel_count;
 	const double seconds =
@@ -108,8 +117,9 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
 	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
-		const std::optional<Truth> stored =
-				p_job.may_keep ? load_truth(key, pixel_count) : std::nullopt;
+		const std::optional<Truth> stored = p_job.may_keep
+				? load_truth(key, pixel_count, !p_job.triangles.translucent.empty())
+				: std::nullopt;
 		if (stored) {
 			last_truth = *stored;
 		} else {
@@ -122,8 +132,15 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 				last_truth.penumbra_pixel_count, " penumbra pixels",
 				stored ? " (from the cache)." : ".");
 	}
-	std::memcpy(p_context.get_mapped(p_job.mask), last_truth.visibility.data(),
-			pixel_count * sizeof(float));
+	if (last_truth.colors.empty()) {
+		std::memcpy(p_context.get_mapped(p_job.mask), last_truth.visibility.data(),
+				pixel_count * sizeof(float));
+		return;
+	}
+	glm::vec4 *mask = reinterpret_cast<glm::vec4 *>(p_context.get_mapped(p_job.mask));
+	for (size_t index = 0; index < pixel_count; ++index) {
+		mask[index] = glm::vec4(last_truth.colors[index], 1.0f);
+	}
 }
 
 RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
@@ -159,8 +176,11 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->normal = add_copy(p_inputs.geometric_normal);
 	job->material = add_copy(p_inputs.material);
 	job->receivers = add_copy(p_inputs.receivers);
-	job->mask = r_graph.create_buffer({ "reference mask", pixel_count * sizeof(float),
-			BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD });
+	const Format format =
+			job->triangles.translucent.empty() ? Format::R32_SFLOAT : Format::RGBA32_SFLOAT;
+	job->mask =
+			r_graph.create_buffer({ "reference mask", pixel_count * get_texel_size_bytes(format),
+					BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD });
 	r_graph.add_pass("trace")
 			.reads(job->depth, Access::HOST_READ)
 			.reads(job->normal, Access::HOST_READ)
@@ -168,8 +188,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 			.reads(job->receivers, Access::HOST_READ)
 			.writes(job->mask, Access::HOST_WRITE)
 			.execute_on_host([this, job](HostContext &p_context) { run(*job, p_context); });
-	const RGTexture mask = r_graph.create_texture({ "visibility mask", Format::R32_SFLOAT,
-			p_inputs.size_px, 1,
+	const RGTexture mask = r_graph.create_texture({ "visibility mask", format, p_inputs.size_px, 1,
 			TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	r_graph.add_pass("upload mask")
 			.reads(job->mask, Access::COPY_READ)

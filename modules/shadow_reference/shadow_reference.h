@@ -12,6 +12,7 @@ class ShadowReference : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	bool sees_translucent_casters() const override { return true; }
 	float get_standard_error() const override { return last_truth.standard_error; }
 	std::vector<std::string> get_shader_files() const override { return {}; }
 

@@ -39,9 +39,9 @@ private:
 } // namespace
 
 SpreadVisibility::SpreadVisibility(
-		std::span<const SpreadBody> p_bodies, const SurfaceSpread &p_spread) :
+		std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread) :
 		spread(p_spread) {
-	for (const SpreadBody &body : p_bodies) {
+	for (const Triangles &body : p_bodies) {
 		bodies.push_back(std::make_unique<EmbreeScene>(body.positions, body.indices));
 	}
 }
@@ -81,7 +81,7 @@ std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const Embree
 	return Point{ p_on_plane + height_m * up, facing > 0.0f ? hit.normal : -hit.normal };
 }
 
-SpreadMean SpreadVisibility::compute(const EmbreeScene &p_casters, const AreaLight &p_light,
+SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLight &p_light,
 		const SpreadReceiver &p_receiver, float p_offset_m, uint32_t p_sample_count,
 		uint64_t p_hash) const {
 	SpreadMean mean;
@@ -106,16 +106,18 @@ SpreadMean SpreadVisibility::compute(const EmbreeScene &p_casters, const AreaLig
 			}
 			mean.counts[half] += 1;
 			DiscView view;
-			float visibility = 0.0f;
-			if (find_disc_view(
-						p_light, point->position, point->normal, p_offset_m, view, visibility)) {
+			float known = 0.0f;
+			glm::vec3 visibility(0.0f);
+			if (find_disc_view(p_light, point->position, point->normal, p_offset_m, view, known)) {
 				const float radius = std::sqrt(points.get(2));
 				const float turn_rad = TWO_PI * points.get(3);
 				const glm::vec3 ray =
 						view.compute_ray(radius * std::cos(turn_rad), radius * std::sin(turn_rad));
-				visibility = p_casters.is_occluded(view.origin, ray, view.end) ? 0.0f : 1.0f;
+				visibility = p_casters.trace(view.origin, ray, view.end);
+			} else {
+				visibility = glm::vec3(known);
 			}
-			mean.visible_counts[half] += visibility;
+			mean.visible_counts[half] += glm::dvec3(visibility);
 		}
 	}
 	return mean;

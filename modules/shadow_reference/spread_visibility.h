@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/renderer/surface_spread.h"
+#include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/light_disc.h"
 
 #include <cstdint>
@@ -11,14 +12,6 @@
 
 namespace gnomon {
 
-class EmbreeScene;
-
-/// Triangles of one translucent body, in the space of the receivers.
-struct SpreadBody {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-};
-
 /// A receiver from which light leaves that entered about it.
 struct SpreadReceiver {
 	glm::vec3 position = glm::vec3(0.0f);
@@ -28,10 +21,10 @@ struct SpreadReceiver {
 
 /// Means over rays of one receiver, in two halves that were drawn independently.
 struct SpreadMean {
-	double visible_counts[2] = { 0, 0 };
+	glm::dvec3 visible_counts[2] = { glm::dvec3(0.0), glm::dvec3(0.0) }; // one for each colour
 	double counts[2] = { 0, 0 }; // of rays that started where the light reaches the body
 
-	double compute_mean() const {
+	glm::dvec3 compute_mean() const {
 		return (visible_counts[0] + visible_counts[1]) / (counts[0] + counts[1]);
 	}
 };
@@ -44,12 +37,12 @@ struct SpreadMean {
 class SpreadVisibility {
 public:
 	/// p_spread must outlive it.
-	SpreadVisibility(std::span<const SpreadBody> p_bodies, const SurfaceSpread &p_spread);
+	SpreadVisibility(std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread);
 	~SpreadVisibility();
 
 	/// p_sample_count rays in all; p_offset_m: how far they start off the surface. May be called
 	/// from several threads.
-	SpreadMean compute(const EmbreeScene &p_casters, const AreaLight &p_light,
+	SpreadMean compute(const CasterScene &p_casters, const AreaLight &p_light,
 			const SpreadReceiver &p_receiver, float p_offset_m, uint32_t p_sample_count,
 			uint64_t p_hash) const;
 

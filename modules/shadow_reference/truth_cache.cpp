@@ -29,16 +29,23 @@ void save_truth(uint64_t p_key, const Truth &p_truth) {
 	header.pixel_count = p_truth.visibility.size();
 	header.standard_error = p_truth.standard_error;
 	const size_t value_bytes = p_truth.visibility.size() * sizeof(float);
-	std::vector<uint8_t> bytes(sizeof(header) + value_bytes);
+	const size_t color_bytes = p_truth.colors.size() * sizeof(glm::vec3);
+	std::vector<uint8_t> bytes(sizeof(header) + value_bytes + color_bytes);
 	std::memcpy(bytes.data(), &header, sizeof(header));
 	std::memcpy(bytes.data() + sizeof(header), p_truth.visibility.data(), value_bytes);
+	if (color_bytes > 0) {
+		std::memcpy(
+				bytes.data() + sizeof(header) + value_bytes, p_truth.colors.data(), color_bytes);
+	}
 	save_cache_entry(get_entry_name(p_key), bytes);
 }
 
-std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count) {
+std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
 	const std::vector<uint8_t> bytes = load_cache_entry(get_entry_name(p_key));
 	EntryHeader header;
-	if (bytes.size() != sizeof(header) + p_pixel_count * sizeof(float)) {
+	const size_t value_bytes = p_pixel_count * sizeof(float);
+	const size_t color_bytes = p_is_colored ? p_pixel_count * sizeof(glm::vec3) : 0;
+	if (bytes.size() != sizeof(header) + value_bytes + color_bytes) {
 		return std::nullopt;
 	}
 	std::memcpy(&header, bytes.data(), sizeof(header));
@@ -49,8 +56,11 @@ std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count) {
 	truth.standard_error = header.standard_error;
 	truth.penumbra_pixel_count = header.penumbra_pixel_count;
 	truth.visibility.resize(p_pixel_count);
-	std::memcpy(
-			truth.visibility.data(), bytes.data() + sizeof(header), p_pixel_count * sizeof(float));
+	std::memcpy(truth.visibility.data(), bytes.data() + sizeof(header), value_bytes);
+	if (p_is_colored) {
+		truth.colors.resize(p_pixel_count);
+		std::memcpy(truth.colors.data(), bytes.data() + sizeof(header) + value_bytes, color_bytes);
+	}
 	return truth;
 }
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
+#include "common/mask_inc.glsl"
 #include "renderer/renderer_shared.h"
 #include "shared/heat_map_shared.h"
 
@@ -12,6 +13,7 @@ layout(std430, set = 0, binding = RENDERER_BINDING_TRUTH) readonly buffer Truth 
 layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba8) uniform writeonly image2D output_image;
+layout(constant_id = RENDERER_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -20,7 +22,9 @@ void main() {
 		return;
 	}
 	const float true_visibility = truth[pixel.y * size.x + pixel.x];
-	const float error = (texelFetch(mask_texture, pixel, 0).r - true_visibility) / HEAT_MAP_RANGE;
+	const vec4 mask = texelFetch(mask_texture, pixel, 0);
+	const float visibility = IS_COLORED != 0u ? mask_luminance(mask.rgb) : mask.r;
+	const float error = (visibility - true_visibility) / HEAT_MAP_RANGE;
 	const float rest = clamp(1.0 - abs(error), 0.0, 1.0);
 	const bool is_receiver =
 			true_visibility >= 0.0 && texelFetch(receivers_texture, pixel, 0).r > 0.0;

@@ -22,6 +22,7 @@ layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_co
 layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform image2D radiance_image;
+layout(constant_id = RENDERER_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -31,7 +32,8 @@ void main() {
 	if (texelFetch(receivers_texture, pixel, 0).r == 0.0) {
 		return;
 	}
-	const float visibility = texelFetch(mask_texture, pixel, 0).r;
+	const vec4 mask = texelFetch(mask_texture, pixel, 0);
+	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;
 	const vec3 position =
 			position_from_depth(frame, pixel, texelFetch(depth_texture, pixel, 0).r);
 	const vec3 to_light = vector_to_light(light, position);

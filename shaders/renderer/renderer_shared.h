@@ -17,6 +17,13 @@
 #define RENDERER_BINDING_OUTPUT 11
 #define RENDERER_BINDING_TRUTH 12
 #define RENDERER_GROUP_SIZE 8
+#define RENDERER_CONSTANT_IS_COLORED 0 // 1: the mask has three colours
+
+/// Push constants of tint.comp.
+struct SHARED_ALIGN TintPush {
+	vec4 transmittance; // rgb
+};
+SHARED_SIZE(TintPush, 16);
 
 /// Push constants of debug_view.comp.
 struct SHARED_ALIGN DebugViewPush {

@@ -1,0 +1,12 @@
+// Masks of one value, and of three: behind casters that colour the light.
+#ifndef MASK_INC_GLSL
+#define MASK_INC_GLSL
+
+#include "shared/mask_shared.h"
+
+/// What the eye makes of a coloured mask; metrics are over this.
+float mask_luminance(vec3 p_mask) {
+	return dot(p_mask, vec3(MASK_LUMINANCE_R, MASK_LUMINANCE_G, MASK_LUMINANCE_B));
+}
+
+#endif
