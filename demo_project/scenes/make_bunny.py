@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the bunny scene from the mesh of Debian's package glmark2-data.
+"""Makes the bunny scenes from the mesh of Debian's package glmark2-data.
 
     make_bunny.py [OUT.gltf]       default: bunny.gltf beside this file (not committed)
 
-The mesh (69,666 triangles, closed) is scaled to 1.9 m and put on the ground of the study's scenes.
+The mesh (69,666 triangles, closed) is scaled to 1.9 m and put on the ground of the study's scenes. Beside OUT.gltf,
+OUT_wax.gltf has a translucent one, before a wall and a point light, as in figure 8 of Wang and Xiao 2015; its
+self-shadow is what it is about.
 """
 
 import argparse
@@ -11,8 +13,8 @@ import os
 import subprocess
 import sys
 
-from gltf_writer import Mesh, save_files
-from make_scenes import CORAL, FOLDER, add_ground, make_document
+from gltf_writer import Document, Mesh, save_files
+from make_scenes import CORAL, FOLDER, SCENE_SIZE_M, add_ground, add_translucent_set, make_document, make_scatter_extras
 
 PACKAGE = "glmark2-data"
 HEIGHT_M = 1.9
@@ -60,6 +62,23 @@ def make_bunny(points, triangles):
     return mesh
 
 
+def make_scene(mesh):
+    document = make_document()
+    add_ground(document)
+    material = document.add_material("Bunny", CORAL, roughness=0.5)
+    document.add_object("Bunny", mesh, material)
+    return document
+
+
+def make_wax_scene(mesh):
+    document = Document(SCENE_SIZE_M)
+    # From the side, so that ears and head cast on the body.
+    add_translucent_set(document, light_eye=(-4.4, 4.4, 1.6))
+    material = document.add_material("Wax", (0.85, 0.66, 0.52), roughness=0.5, extras=make_scatter_extras(0.8))
+    document.add_object("Bunny", mesh, material)
+    return document
+
+
 def main():
     parser = argparse.ArgumentParser(description="Makes the bunny scene.")
     parser.add_argument("out", nargs="?", default=os.path.join(FOLDER, "bunny.gltf"))
@@ -75,11 +94,10 @@ def main():
         raise SystemExit("ERROR: bunny: cannot read %s: %s" % (path, error))
     if len(triangles) != TRIANGLE_COUNT:
         print("WARNING: bunny: %s has %d triangles, not %d." % (path, len(triangles), TRIANGLE_COUNT), file=sys.stderr)
-    document = make_document()
-    add_ground(document)
-    material = document.add_material("Bunny", CORAL, roughness=0.5)
-    document.add_object("Bunny", make_bunny(points, triangles), material)
-    save_files(document.build_files(stem), os.path.dirname(os.path.abspath(arguments.out)))
+    mesh = make_bunny(points, triangles)
+    files = make_scene(mesh).build_files(stem)
+    files.update(make_wax_scene(mesh).build_files(stem + "_wax"))
+    save_files(files, os.path.dirname(os.path.abspath(arguments.out)))
     return 0
 
 

@@ -54,10 +54,12 @@ def resolve_link(page, link):
 
 
 def load_techniques():
-    result = subprocess.run(
-        [GNOMON, "techniques", "--json"], capture_output=True, text=True, timeout=TIMEOUT_S, check=True
-    )
-    return json.loads(result.stdout)
+    """Techniques, and the mask filters behind them, which have pages of the same kind."""
+    found = []
+    for command in ("techniques", "filters"):
+        result = subprocess.run([GNOMON, command, "--json"], capture_output=True, text=True, timeout=TIMEOUT_S, check=True)
+        found += json.loads(result.stdout)
+    return found
 
 
 class LinkTest(unittest.TestCase):
