@@ -70,7 +70,7 @@ if [ "$wants_build" = yes ]; then
 fi
 
 has_failed=no
-if [ ! -f demo_project/scenes/bunny.gltf ]; then
+if [ ! -f demo_project/scenes/bunny.gltf ] || [ ! -f demo_project/scenes/bunny_wax.gltf ]; then
     echo "== Bunny"
     # The other scenes do not need it.
     python3 demo_project/scenes/make_bunny.py || has_failed=yes

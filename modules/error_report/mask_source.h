@@ -33,10 +33,12 @@ struct MeasuredMask {
 	uint64_t bytes = 0; // of device memory in use
 };
 
-/// A technique that the report can ask for.
+/// A technique that the report can ask for, or a mask filter behind one.
 struct TechniqueSource {
 	ReportTechnique info;
 	std::function<std::vector<QualitySetting>(const LightSnapshot &)> get_settings;
+	/// False: it has nothing to do in that scene, and has no rows there. Empty: always.
+	std::function<bool(const MaskQuestion &)> applies = {};
 };
 
 /// Whoever can draw: the program with its renderer, a test with numbers. Failures are Errors.

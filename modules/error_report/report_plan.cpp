@@ -224,13 +224,16 @@ private:
 		if (p_configuration.has_truth()) {
 			const uint64_t hash =
 					compute_text_hash(text(options.sample_count), compute_question_hash(question));
-			p_configuration.record = make_record_name(p_configuration.scene, "truth",
-					compute_text_hash(options.program, hash));
+			p_configuration.record = make_record_name(
+					p_configuration.scene, "truth", compute_text_hash(options.program, hash));
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);
 		plan.questions.push_back(p_ask);
 		for (const TechniqueSource &technique : techniques) {
+			if (technique.applies && !technique.applies(question)) {
+				continue;
+			}
 			std::vector<QualitySetting> settings = technique.get_settings(light);
 			if (!p_configuration.has_truth()) {
 				// A technique of expensive settings is brute force: many times the cost of another.

@@ -5,6 +5,7 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
+#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/renderer.h"
 #include "modules/renderer/shadow_registry.h"
 
@@ -32,6 +33,9 @@ RenderRequest make_request(const MaskQuestion &p_question, const std::string &p_
 	request.scene = p_question.scene;
 	request.size_px = p_question.size_px;
 	request.technique_override = p_technique;
+	if (!ShadowRegistry::find(p_technique) && ShadowRegistry::find_default() != nullptr) {
+		request.technique_override = ShadowRegistry::find_default()->id; // a filter's row
+	}
 	request.mask_light = p_question.light;
 	request.wants_mask = !p_question.light.empty();
 	return request;
@@ -111,33 +115,74 @@ MeasuredMask RenderedMasks::measure(
 	return measured;
 }
 
+namespace {
+
+/// Techniques, and the mask filters behind them.
+std::vector<std::string> list_ids() {
+	std::vector<std::string> ids;
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		ids.push_back(info.id);
+	}
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+		ids.push_back(info.id);
+	}
+	return ids;
+}
+
+bool contains(const std::vector<std::string> &p_ids, const std::string &p_id) {
+	return std::find(p_ids.begin(), p_ids.end(), p_id) != p_ids.end();
+}
+
+TechniqueSource make_source(const ShadowTechniqueInfo &p_info) {
+	TechniqueSource source;
+	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, p_info.is_fallback };
+	const std::shared_ptr<const ShadowTechnique> technique = p_info.make();
+	source.get_settings = [technique](const LightSnapshot &p_light) {
+		std::vector<QualitySetting> settings;
+		technique->get_quality_settings(p_light, settings);
+		return settings;
+	};
+	return source;
+}
+
+TechniqueSource make_source(const MaskFilterInfo &p_info) {
+	TechniqueSource source;
+	source.info = { p_info.id, p_info.name, p_info.source, p_info.color, false };
+	const std::shared_ptr<const MaskFilter> filter = p_info.make();
+	source.get_settings = [filter](const LightSnapshot & /*p_light*/) {
+		std::vector<QualitySetting> settings;
+		filter->get_quality_settings(settings);
+		return settings;
+	};
+	source.applies = [filter](const MaskQuestion &p_question) {
+		return filter->may_change(*p_question.scene, p_question.size_px);
+	};
+	return source;
+}
+
+} // namespace
+
 std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<std::string> &p_ids) {
+	const std::vector<std::string> all = list_ids();
 	for (const std::string &id : p_ids) {
-		if (!ShadowRegistry::find(id)) {
+		if (!contains(all, id)) {
 			std::string ids;
-			for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-				ids += (ids.empty() ? "" : ", ") + info.id;
+			for (const std::string &known : all) {
+				ids += (ids.empty() ? "" : ", ") + known;
 			}
 			throw UsageError(text("--techniques: there is no \"", id, "\", must be of ", ids, "."));
 		}
 	}
 	std::vector<TechniqueSource> sources;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		const bool is_asked = p_ids.empty()
-				? !info.is_reference && !info.is_example
-				: std::find(p_ids.begin(), p_ids.end(), info.id) != p_ids.end();
-		if (!is_asked) {
-			continue;
+		if (p_ids.empty() ? !info.is_reference && !info.is_example : contains(p_ids, info.id)) {
+			sources.push_back(make_source(info));
 		}
-		TechniqueSource source;
-		source.info = { info.id, info.name, info.source, info.color, info.is_fallback };
-		const std::shared_ptr<const ShadowTechnique> technique = info.make();
-		source.get_settings = [technique](const LightSnapshot &p_light) {
-			std::vector<QualitySetting> settings;
-			technique->get_quality_settings(p_light, settings);
-			return settings;
-		};
-		sources.push_back(std::move(source));
+	}
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+		if (p_ids.empty() || contains(p_ids, info.id)) {
+			sources.push_back(make_source(info));
+		}
 	}
 	return sources;
 }

@@ -28,14 +28,26 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 			std::find(p_choices.begin(), p_choices.end(), value) - p_choices.begin());
 }
 
-/// Is there a translucent surface that the camera may see, of whichever method?
-bool has_scatter(const ShadowTechnique::Inputs &p_inputs) {
-	const LightView camera_view = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
-	return std::any_of(p_inputs.scene.instances.begin(), p_inputs.scene.instances.end(),
-			[&](const InstanceSnapshot &p_instance) {
-				return clamp_scatter(p_instance.material->scatter) > 0.0f &&
-						camera_view.may_see(p_instance.bounds_world);
-			});
+/// Four words of each pixel.
+RGBuffer add_pack_pass(
+		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, RGTexture p_mask) {
+	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
+	const RGBuffer pixels = r_graph.create_buffer({ "scatter pixels",
+			pixel_count * sizeof(glm::uvec4), BufferUsage::STORAGE, MemoryKind::GPU });
+	add_compute_pass(r_graph, "scatter pixels",
+			p_inputs.device.get_compute_pipeline(
+					{ "scatter pixels", "receiver_scatter/pack.comp", {} }),
+			{
+					PassBinding::constants(SCATTER_BINDING_FRAME, p_inputs.frame),
+					PassBinding::read(SCATTER_BINDING_DEPTH, p_inputs.depth),
+					PassBinding::read(SCATTER_BINDING_NORMAL, p_inputs.geometric_normal),
+					PassBinding::read(SCATTER_BINDING_MATERIAL, p_inputs.material),
+					PassBinding::read(SCATTER_BINDING_RECEIVERS, p_inputs.receivers),
+					PassBinding::read(SCATTER_BINDING_MASK, p_mask),
+					PassBinding::write(SCATTER_BINDING_PIXELS, pixels),
+			},
+			glm::uvec3(p_inputs.size_px, 1u));
+	return pixels;
 }
 
 } // namespace
@@ -60,13 +72,34 @@ void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
 			"", GROUP });
 }
 
+void ReceiverScatter::get_quality_settings(std::vector<QualitySetting> &r_settings) const {
+	r_settings.push_back({ "off", { { ENABLED, false } } });
+	for (const int64_t count : { 48, 120 }) {
+		r_settings.push_back({ text("pixels, ", count, " samples"),
+				{ { METHOD, std::string("pixels") }, { SAMPLES, count } } });
+	}
+	for (const int64_t count : { 16, 48, 120 }) {
+		r_settings.push_back({ text("metres, ", count, " samples"),
+				{ { METHOD, std::string("metres") }, { SAMPLES, count } } });
+	}
+}
+
+bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const {
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
+			[&](const InstanceSnapshot &p_instance) {
+				return clamp_scatter(p_instance.material->scatter) > 0.0f &&
+						camera_view.may_see(p_instance.bounds_world);
+			});
+}
+
 bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		const PropertyValues &p_properties, TechniquePlan &r_plan) {
 	if (!std::get<bool>(p_properties.at(ENABLED))) {
 		r_plan.leave_out("scatter", text(ENABLED, " is false"));
 		return false;
 	}
-	if (p_inputs.may_leave_out && !has_scatter(p_inputs)) {
+	if (p_inputs.may_leave_out && !may_change(p_inputs.scene, p_inputs.size_px)) {
 		r_plan.leave_out("scatter", "no visible surface scatters");
 		return false;
 	}
@@ -84,6 +117,7 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	const std::vector<glm::vec2> points = make_scatter_samples(spread, push.sample_count);
 	const RGBuffer samples = r_graph.upload(
 			"scatter samples", BufferUsage::STORAGE, bytes_of(std::span<const glm::vec2>(points)));
+	const RGBuffer pixels = add_pack_pass(r_graph, p_inputs, p_mask);
 	const auto add_pass = [&](const char *p_name, const char *p_shader,
 								  std::vector<PassBinding> p_own_bindings) {
 		TextureDesc desc = r_graph.get_desc(p_mask);
@@ -94,11 +128,9 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 		bindings.insert(bindings.end(),
 				{
 						PassBinding::constants(SCATTER_BINDING_FRAME, p_inputs.frame),
-						PassBinding::read(SCATTER_BINDING_DEPTH, p_inputs.depth),
-						PassBinding::read(SCATTER_BINDING_NORMAL, p_inputs.geometric_normal),
 						PassBinding::read(SCATTER_BINDING_MATERIAL, p_inputs.material),
-						PassBinding::read(SCATTER_BINDING_RECEIVERS, p_inputs.receivers),
 						PassBinding::read(SCATTER_BINDING_MASK, p_mask),
+						PassBinding::read(SCATTER_BINDING_PIXELS, pixels),
 						PassBinding::write(SCATTER_BINDING_RESULT, result),
 				});
 		add_compute_pass(r_graph, p_name,
@@ -115,7 +147,8 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 }
 
 std::vector<std::string> ReceiverScatter::get_shader_files() const {
-	return { "receiver_scatter/spread.comp", "receiver_scatter/average.comp" };
+	return { "receiver_scatter/pack.comp", "receiver_scatter/spread.comp",
+		"receiver_scatter/average.comp" };
 }
 
 } // namespace gnomon

@@ -11,6 +11,9 @@ namespace gnomon {
 class ReceiverScatter : public MaskFilter {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
+	void get_quality_settings(std::vector<QualitySetting> &r_settings) const override;
+	/// Is there a translucent surface that the camera may see, of whichever method?
+	bool may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const override;
 	bool plan(const ShadowTechnique::Inputs &p_inputs, const PropertyValues &p_properties,
 			TechniquePlan &r_plan) override;
 	RGTexture apply(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,

@@ -9,7 +9,7 @@ namespace gnomon {
 void initialize_receiver_scatter_module(ModuleLevel p_level) {
 	if (p_level == ModuleLevel::FEATURES) {
 		MaskFilterRegistry::add({ "receiver_scatter", "Scatter in translucent receivers",
-				"Wang, Xiao 2015; Jensen et al. 2001",
+				"Wang, Xiao 2015; Jensen et al. 2001", "#5254a3",
 				[] { return std::make_unique<ReceiverScatter>(); },
 				std::make_shared<DipoleSpread>() });
 	}

@@ -19,6 +19,12 @@ public:
 	/// Properties this filter adds to every light; names begin with the filter's id. Called on any
 	/// instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
+	/// Settings worth comparing, as ShadowTechnique's; measured behind the default technique.
+	virtual void get_quality_settings(std::vector<QualitySetting> & /*r_settings*/) const {}
+	/// False when it changes no mask of the scene, whatever its properties are.
+	virtual bool may_change(const SceneSnapshot & /*p_scene*/, glm::uvec2 /*p_size_px*/) const {
+		return true;
+	}
 	/// False, with the reason in the plan, when the mask would stay as it is. p_properties: the
 	/// filter's own of the light, with defaults filled in and every value in range.
 	virtual bool plan(const ShadowTechnique::Inputs &p_inputs, const PropertyValues &p_properties,
@@ -33,6 +39,7 @@ struct MaskFilterInfo {
 	std::string id;
 	std::string name;
 	std::string source;
+	std::string color; // "#rrggbb", its own: it is drawn so in every plot
 	std::function<std::unique_ptr<MaskFilter>()> make;
 	/// What the filter approximates. A reference integrates it, and the filter does not run then.
 	/// Null: it runs after the reference too.

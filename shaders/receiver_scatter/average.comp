@@ -14,7 +14,7 @@ void main() {
 	if (!is_in_picture(pixel)) {
 		return;
 	}
-	vec3 mask = load_mask(pixel);
+	vec4 mask = texelFetch(mask_texture, pixel, 0);
 	Receiver receiver;
 	int reach = 0;
 	if (load_receiver(pixel, receiver) && is_metric(receiver)) {
@@ -26,20 +26,24 @@ void main() {
 		for (int y = -reach; y <= reach; ++y) {
 			for (int x = -reach; x <= reach; ++x) {
 				const ivec2 other = pixel + ivec2(x, y);
-				Receiver neighbour;
-				if (!is_in_picture(other) || !load_receiver(other, neighbour) ||
-						!is_same_material(receiver, neighbour) ||
-						dot(neighbour.normal, receiver.normal) < SMALLEST_COSINE ||
-						abs(dot(neighbour.position - receiver.position, receiver.normal)) >
-								float(reach) * receiver.pixel_size_m) {
+				if (!is_in_picture(other)) {
+					continue;
+				}
+				const uvec4 packed = load_pixel(other);
+				if (get_material_key(packed) != receiver.material_key ||
+						dot(unpack_normal(packed.y), receiver.normal) < SMALLEST_COSINE) {
+					continue;
+				}
+				const vec3 way = position_from_depth(frame, other, get_depth(packed)) - receiver.position;
+				if (abs(dot(way, receiver.normal)) > float(reach) * receiver.pixel_size_m) {
 					continue;
 				}
 				const float weight = (abs(x) == reach ? 0.5 : 1.0) * (abs(y) == reach ? 0.5 : 1.0);
-				sum += weight * load_mask(other);
+				sum += weight * texelFetch(mask_texture, other, 0).rgb;
 				weight_sum += weight;
 			}
 		}
-		mask = sum / weight_sum; // the pixel itself always counts
+		mask.rgb = sum / weight_sum; // the pixel itself always counts
 	}
-	imageStore(result_image, pixel, vec4(mask, 1.0));
+	imageStore(result_image, pixel, mask);
 }

@@ -10,35 +10,63 @@ layout(set = 0, binding = SCATTER_BINDING_SAMPLES) readonly buffer Samples {
 	vec2 samples[]; // in radii
 };
 
+/// x, y and w of a point or way in clip space.
+vec3 project(vec4 p_position) {
+	return (frame.clip_from_camera_relative * p_position).xyw;
+}
+
 /// The pixel that shows a point; outside the picture where it lies behind the camera.
-ivec2 find_pixel_of(vec3 p_position) {
-	const vec4 clip = frame.clip_from_camera_relative * vec4(p_position, 1.0);
-	if (!(clip.w > frame.near_m)) {
+ivec2 find_pixel_of(vec3 p_projected) {
+	if (!(p_projected.z > frame.near_m)) {
 		return ivec2(-1);
 	}
-	const vec2 pixel = floor((0.5 + 0.5 * clip.xy / clip.w) * vec2(frame.size_px));
+	const vec2 pixel = floor((0.5 + 0.5 * p_projected.xy / p_projected.z) * vec2(frame.size_px));
 	return ivec2(clamp(pixel, vec2(-1.0), vec2(frame.size_px)));
+}
+
+/// How much the squared distance of a sample from its receiver grows on average, as it is taken at a
+/// pixel's centre and the pixels of a block are averaged, on the receiver's tangent plane.
+float find_blur_m2(Receiver p_receiver, int p_block_width) {
+	const float averaged_px2 = p_block_width == 1 ? 0.0 : p_block_width == 2 ? 0.5 : 1.5;
+	const float cosine = max(abs(dot(p_receiver.normal, normalize(p_receiver.position))), 0.2);
+	return (averaged_px2 + 1.0 / 12.0) * (1.0 + 1.0 / (cosine * cosine)) * p_receiver.pixel_size_m *
+			p_receiver.pixel_size_m;
 }
 
 vec3 spread_in_metres(ivec2 p_pixel, Receiver p_receiver) {
 	vec3 axis_x;
 	vec3 axis_y;
 	find_tangents(p_receiver.normal, axis_x, axis_y);
-	const uint first = push.sample_count * find_set(p_pixel, find_block_width(p_receiver));
+	// A point of the plane is linear in its offset before the division by w.
+	const vec3 projected = project(vec4(p_receiver.position, 1.0));
+	const vec3 projected_x = project(vec4(axis_x, 0.0));
+	const vec3 projected_y = project(vec4(axis_y, 0.0));
+	const int block_width = find_block_width(p_receiver);
+	const uint first = push.sample_count * find_set(p_pixel, block_width);
+	const float blur_m2 = find_blur_m2(p_receiver, block_width);
+	const bool refuses = refuses_others(p_receiver);
 	vec3 sum = vec3(0.0);
 	uint count = 0u;
 	for (uint i = 0u; i < push.sample_count; ++i) {
-		const vec2 offset_m = p_receiver.radius_m * samples[first + i];
+		vec2 offset_m = p_receiver.radius_m * samples[first + i];
+		// Nearer by what will be added.
+		offset_m *= sqrt(max(1.0 - blur_m2 / max(dot(offset_m, offset_m), 1e-30), 0.0));
+		const ivec2 other =
+				find_pixel_of(projected + offset_m.x * projected_x + offset_m.y * projected_y);
+		if (!is_in_picture(other)) {
+			continue;
+		}
+		const uvec4 packed = load_pixel(other);
 		const vec3 expected = p_receiver.position + offset_m.x * axis_x + offset_m.y * axis_y;
-		const ivec2 other = find_pixel_of(expected);
 		// Curved by as much as 45 degrees, and what a pixel's width makes of it.
 		const float tolerance_m = length(offset_m) + 2.0 * p_receiver.pixel_size_m;
-		if (is_sample(p_receiver, other, expected, tolerance_m)) {
-			sum += load_light(other);
+		if (refuses ? is_same_surface(p_receiver, other, packed, expected, tolerance_m)
+					: get_depth(packed) > 0.0) {
+			sum += get_light(packed);
 			++count;
 		}
 	}
-	return count > 0u ? sum / float(count) : load_mask(p_pixel);
+	return count > 0u ? sum / float(count) : get_light(load_pixel(p_pixel));
 }
 
 #endif

@@ -10,6 +10,7 @@
 vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 	const float radius_px = SCATTER_RADIUS_PX * p_receiver.scatter;
 	const uint ring_count = uint(ceil(radius_px));
+	const bool refuses = refuses_others(p_receiver);
 	uint random = hash_pixel(uvec2(p_pixel));
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
@@ -21,15 +22,20 @@ vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 					(float(sector) + next_random(random)) * TWO_PI / float(push.sector_count);
 			const ivec2 other =
 					p_pixel + ivec2(round(distance_px * vec2(cos(angle_rad), sin(angle_rad))));
+			if (!is_in_picture(other)) {
+				continue;
+			}
+			const uvec4 packed = load_pixel(other);
 			const float tolerance_m = 2.0 * (distance_px + 1.0) * p_receiver.pixel_size_m;
-			if (is_sample(p_receiver, other, p_receiver.position, tolerance_m)) {
+			if (refuses ? is_same_surface(p_receiver, other, packed, p_receiver.position, tolerance_m)
+						: get_depth(packed) > 0.0) {
 				const float weight = exp(-SCATTER_FALLOFF * distance_px / radius_px);
-				sum += weight * load_light(other);
+				sum += weight * get_light(packed);
 				weight_sum += weight;
 			}
 		}
 	}
-	return weight_sum > 0.0 ? sum / weight_sum : load_mask(p_pixel);
+	return weight_sum > 0.0 ? sum / weight_sum : get_light(load_pixel(p_pixel));
 }
 
 #endif

@@ -9,11 +9,11 @@
 layout(set = 0, binding = SCATTER_BINDING_FRAME) uniform Frame {
 	FrameConstants frame;
 };
-layout(set = 0, binding = SCATTER_BINDING_DEPTH) uniform texture2D depth_texture;
-layout(set = 0, binding = SCATTER_BINDING_NORMAL) uniform utexture2D normal_texture;
 layout(set = 0, binding = SCATTER_BINDING_MATERIAL) uniform texture2D material_texture;
-layout(set = 0, binding = SCATTER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
+layout(set = 0, binding = SCATTER_BINDING_PIXELS) readonly buffer Pixels {
+	uvec4 pixels[]; // of pack.comp
+};
 // Of the mask's format, whichever that is.
 layout(set = 0, binding = SCATTER_BINDING_RESULT) uniform writeonly image2D result_image;
 layout(push_constant) uniform Push {
@@ -24,39 +24,46 @@ bool is_in_picture(ivec2 p_pixel) {
 	return all(greaterThanEqual(p_pixel, ivec2(0))) && all(lessThan(p_pixel, ivec2(frame.size_px)));
 }
 
-vec3 load_mask(ivec2 p_pixel) {
-	return texelFetch(mask_texture, p_pixel, 0).rgb;
+uvec4 load_pixel(ivec2 p_pixel) {
+	return pixels[uint(p_pixel.y) * frame.size_px.x + uint(p_pixel.x)];
 }
 
-bool is_reached(ivec2 p_pixel) {
-	return texelFetch(receivers_texture, p_pixel, 0).r != 0.0;
+float get_depth(uvec4 p_packed) {
+	return uintBitsToFloat(p_packed.x);
 }
 
-/// As load_mask; 0 where the surface is turned away from the light or outside of it, where masks may
-/// hold anything.
-vec3 load_light(ivec2 p_pixel) {
-	return is_reached(p_pixel) ? load_mask(p_pixel) : vec3(0.0);
+/// The light that arrives: the mask, 0 where the surface is turned from the light or outside of it.
+vec3 get_light(uvec4 p_packed) {
+	return vec3(unpackHalf2x16(p_packed.w), unpackHalf2x16(p_packed.z).x);
 }
 
-/// A pixel that the light reaches.
+/// Differs between materials; 0 where nothing scatters or the light does not reach.
+uint get_material_key(uvec4 p_packed) {
+	return p_packed.z >> 16u;
+}
+
+/// A pixel that the light reaches, and whose material scatters.
 struct Receiver {
 	vec3 position; // camera-relative
 	vec3 normal;   // geometric
-	float scatter; // s in 0..1, 0 also where it is no number
+	uint material_key;
+	float scatter; // s in 0..1
 	float scatter_distance_m;
 	float pixel_size_m; // how wide a pixel is there, across the view
 	float radius_m;		// of the disc from which the light comes, see DipoleSpread; finite
 };
 
-/// False where the light does not reach or the surface does not scatter: the mask stays as it is.
+/// False where the mask stays as it is.
 bool load_receiver(ivec2 p_pixel, out Receiver r_receiver) {
-	const float depth = texelFetch(depth_texture, p_pixel, 0).r;
-	const vec2 material = texelFetch(material_texture, p_pixel, 0).rg;
-	if (!(depth > 0.0) || !(material.r > 0.0) || !is_reached(p_pixel)) {
+	const uvec4 packed = load_pixel(p_pixel);
+	r_receiver.material_key = get_material_key(packed);
+	if (r_receiver.material_key == 0u) {
 		return false;
 	}
+	const float depth = get_depth(packed);
+	const vec2 material = texelFetch(material_texture, p_pixel, 0).rg;
 	r_receiver.position = position_from_depth(frame, p_pixel, depth);
-	r_receiver.normal = unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
+	r_receiver.normal = unpack_normal(packed.y);
 	r_receiver.scatter = min(material.r, 1.0);
 	r_receiver.scatter_distance_m = material.g;
 	r_receiver.pixel_size_m =
@@ -65,11 +72,6 @@ bool load_receiver(ivec2 p_pixel, out Receiver r_receiver) {
 			material.g > 0.0 ? material.g : SCATTER_RADIUS_PX * r_receiver.pixel_size_m;
 	r_receiver.radius_m = min(r_receiver.scatter * distance_m, 1e6 * frame.scene_size_m);
 	return true;
-}
-
-bool is_same_material(Receiver p_receiver, Receiver p_other) {
-	return p_other.scatter == p_receiver.scatter &&
-			p_other.scatter_distance_m == p_receiver.scatter_distance_m;
 }
 
 /// Which of the two methods serves it.
@@ -91,22 +93,22 @@ uint find_set(ivec2 p_pixel, int p_block_width) {
 	return first + place.x + uint(p_block_width) * place.y;
 }
 
-/// Does a pixel count for the receiver? It must show a surface; where others are refused, one of the
-/// receiver's material that the light reaches, turned towards the same side and no farther from
-/// p_expected than p_tolerance_m.
-bool is_sample(Receiver p_receiver, ivec2 p_pixel, vec3 p_expected, float p_tolerance_m) {
-	if (!is_in_picture(p_pixel)) {
+/// Are samples on other surfaces left out?
+bool refuses_others(Receiver p_receiver) {
+	return push.refusal == SCATTER_REFUSAL_ON ||
+			(push.refusal == SCATTER_REFUSAL_AUTO && is_metric(p_receiver));
+}
+
+/// Is a pixel of the receiver's material that the light reaches, turned towards the same side and no
+/// farther from p_expected than p_tolerance_m?
+bool is_same_surface(
+		Receiver p_receiver, ivec2 p_pixel, uvec4 p_packed, vec3 p_expected, float p_tolerance_m) {
+	if (get_material_key(p_packed) != p_receiver.material_key) {
 		return false;
 	}
-	const bool refuses = push.refusal == SCATTER_REFUSAL_ON ||
-			(push.refusal == SCATTER_REFUSAL_AUTO && is_metric(p_receiver));
-	if (!refuses) {
-		return texelFetch(depth_texture, p_pixel, 0).r > 0.0;
-	}
-	Receiver other;
-	return load_receiver(p_pixel, other) && is_same_material(p_receiver, other) &&
-			dot(other.normal, p_receiver.normal) > 0.0 &&
-			distance(other.position, p_expected) <= p_tolerance_m;
+	const vec3 way = position_from_depth(frame, p_pixel, get_depth(p_packed)) - p_expected;
+	return dot(way, way) <= p_tolerance_m * p_tolerance_m &&
+			dot(unpack_normal(p_packed.y), p_receiver.normal) > 0.0;
 }
 
 #endif

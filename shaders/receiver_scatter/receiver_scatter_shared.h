@@ -10,6 +10,7 @@
 #define SCATTER_BINDING_MASK 5 // that was there
 #define SCATTER_BINDING_RESULT 6
 #define SCATTER_BINDING_SAMPLES 7
+#define SCATTER_BINDING_PIXELS 8 // pack.comp
 #define SCATTER_GROUP_SIZE 8
 
 // Pixels of a block of 1, 2 x 2 or 4 x 4 take their samples from as many sets, and are averaged

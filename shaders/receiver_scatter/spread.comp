@@ -12,11 +12,11 @@ void main() {
 	if (!is_in_picture(pixel)) {
 		return;
 	}
-	vec3 mask = load_mask(pixel);
+	vec4 mask = texelFetch(mask_texture, pixel, 0);
 	Receiver receiver;
 	if (load_receiver(pixel, receiver)) {
-		mask = is_metric(receiver) ? spread_in_metres(pixel, receiver)
-								   : spread_in_pixels(pixel, receiver);
+		mask.rgb = is_metric(receiver) ? spread_in_metres(pixel, receiver)
+									   : spread_in_pixels(pixel, receiver);
 	}
-	imageStore(result_image, pixel, vec4(mask, 1.0));
+	imageStore(result_image, pixel, mask);
 }

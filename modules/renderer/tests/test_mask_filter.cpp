@@ -44,8 +44,8 @@ TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the pl
 	// Any technique will do; which there are depends on the build.
 	const std::string any = ShadowRegistry::get_techniques().at(0).id;
 	const RenderResult before = fixture.render_mask(scene, any);
-	MaskFilterRegistry::add(
-			{ "quarter", "Quarter", "test", [] { return std::make_unique<QuarterFilter>(); } });
+	MaskFilterRegistry::add({ "quarter", "Quarter", "test", "#000000",
+			[] { return std::make_unique<QuarterFilter>(); } });
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
 		CAPTURE(info.id);
 		const RenderResult filtered = fixture.render_mask(scene, info.id, glm::uvec2(16));

@@ -176,3 +176,44 @@ TEST_CASE("[NodeProperties] a copy has the whole state, and no children") {
 	CHECK(same.parent_from_node == light.parent_from_node);
 	CHECK(same.children.empty());
 }
+
+TEST_CASE("[NodeProperties] a mesh's material is changed for its node alone, and can be undone") {
+	auto wax = std::make_shared<Material>();
+	wax->name = "Wax";
+	wax->scatter = 0.25f;
+	wax->file_index = 3;
+	MeshInstance3D left;
+	left.name = "Left";
+	MeshInstance3D right;
+	for (MeshInstance3D *node : { &left, &right }) {
+		node->surfaces = { { nullptr, wax }, { nullptr, wax }, { nullptr, nullptr } };
+	}
+	const std::unique_ptr<Node3D> before = left.copy();
+	CHECK(get_node_property(left, "scatter") == PropertyValue(0.25));
+	CHECK(is_node_property_set(left, "scatter"));
+	set_node_property(left, "scatter", 0.75);
+	set_node_property(left, "shading_model", std::string("phong"));
+	set_node_property(left, "attenuation_color", glm::dvec3(0.5, 0.25, 1));
+	CHECK(right.surfaces[0].material == wax);
+	CHECK(wax->scatter == 0.25f);
+	CHECK(left.surfaces[0].material->scatter == 0.75f);
+	CHECK(left.surfaces[0].material->shading_model == ShadingModel::PHONG);
+	CHECK(left.surfaces[0].material->attenuation_color == glm::vec3(0.5f, 0.25f, 1));
+	CHECK(left.surfaces[0].material->name == "Wax");
+	CHECK(left.surfaces[0].material->file_index == 3);
+	CHECK(left.surfaces[1].material == left.surfaces[0].material); // what was shared stays so
+	CHECK(left.surfaces[2].material->scatter == 0.75f);
+	// The same value anew makes no other material.
+	const auto same = left.surfaces[0].material;
+	set_node_property(left, "scatter", 0.75);
+	CHECK(left.surfaces[0].material == same);
+	set_node_property(left, "scatter", std::nullopt);
+	CHECK(get_node_property(left, "scatter") == PropertyValue(0.0));
+	CHECK_THROWS_AS(set_node_property(left, "scatter", 1.5), Error);
+	CHECK_THROWS_AS(set_node_property(left, "thickness", -1.0), Error);
+	left.assign(*before);
+	CHECK(left.surfaces[0].material == wax);
+	// Without a surface there is no material.
+	CHECK(list_node_properties(MeshInstance3D()).find("scatter") == nullptr);
+	CHECK(list_node_properties(left).find("scatter") != nullptr);
+}

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Measures receiver_scatter and writes the tables of doc/techniques/receiver_scatter.md.
+
+    measure_scatter.py [--only errors|times|resolutions|shades] [--samples N]
+
+errors: each method against the truth at s = 0.15, 0.50 and 0.80, and against a plain blur of the same number of taps.
+times: what the filter's passes cost. resolutions: how much the mask changes between pictures of 512 and 2048 pixels.
+shades: coloured shadows against the truth. --samples: rays per pixel of the truths (default 4096).
+"""
+
+import argparse
+import json
+import math
+import os
+import re
+import tempfile
+
+from mask_file import Mask, compute_mean_error, halve, load_mask
+from measure_techniques import ROOT, find_reference, run
+
+PAGE = os.path.join(ROOT, "doc", "techniques", "receiver_scatter.md")
+SCENES = (("teapot_s15", 0.15), ("teapot_s50", 0.50), ("teapot_s80", 0.80))
+TECHNIQUES = ("edge_count", "shadow_map")
+MAP = ["shadow_map_size=2048"]
+SIZE_PX = 512
+TAP_COUNT = 48
+GOLDEN_ANGLE_RAD = math.pi * (3.0 - math.sqrt(5.0))
+# What the methods are called in the tables, and their settings.
+METHODS = (
+    ("none", ["receiver_scatter_enabled=false"]),
+    ("pixels, 48", ["receiver_scatter_method=pixels"]),
+    ("pixels, 120", ["receiver_scatter_method=pixels", "receiver_scatter_samples=120"]),
+    ("metres, 16", ["receiver_scatter_samples=16"]),
+    ("metres, 48", []),
+    ("metres, 120", ["receiver_scatter_samples=120"]),
+)
+
+
+def render(scene, technique, settings, out, size_px=SIZE_PX, *more):
+    words = [word for setting in settings for word in ("--set", setting)]
+    path = os.path.join(ROOT, "demo_project", "scenes", scene + ".gltf")
+    run("visibility", path, "--technique", technique, "--size", "%dx%d" % (size_px, size_px), "--out", out, *words, *more)
+
+
+def blur(mask, radius_px):
+    """The mean of taps spread evenly over a disc, whatever they show."""
+    offsets = []
+    for i in range(TAP_COUNT):
+        distance, angle = radius_px * math.sqrt((i + 0.5) / TAP_COUNT), i * GOLDEN_ANGLE_RAD
+        offsets.append((round(distance * math.cos(angle)), round(distance * math.sin(angle))))
+    result = Mask(mask.width, mask.height)
+    result.receiver = mask.receiver
+    for y in range(mask.height):
+        for x in range(mask.width):
+            if mask.receiver[y * mask.width + x] < 0.5:
+                continue
+            taps = [(x + dx, y + dy) for dx, dy in offsets if 0 <= x + dx < mask.width and 0 <= y + dy < mask.height]
+            total = sum(mask.visibility[v * mask.width + u] for u, v in taps)
+            result.visibility[y * mask.width + x] = total / max(len(taps), 1)
+    return result
+
+
+def measure_errors(folder, sample_count):
+    lines = ["| s | technique | method | penumbra MAE | MAE over all receivers |", "|---|---|---|---|---|"]
+    truth_path, mask_path = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
+    for scene, scatter in SCENES:
+        render(scene, find_reference(), ["reference_samples=%d" % sample_count], truth_path)
+        truth = load_mask(truth_path)
+        penumbra = truth.find_penumbra()
+        receivers = [i for i, value in enumerate(truth.receiver) if value >= 0.5]
+        for technique in TECHNIQUES:
+            for name, settings in METHODS:
+                render(scene, technique, settings + (MAP if technique == "shadow_map" else []), mask_path)
+                mask = load_mask(mask_path)
+                errors = compute_mean_error(truth, mask, penumbra), compute_mean_error(truth, mask, receivers)
+                lines.append("| %g | `%s` | %s | %.4f | %.4f |" % (scatter, technique, name, *errors))
+                if name == "none":
+                    blurred = blur(mask, 16.0 * scatter)
+                    errors = compute_mean_error(truth, blurred, penumbra), compute_mean_error(truth, blurred, receivers)
+                    lines.append("| %g | `%s` | blur, 48 taps | %.4f | %.4f |" % (scatter, technique, *errors))
+    return lines
+
+
+def measure_times(folder):
+    lines = ["| s | method | `scatter` ms | `scatter average` ms | rest of the light ms |", "|---|---|---|---|---|"]
+    for scene, scatter in SCENES:
+        for name, settings in METHODS:
+            path = os.path.join(folder, "time.json")
+            render(scene, TECHNIQUES[0], settings, os.path.join(folder, "mask.exr"), SIZE_PX, "--time", path)
+            with open(path, encoding="utf-8") as file:
+                passes = {item["name"]: item["gpu_ms"] for item in json.load(file)["passes"]}
+            own = [passes.get("scatter", 0.0), passes.get("scatter average", 0.0)]
+            lines.append("| %g | %s | %.1f | %.1f | %.1f |" % (scatter, name, *own, sum(passes.values()) - sum(own)))
+    return lines
+
+
+def is_soft(fine, x, y):
+    """Are all 16 pixels of a fine mask in penumbra that show what one of a coarse mask does?"""
+    places = [(4 * y + j) * fine.width + 4 * x + i for j in range(4) for i in range(4)]
+    return all(0.002 < fine.visibility[place] < 0.998 for place in places)
+
+
+def measure_resolutions(folder):
+    lines = ["| s | method | mean change | mean change where it is soft | 99 of 100 pixels there |", "|---|---|---|---|---|"]
+    for scene, scatter in SCENES:
+        for name, settings in (METHODS[1], METHODS[4]):
+            masks = []
+            for size_px in (SIZE_PX, 4 * SIZE_PX):
+                path = os.path.join(folder, "mask.exr")
+                render(scene, TECHNIQUES[0], settings, path, size_px)
+                masks.append(load_mask(path))
+            coarse, fine = masks[0], halve(halve(masks[1]))
+            both = [i for i, value in enumerate(fine.receiver) if value >= 0.5 and coarse.receiver[i] >= 0.5]
+            # Hard edges on opaque things, whose fine pixels are 0 or 1, are no matter of this filter.
+            soft = [i for i in both if is_soft(masks[1], i % SIZE_PX, i // SIZE_PX)]
+            changes = sorted(abs(coarse.visibility[i] - fine.visibility[i]) for i in soft)
+            lines.append(
+                "| %g | %s | %.2f %% | %.2f %% | %.2f %% |"
+                % (
+                    scatter,
+                    name,
+                    100.0 * compute_mean_error(fine, coarse, both),
+                    100.0 * compute_mean_error(fine, coarse, soft),
+                    100.0 * changes[int(0.99 * len(changes))],
+                )
+            )
+    return lines
+
+
+def measure_shades(folder, sample_count):
+    lines = ["| R in m | technique | penumbra MAE | MAE over all receivers |", "|---|---|---|---|"]
+    truth, mask = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
+    for size_m in (0.0, 0.08, 0.4):
+        light = ["light_size=%g" % size_m]
+        render("stained_glass", find_reference(), light + ["reference_samples=%d" % min(sample_count, 1024)], truth, 256)
+        for technique in ("edge_count", "pcss", "shadow_map", "penumbra_fins"):
+            render("stained_glass", technique, light, mask, 256)
+            error = json.loads(run("compare", truth, mask))
+            values = (size_m, technique, error["penumbra"]["mae"], error["receiver"]["mae"])
+            lines.append("| %g | `%s` | %.4f | %.4f |" % values)
+    return lines
+
+
+def write_table(name, lines):
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    pattern = re.compile(r"(<!-- begin %s -->\n).*?(<!-- end %s -->)" % (name, name), re.DOTALL)
+    if not pattern.search(text):
+        raise SystemExit("ERROR: %s has no table %s." % (PAGE, name))
+    text = pattern.sub(lambda match: match.group(1) + "\n".join(lines) + "\n" + match.group(2), text)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures shadows on translucent receivers.")
+    parser.add_argument("--only", choices=("errors", "times", "resolutions", "shades"))
+    parser.add_argument("--samples", type=int, default=4096)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        measures = {
+            "errors": lambda: measure_errors(folder, arguments.samples),
+            "times": lambda: measure_times(folder),
+            "resolutions": lambda: measure_resolutions(folder),
+            "shades": lambda: measure_shades(folder, arguments.samples),
+        }
+        for name in (arguments.only,) if arguments.only else measures:
+            write_table(name, measures[name]())
+            print("wrote table %s" % name, flush=True)
+
+
+if __name__ == "__main__":
+    main()
