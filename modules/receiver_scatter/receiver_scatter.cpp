@@ -29,11 +29,10 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 }
 
 /// Four words of each pixel.
-RGBuffer add_pack_pass(
+RGTexture add_pack_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, RGTexture p_mask) {
-	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
-	const RGBuffer pixels = r_graph.create_buffer({ "scatter pixels",
-			pixel_count * sizeof(glm::uvec4), BufferUsage::STORAGE, MemoryKind::GPU });
+	const RGTexture pixels = r_graph.create_texture({ "scatter pixels", Format::RGBA32_UINT,
+			p_inputs.size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
 	add_compute_pass(r_graph, "scatter pixels",
 			p_inputs.device.get_compute_pipeline(
 					{ "scatter pixels", "receiver_scatter/pack.comp", {} }),
@@ -117,7 +116,7 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	const std::vector<glm::vec2> points = make_scatter_samples(spread, push.sample_count);
 	const RGBuffer samples = r_graph.upload(
 			"scatter samples", BufferUsage::STORAGE, bytes_of(std::span<const glm::vec2>(points)));
-	const RGBuffer pixels = add_pack_pass(r_graph, p_inputs, p_mask);
+	const RGTexture pixels = add_pack_pass(r_graph, p_inputs, p_mask);
 	const auto add_pass = [&](const char *p_name, const char *p_shader,
 								  std::vector<PassBinding> p_own_bindings) {
 		TextureDesc desc = r_graph.get_desc(p_mask);

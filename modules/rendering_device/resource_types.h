@@ -35,6 +35,7 @@ enum class Format {
 	RGBA8_SRGB,
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
+	RGBA32_UINT,
 	D32_SFLOAT,
 	D32_SFLOAT_S8_UINT, // an attachment; shaders read its depth; not copied
 };

@@ -16,9 +16,7 @@ layout(set = 0, binding = SCATTER_BINDING_NORMAL) uniform utexture2D normal_text
 layout(set = 0, binding = SCATTER_BINDING_MATERIAL) uniform texture2D material_texture;
 layout(set = 0, binding = SCATTER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
-layout(set = 0, binding = SCATTER_BINDING_PIXELS) writeonly buffer Pixels {
-	uvec4 pixels[];
-};
+layout(set = 0, binding = SCATTER_BINDING_PIXELS, rgba32ui) uniform writeonly uimage2D pixels_image;
 
 /// 1..0xffff. Two materials of one key are told apart by place and normal only: 1 in 65,535.
 uint find_material_key(vec2 p_scatter_and_distance) {
@@ -42,5 +40,5 @@ void main() {
 		packed = uvec4(floatBitsToUint(depth), texelFetch(normal_texture, pixel, 0).r,
 				(key << 16u) | packHalf2x16(vec2(light.b, 0.0)), packHalf2x16(light.rg));
 	}
-	pixels[uint(pixel.y) * frame.size_px.x + uint(pixel.x)] = packed;
+	imageStore(pixels_image, pixel, packed);
 }

@@ -11,9 +11,7 @@ layout(set = 0, binding = SCATTER_BINDING_FRAME) uniform Frame {
 };
 layout(set = 0, binding = SCATTER_BINDING_MATERIAL) uniform texture2D material_texture;
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
-layout(set = 0, binding = SCATTER_BINDING_PIXELS) readonly buffer Pixels {
-	uvec4 pixels[]; // of pack.comp
-};
+layout(set = 0, binding = SCATTER_BINDING_PIXELS) uniform utexture2D pixels_texture; // of pack.comp
 // Of the mask's format, whichever that is.
 layout(set = 0, binding = SCATTER_BINDING_RESULT) uniform writeonly image2D result_image;
 layout(push_constant) uniform Push {
@@ -25,7 +23,7 @@ bool is_in_picture(ivec2 p_pixel) {
 }
 
 uvec4 load_pixel(ivec2 p_pixel) {
-	return pixels[uint(p_pixel.y) * frame.size_px.x + uint(p_pixel.x)];
+	return texelFetch(pixels_texture, p_pixel, 0);
 }
 
 float get_depth(uvec4 p_packed) {
