@@ -187,7 +187,7 @@ if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
-        tests/command_line/test_editor_safety.py
+        tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py
 fi
 # Not without being asked for: the package is large.
 if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
@@ -227,7 +227,8 @@ if [ "$is_full" = yes ]; then
     if is_wanted editor_repeats; then
         for repeat in 1 2 3 4 5 6 7 8 9 10; do
             run_part "editor, time $repeat" python3 tests/run_unittest.py tests/command_line/test_editor.py \
-                tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py
+                tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
+                tests/command_line/test_editor_materials.py
         done
     fi
 fi

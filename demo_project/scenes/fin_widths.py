@@ -17,11 +17,11 @@ FIN_WIDTHS_M = {
     ("three_lights", "Omni"): (0.06, 0.14),
     ("three_lights", "Sun"): (0.06, 0.13),
     ("stained_glass", "Light"): (0.1, 0.25),
-    ("teapot_s15", "Light"): (0.0, 0.0),  # a point light
-    ("teapot_s50", "Light"): (0.0, 0.0),
-    ("teapot_s80", "Light"): (0.0, 0.0),
+    ("teapot_s15", "Light"): (0.01, 0.01),  # a point light
+    ("teapot_s50", "Light"): (0.01, 0.01),
+    ("teapot_s80", "Light"): (0.01, 0.01),
     ("bunny", "Light"): (0.1, 0.17),
-    ("bunny_wax", "Light"): (0.0, 0.0),
+    ("bunny_wax", "Light"): (0.01, 0.01),
 }
 
 

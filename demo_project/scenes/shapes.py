@@ -64,6 +64,15 @@ def make_icosphere(subdivisions, radius):
     return mesh
 
 
+def close_tube(mesh, along_count, around_count):
+    """Quads between the rings of vertices of a tube that ends where it begins."""
+    for i in range(along_count):
+        for j in range(around_count):
+            here, there = i * around_count, (i + 1) % along_count * around_count
+            k = (j + 1) % around_count
+            mesh.add_quad(here + j, here + k, there + k, there + j)
+
+
 def make_torus_knot(size, tube_radius, along_count, around_count):
     """Centre line size ((2 + cos 3t) cos 2t, -sin 3t, (2 + cos 3t) sin 2t), with a round tube."""
     mesh = Mesh()
@@ -88,11 +97,7 @@ def make_torus_knot(size, tube_radius, along_count, around_count):
             angle = 2.0 * math.pi * j / around_count
             normal = add(scale(upward, math.cos(angle)), scale(side, math.sin(angle)))
             mesh.add_vertex(add(center, scale(normal, tube_radius)), normal)
-    for i in range(along_count):
-        for j in range(around_count):
-            here, there = i * around_count, (i + 1) % along_count * around_count
-            k = (j + 1) % around_count
-            mesh.add_quad(here + j, here + k, there + k, there + j)
+    close_tube(mesh, along_count, around_count)
     return mesh
 
 
@@ -106,11 +111,7 @@ def make_torus(radius, tube_radius, along_count, around_count):
             angle = 2.0 * math.pi * j / around_count
             normal = add(scale(outward, math.cos(angle)), (0.0, math.sin(angle), 0.0))
             mesh.add_vertex(add(scale(outward, radius), scale(normal, tube_radius)), normal)
-    for i in range(along_count):
-        for j in range(around_count):
-            here, there = i * around_count, (i + 1) % along_count * around_count
-            k = (j + 1) % around_count
-            mesh.add_quad(here + j, here + k, there + k, there + j)
+    close_tube(mesh, along_count, around_count)
     return mesh
 
 

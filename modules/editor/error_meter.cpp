@@ -161,7 +161,7 @@ void ErrorMeter::ask_truth(EditorContext &r_context, RenderResult p_result) {
 		return;
 	}
 	TruthQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
-		std::move(p_result.receiver) };
+		std::move(p_result.receiver), find_surface_spread() };
 	asked_truth = [make = reference->make_truth_source, question = std::move(question)] {
 		return make(question);
 	};

@@ -18,6 +18,16 @@ bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
 			return false;
 		}
 	}
+	// Fields tell one of several materials; all of them may have changed.
+	if (const auto *left = dynamic_cast<const MeshInstance3D *>(&p_left)) {
+		const auto &right = dynamic_cast<const MeshInstance3D &>(p_right);
+		if (!std::equal(left->surfaces.begin(), left->surfaces.end(), right.surfaces.begin(),
+					right.surfaces.end(), [](const auto &p_one, const auto &p_other) {
+						return p_one.mesh == p_other.mesh && p_one.material == p_other.material;
+					})) {
+			return false;
+		}
+	}
 	const PropertyValues *left = p_left.find_stored_properties();
 	const PropertyValues *right = p_right.find_stored_properties();
 	return left == nullptr || right == nullptr || *left == *right;

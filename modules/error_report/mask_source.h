@@ -18,6 +18,8 @@ struct MaskQuestion {
 	std::shared_ptr<const SceneSnapshot> scene;
 	std::string light; // name; empty: all lights at once, for their cost only
 	glm::uvec2 size_px = glm::uvec2(0u);
+	uint64_t filter_hash =
+			0; // of the mask filters that there are, which masks and truths depend on
 };
 
 struct TracedTruth {

@@ -82,6 +82,7 @@ uint64_t compute_question_hash(const MaskQuestion &p_question) {
 			add_light(light, hasher);
 		}
 	}
+	hasher.add(p_question.filter_hash);
 	hasher.add(p_question.size_px.x);
 	hasher.add(p_question.size_px.y);
 	return hasher.get_hash();

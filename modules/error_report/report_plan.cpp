@@ -146,10 +146,11 @@ private:
 					"/" + format_number(variant.size_m);
 			add_configuration(
 					configuration,
-					[=, &p_camera, &r_light](const PropertyValues &p_properties) {
+					[=, &p_camera, &r_light, filter_hash = options.filter_hash](
+							const PropertyValues &p_properties) {
 						return MaskQuestion{ build_variant(*p_scene, p_camera, r_light, variant,
 													 p_properties),
-							r_light.name, size_px };
+							r_light.name, size_px, filter_hash };
 					},
 					index == p_sizes_m.size() / 2 ? ExpensiveSettings::MEASURED
 												  : ExpensiveSettings::LEFT_OUT);

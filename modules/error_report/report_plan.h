@@ -23,6 +23,7 @@ struct ReportOptions {
 	glm::uvec2 size_px = glm::uvec2(256u);
 	uint32_t sample_count = 1024; // of the truth
 	double precision_percent = 5; // see Report
+	uint64_t filter_hash = 0;	  // see MaskQuestion
 	ScalingExtent scaling = ScalingExtent::QUICK;
 };
 

@@ -60,6 +60,10 @@ public:
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
 	std::map<const Material *, size_t> material_indices;
+	/// Which primitive of its mesh in the file each is.
+	std::map<const Mesh *, size_t> primitive_indices;
+	/// Whether nodes that the scene does not have may show the file's materials too.
+	bool shares_materials = false;
 	/// Keep the meshes alive whose pointers stand above.
 	std::vector<std::vector<MeshInstance3D::Surface>> kept_surfaces;
 

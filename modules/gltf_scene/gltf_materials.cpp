@@ -58,6 +58,11 @@ void read_transmission(const GltfObject &p_material, Material &r_material) {
 	}
 }
 
+/// In metres, where the extras do not tell it.
+float derive_scatter_distance(const Material &p_material) {
+	return p_material.scatter > 0 ? p_material.attenuation_distance_m : 0.0f;
+}
+
 void read_extras(const GltfObject &p_material, Material &r_material) {
 	const Json *extras = p_material.find("extras");
 	if (!extras || !extras->is_object()) {
@@ -65,9 +70,8 @@ void read_extras(const GltfObject &p_material, Material &r_material) {
 	}
 	const GltfObject values = *p_material.find_object("extras");
 	r_material.scatter = static_cast<float>(values.read_number("scatter", 0, 0, 1));
-	const double volume_distance_m = r_material.scatter > 0 ? r_material.attenuation_distance_m : 0;
-	r_material.scatter_distance_m = static_cast<float>(
-			values.read_number("scatter_distance", volume_distance_m, 0, MAX_LENGTH_M, "m"));
+	r_material.scatter_distance_m = static_cast<float>(values.read_number(
+			"scatter_distance", derive_scatter_distance(r_material), 0, MAX_LENGTH_M, "m"));
 	if (values.find("shading_model")) {
 		const std::string name = values.get_text("shading_model");
 		if (name == get_shading_model_name(ShadingModel::PHONG)) {
@@ -178,13 +182,18 @@ void write_material(
 	}
 	write_surface(p_material, before, p_before == nullptr, r_root, r_material);
 	write_transmission(p_material, before, r_root, r_material);
-	if (p_material.scatter != before.scatter ||
-			p_material.scatter_distance_m != before.scatter_distance_m ||
+	// Absent, it would be derived: also from what has just changed.
+	const bool tells_distance = r_material.value("extras", Json()).contains("scatter_distance");
+	const bool must_tell_distance = tells_distance
+			? p_material.scatter_distance_m != before.scatter_distance_m
+			: p_material.scatter_distance_m != derive_scatter_distance(p_material);
+	if (p_material.scatter != before.scatter || must_tell_distance ||
 			p_material.shading_model != before.shading_model) {
 		Json &extras = require_extras(r_material);
 		write_number(p_material.scatter, before.scatter, "scatter", extras);
-		write_number(p_material.scatter_distance_m, before.scatter_distance_m, "scatter_distance",
-				extras);
+		if (must_tell_distance) {
+			extras["scatter_distance"] = to_json_number(p_material.scatter_distance_m);
+		}
 		if (p_material.shading_model != before.shading_model) {
 			extras["shading_model"] = get_shading_model_name(p_material.shading_model);
 		}

@@ -28,7 +28,8 @@ size_t append_element(Json &r_json, const char *p_list, Json p_element) {
 GltfMeshWriter::GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_first_byte,
 		const GltfDocument *p_document, std::set<const Material *> p_used) :
 		json(r_json),
-		buffer_index(p_buffer_index), first_byte(p_first_byte), used(std::move(p_used)) {
+		document(p_document), buffer_index(p_buffer_index), first_byte(p_first_byte),
+		used(std::move(p_used)) {
 	if (p_document == nullptr) {
 		return;
 	}
@@ -104,7 +105,7 @@ size_t GltfMeshWriter::place_material(const Material &p_material) {
 	const Json loaded = made;
 	write_material(p_material, before, json, made);
 	size_t index = origin;
-	if (before && !used.contains(before) &&
+	if (before && !used.contains(before) && !document->shares_materials &&
 			(!replaced.contains(origin) || json["materials"][origin] == made)) {
 		replaced.try_emplace(origin, loaded);
 		json["materials"][origin] = std::move(made);
@@ -115,16 +116,41 @@ size_t GltfMeshWriter::place_material(const Material &p_material) {
 	return index;
 }
 
-size_t GltfMeshWriter::change_materials(
-		size_t p_mesh, const std::vector<MeshInstance3D::Surface> &p_surfaces) {
-	Json mesh = json["meshes"][p_mesh];
-	for (size_t index = 0; index < p_surfaces.size(); ++index) {
-		if (p_surfaces[index].material) {
-			mesh["primitives"][index]["material"] = place_material(*p_surfaces[index].material);
+/// The document's mesh of these surfaces, whatever their materials.
+std::optional<size_t> GltfMeshWriter::find_loaded_mesh(
+		const std::vector<MeshInstance3D::Surface> &p_surfaces) const {
+	if (document == nullptr || p_surfaces.empty()) {
+		return std::nullopt;
+	}
+	for (const auto &[key, index] : document->mesh_indices) {
+		if (std::equal(key.begin(), key.end(), p_surfaces.begin(), p_surfaces.end(),
+					[](const auto &p_key, const MeshInstance3D::Surface &p_surface) {
+						return p_key.first == p_surface.mesh.get();
+					})) {
+			return index;
 		}
 	}
-	if (mesh == json["meshes"][p_mesh]) {
-		return p_mesh;
+	return std::nullopt;
+}
+
+std::optional<size_t> GltfMeshWriter::change_materials(
+		const std::vector<MeshInstance3D::Surface> &p_surfaces) {
+	const std::optional<size_t> index = find_loaded_mesh(p_surfaces);
+	if (!index) {
+		return std::nullopt;
+	}
+	Json mesh = document->container.json["meshes"][*index];
+	for (const MeshInstance3D::Surface &surface : p_surfaces) {
+		Json &primitive = mesh["primitives"][document->primitive_indices.at(surface.mesh.get())];
+		// The reader's default material has no index: a primitive without one keeps it.
+		if (surface.material &&
+				(surface.material->file_index >= 0 || primitive.contains("material") ||
+						!(*surface.material == Material()))) {
+			primitive["material"] = place_material(*surface.material);
+		}
+	}
+	if (mesh == document->container.json["meshes"][*index]) {
+		return index;
 	}
 	const auto found = changed_meshes.find(mesh);
 	if (found != changed_meshes.end()) {

@@ -5,6 +5,7 @@
 #include "modules/scene/nodes.h"
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,10 +23,10 @@ public:
 	/// Index of the new mesh. p_surfaces is not empty.
 	size_t append_mesh(
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
-	/// As append_mesh, of a mesh in the document whose materials alone are others: its vertices and
-	/// all that the program does not understand stay. p_surfaces: one for each primitive. Where the
-	/// materials stay in their places, it is that mesh itself.
-	size_t change_materials(size_t p_mesh, const std::vector<MeshInstance3D::Surface> &p_surfaces);
+	/// As append_mesh where the document has a mesh that differs in its materials alone: its
+	/// vertices and all that the program does not understand stay. Where the materials stay in
+	/// their places, it is that mesh itself. None: there is no such mesh.
+	std::optional<size_t> change_materials(const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	const std::vector<uint8_t> &get_bytes() const { return bytes; }
 
 private:
@@ -41,7 +42,11 @@ private:
 	/// does not use that any more; else it is appended.
 	size_t place_material(const Material &p_material);
 
+	std::optional<size_t> find_loaded_mesh(
+			const std::vector<MeshInstance3D::Surface> &p_surfaces) const;
+
 	Json &json;
+	const GltfDocument *document;
 	size_t buffer_index;
 	size_t first_byte;
 	std::vector<uint8_t> bytes;

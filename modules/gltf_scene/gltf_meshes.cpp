@@ -85,6 +85,7 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 				load_primitive(primitive, primitive_count == 1 ? name : text(name, " ", index));
 		if (triangles) {
 			surfaces.push_back({ triangles, load_material(primitive) });
+			primitive_indices[triangles.get()] = index;
 		}
 	}
 	return meshes.emplace(p_index, std::move(surfaces)).first->second;

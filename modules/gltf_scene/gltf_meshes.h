@@ -21,6 +21,10 @@ public:
 	const std::map<size_t, std::shared_ptr<const Material>> &get_materials() const {
 		return materials;
 	}
+	/// Of each mesh that was loaded, which primitive it is.
+	const std::map<const Mesh *, size_t> &get_primitive_indices() const {
+		return primitive_indices;
+	}
 
 private:
 	std::shared_ptr<const Mesh> load_primitive(const GltfObject &p_primitive, std::string p_name);
@@ -30,6 +34,7 @@ private:
 	GltfAccessors &accessors;
 	std::map<size_t, std::vector<MeshInstance3D::Surface>> meshes;
 	std::map<size_t, std::shared_ptr<const Material>> materials;
+	std::map<const Mesh *, size_t> primitive_indices;
 	std::shared_ptr<const Material> default_material = std::make_shared<const Material>();
 	uint64_t vertex_count = 0; // of all meshes so far, as are the indices
 	uint64_t index_count = 0;

@@ -25,12 +25,7 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	const auto key = GltfDocument::make_key(p_instance.surfaces);
 	const bool had_mesh = !p_entry.is_new && document->node_surfaces.contains(p_entry.index);
 	if (!had_mesh || document->node_surfaces.at(p_entry.index) != key) {
-		const std::optional<size_t> mesh_index = had_mesh &&
-						has_same_meshes(
-								document->node_surfaces.at(p_entry.index), key, get_node(p_entry))
-				? meshes.change_materials(
-						  get_node(p_entry)["mesh"].get<size_t>(), p_instance.surfaces)
-				: find_or_append_mesh(p_instance, key);
+		const std::optional<size_t> mesh_index = find_or_append_mesh(p_instance, key);
 		get_node(p_entry).erase("mesh");
 		if (mesh_index) {
 			get_node(p_entry)["mesh"] = *mesh_index;
@@ -46,24 +41,15 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	}
 }
 
-/// Do the two differ in materials only, and is there a primitive of the node's mesh for each? There
-/// is none for points and lines, which the scene does not have.
-bool GltfNodeWriter::has_same_meshes(const GltfDocument::SurfaceKey &p_before,
-		const GltfDocument::SurfaceKey &p_now, const Json &p_node) const {
-	const Json &mesh = json["meshes"][p_node["mesh"].get<size_t>()];
-	return mesh["primitives"].size() == p_now.size() &&
-			std::equal(p_before.begin(), p_before.end(), p_now.begin(), p_now.end(),
-					[](const auto &p_left, const auto &p_right) {
-						return p_left.first == p_right.first;
-					});
-}
-
 std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 		const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key) {
 	if (const auto found = mesh_indices.find(p_key); found != mesh_indices.end()) {
 		return found->second;
 	}
 	const auto &surfaces = p_instance.surfaces;
+	if (const std::optional<size_t> changed = meshes.change_materials(surfaces)) {
+		return mesh_indices.emplace(p_key, *changed).first->second;
+	}
 	const bool has_triangles =
 			std::any_of(surfaces.begin(), surfaces.end(), [](const auto &p_surface) {
 				return p_surface.mesh && !p_surface.mesh->indices.empty();

@@ -45,8 +45,6 @@ private:
 	void write_name(const Entry &p_entry, const std::string &p_before, Json &r_node) const;
 	void write_children(const Entry &p_entry, Json &r_node) const;
 	void write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance);
-	bool has_same_meshes(const GltfDocument::SurfaceKey &p_before,
-			const GltfDocument::SurfaceKey &p_now, const Json &p_node) const;
 	std::optional<size_t> find_or_append_mesh(
 			const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key);
 	void write_light_of(const Entry &p_entry, const Light3D &p_light);

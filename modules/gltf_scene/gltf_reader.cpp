@@ -92,6 +92,11 @@ void GltfReader::read(Scene &r_scene) {
 	for (const auto &[index, material] : meshes.get_materials()) {
 		document.material_indices[material.get()] = index;
 	}
+	document.primitive_indices = meshes.get_primitive_indices();
+	for (size_t index = 0; index < document.nodes.size(); ++index) {
+		document.shares_materials |= !document.nodes[index].is_loaded &&
+				root.get_element("nodes", index).find("mesh") != nullptr;
+	}
 	r_scene.side_files = buffers.get_files();
 }
 

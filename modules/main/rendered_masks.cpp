@@ -28,13 +28,19 @@ const ShadowTechniqueInfo &get_reference() {
 			"Enable the module of one; `gnomon modules` lists them.");
 }
 
+bool contains_filter(const std::string &p_id) {
+	const std::vector<MaskFilterInfo> &filters = MaskFilterRegistry::get_filters();
+	return std::any_of(filters.begin(), filters.end(),
+			[&](const MaskFilterInfo &p_info) { return p_info.id == p_id; });
+}
+
 RenderRequest make_request(const MaskQuestion &p_question, const std::string &p_technique) {
 	RenderRequest request;
 	request.scene = p_question.scene;
 	request.size_px = p_question.size_px;
 	request.technique_override = p_technique;
-	if (!ShadowRegistry::find(p_technique) && ShadowRegistry::find_default() != nullptr) {
-		request.technique_override = ShadowRegistry::find_default()->id; // a filter's row
+	if (contains_filter(p_technique)) {
+		request.technique_override = ShadowRegistry::find_default()->id; // see find_techniques
 	}
 	request.mask_light = p_question.light;
 	request.wants_mask = !p_question.light.empty();
@@ -180,7 +186,14 @@ std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<st
 		}
 	}
 	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
-		if (p_ids.empty() || contains(p_ids, info.id)) {
+		if (!p_ids.empty() && contains(p_ids, info.id) &&
+				ShadowRegistry::find_default() == nullptr) {
+			fail("Mask filter \"", info.id,
+					"\" has no technique to follow: none is a default one. ",
+					"Enable the module of one; `gnomon modules` lists them.");
+		}
+		if (ShadowRegistry::find_default() != nullptr &&
+				(p_ids.empty() || contains(p_ids, info.id))) {
 			sources.push_back(make_source(info));
 		}
 	}

@@ -4,6 +4,7 @@
 #include "modules/core/log.h"
 #include "modules/core/project.h"
 #include "modules/main/commands.h"
+#include "modules/renderer/mask_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,7 @@ ReportOptions make_report_options(
 	ReportOptions options;
 	options.project = p_project;
 	options.program = describe_program();
+	options.filter_hash = compute_filter_hash();
 	for (const double size_m : p_arguments.sizes_m) {
 		if (!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LIGHT_SIZE_M) {
 			throw UsageError(text("--sizes: ", size_m, " must be 0..", MAX_LIGHT_SIZE_M,

@@ -28,6 +28,20 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 			std::find(p_choices.begin(), p_choices.end(), value) - p_choices.begin());
 }
 
+enum class Scatter { ANY, IN_METRES };
+
+/// Is there a translucent surface that the camera may see? IN_METRES: one that tells its distance.
+bool has_scatter(const SceneSnapshot &p_scene, glm::uvec2 p_size_px, Scatter p_which) {
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
+			[&](const InstanceSnapshot &p_instance) {
+				const Material &material = *p_instance.material;
+				return clamp_scatter(material.scatter) > 0.0f &&
+						(p_which == Scatter::ANY || material.scatter_distance_m > 0.0f) &&
+						camera_view.may_see(p_instance.bounds_world);
+			});
+}
+
 /// Four words of each pixel.
 RGTexture add_pack_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, RGTexture p_mask) {
@@ -84,12 +98,7 @@ void ReceiverScatter::get_quality_settings(std::vector<QualitySetting> &r_settin
 }
 
 bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const {
-	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
-	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
-			[&](const InstanceSnapshot &p_instance) {
-				return clamp_scatter(p_instance.material->scatter) > 0.0f &&
-						camera_view.may_see(p_instance.bounds_world);
-			});
+	return has_scatter(p_scene, p_size_px, Scatter::ANY);
 }
 
 bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
@@ -102,7 +111,15 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		r_plan.leave_out("scatter", "no visible surface scatters");
 		return false;
 	}
+	may_average =
+			std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_METRES] ||
+			!p_inputs.may_leave_out ||
+			(std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_AUTO] &&
+					has_scatter(p_inputs.scene, p_inputs.size_px, Scatter::IN_METRES));
 	r_plan.run("scatter");
+	if (!may_average) {
+		r_plan.leave_out("scatter average", "no visible surface scatters in metres");
+	}
 	return true;
 }
 
@@ -113,7 +130,10 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	push.sector_count = compute_sector_count(push.sample_count);
 	push.method = find_choice(p_properties, METHOD, METHODS);
 	push.refusal = find_choice(p_properties, REFUSAL, REFUSALS);
-	const std::vector<glm::vec2> points = make_scatter_samples(spread, push.sample_count);
+	if (points_count != push.sample_count) {
+		points = make_scatter_samples(spread, push.sample_count);
+		points_count = push.sample_count;
+	}
 	const RGBuffer samples = r_graph.upload(
 			"scatter samples", BufferUsage::STORAGE, bytes_of(std::span<const glm::vec2>(points)));
 	const RGTexture pixels = add_pack_pass(r_graph, p_inputs, p_mask);
@@ -139,7 +159,7 @@ RGTexture ReceiverScatter::apply(RenderGraph &r_graph, const ShadowTechnique::In
 	};
 	add_pass("scatter", "receiver_scatter/spread.comp",
 			{ PassBinding::read(SCATTER_BINDING_SAMPLES, samples) });
-	if (push.method != SCATTER_METHOD_PIXELS) {
+	if (may_average) {
 		add_pass("scatter average", "receiver_scatter/average.comp", {});
 	}
 	return p_mask;

@@ -22,6 +22,9 @@ public:
 
 private:
 	const DipoleSpread spread;
+	std::vector<glm::vec2> points; // for points_count samples, see make_scatter_samples
+	uint32_t points_count = 0;
+	bool may_average = true; // of the light that is planned
 };
 
 } // namespace gnomon

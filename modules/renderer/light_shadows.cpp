@@ -193,10 +193,10 @@ RGTexture LightShadows::add_translucent_casters(
 				device.get_compute_pipeline(
 						{ "tint", "renderer/tint.comp", make_mask_constants(p_work.graph, mask) }),
 				{
-						PassBinding::read(RENDERER_BINDING_RECEIVERS, p_opaque),
-						PassBinding::read(RENDERER_BINDING_MASK, both),
-						PassBinding::read(RENDERER_BINDING_RADIANCE, mask),
-						PassBinding::write(RENDERER_BINDING_OUTPUT, tinted),
+						PassBinding::read(TINT_BINDING_OPAQUE, p_opaque),
+						PassBinding::read(TINT_BINDING_BOTH, both),
+						PassBinding::read(TINT_BINDING_BEFORE, mask),
+						PassBinding::write(TINT_BINDING_RESULT, tinted),
 				},
 				request.size_px, shader::TintPush{ glm::vec4(group.transmittance, 0.0f) });
 		mask = tinted;

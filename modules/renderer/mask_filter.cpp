@@ -1,6 +1,7 @@
 #include "modules/renderer/mask_filter.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/renderer/light_properties.h"
 
 #include <map>
@@ -47,6 +48,23 @@ const PropertyList &MaskFilterRegistry::get_light_properties(std::string_view p_
 
 uint64_t MaskFilterRegistry::get_revision() {
 	return revision;
+}
+
+std::shared_ptr<const SurfaceSpread> find_surface_spread() {
+	for (const MaskFilterInfo &filter : filters) {
+		if (filter.spread) {
+			return filter.spread;
+		}
+	}
+	return nullptr;
+}
+
+uint64_t compute_filter_hash() {
+	uint64_t hash = 0;
+	for (const MaskFilterInfo &filter : filters) {
+		hash = compute_hash(bytes_of(std::span<const char>(filter.id)), hash);
+	}
+	return hash;
 }
 
 } // namespace gnomon

@@ -48,7 +48,8 @@ private:
 
 /// Answers one question for one light: what fraction of it does each visible pixel see?
 ///
-/// The renderer owns one instance per shadow-casting light and calls it on the render thread, each
+/// The renderer owns one instance per shadow-casting light, and one more for each group of
+/// translucent casters (see sees_translucent_casters), and calls it on the render thread, each
 /// frame in the order in which the methods stand here. The engine knows the id, never the class.
 class ShadowTechnique {
 public:

@@ -9,32 +9,33 @@ namespace {
 
 /// What the light sees of a caster: a cone from its centre, or a cylinder along its direction.
 struct Shade {
-	glm::dvec3 place =
-			glm::dvec3(0.0);	// unit, from the light; directional: in its plane, in metres
-	double half_width = 0;		// radians, or metres
-	bool is_everywhere = false; // the light is inside or touches it
+	glm::dvec3 place = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
+	double radius_m = 0;				// of the caster
+	double cosine = 1;					// of the cone's half angle
+	double sine = 0;
+	bool is_everywhere = false; // the cone is wider than a right angle, or the light inside
 };
 
-Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds, double p_scene_size_m) {
+Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
 	Shade shade;
 	const glm::dvec3 centre = 0.5 * (p_bounds.minimum + p_bounds.maximum);
-	const double radius = 0.5 * p_bounds.get_diagonal();
+	shade.radius_m = 0.5 * p_bounds.get_diagonal();
 	if (p_light.type == LightType::DIRECTIONAL) {
-		const glm::dvec3 way = p_light.get_direction_world();
-		shade.place = centre - way * glm::dot(way, centre);
-		// The penumbra widens with the distance to what lies below: at most the scene's size.
-		shade.half_width = radius + p_light.get_disc_radius() * p_scene_size_m;
+		shade.place = centre;
 		return shade;
 	}
+	const double disc_radius = p_light.get_disc_radius();
 	const glm::dvec3 to_caster = centre - p_light.position_world;
 	const double distance = glm::length(to_caster);
-	const double reach = radius + p_light.get_disc_radius();
-	shade.is_everywhere = !(reach < distance);
+	shade.is_everywhere = !(shade.radius_m + disc_radius < distance);
 	if (!shade.is_everywhere) {
 		shade.place = to_caster / distance;
 		// From the disc's edge a caster is seen past the centre's cone by as much again.
-		shade.half_width = std::asin(reach / distance) +
-				std::asin(std::min(1.0, p_light.get_disc_radius() / (distance - radius)));
+		const double half_rad = std::asin((shade.radius_m + disc_radius) / distance) +
+				std::asin(std::min(1.0, disc_radius / (distance - shade.radius_m)));
+		shade.is_everywhere = half_rad >= 1.57;
+		shade.cosine = std::cos(half_rad);
+		shade.sine = std::sin(half_rad);
 	}
 	return shade;
 }
@@ -44,11 +45,18 @@ bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade 
 	if (p_left.is_everywhere || p_right.is_everywhere) {
 		return true;
 	}
-	const double reach = p_left.half_width + p_right.half_width;
 	if (p_light.type == LightType::DIRECTIONAL) {
-		return glm::length(p_left.place - p_right.place) <= reach;
+		const glm::dvec3 way = p_left.place - p_right.place;
+		const double along = glm::dot(way, p_light.get_direction_world());
+		const double across2 = std::max(glm::dot(way, way) - along * along, 0.0);
+		// Rays lean by half the light's angle at most between the two.
+		const double radii_m = p_left.radius_m + p_right.radius_m;
+		const double reach_m = radii_m + p_light.get_disc_radius() * (std::abs(along) + radii_m);
+		return across2 <= reach_m * reach_m;
 	}
-	return std::acos(std::clamp(glm::dot(p_left.place, p_right.place), -1.0, 1.0)) <= reach;
+	// The angle between them is at most the sum of their half angles, which is below pi.
+	return glm::dot(p_left.place, p_right.place) >=
+			p_left.cosine * p_right.cosine - p_left.sine * p_right.sine;
 }
 
 } // namespace
@@ -68,7 +76,7 @@ TranslucentCasters find_translucent_casters(
 		if (transmittance == glm::vec3(1.0f) || instance.bounds_world.is_empty()) {
 			continue;
 		}
-		const Shade shade = find_shade(p_light, instance.bounds_world, p_scene.scene_size_m);
+		const Shade shade = find_shade(p_light, instance.bounds_world);
 		size_t chosen = casters.groups.size();
 		for (size_t group = 0; group < casters.groups.size() && chosen == casters.groups.size();
 				++group) {
@@ -89,7 +97,7 @@ TranslucentCasters find_translucent_casters(
 			chosen = static_cast<size_t>(nearest - casters.groups.begin());
 			++casters.forced_count;
 		} else if (chosen == casters.groups.size()) {
-			casters.groups.push_back({ instance.mesh->name, {}, transmittance });
+			casters.groups.push_back({ {}, transmittance });
 			shades.emplace_back();
 		}
 		casters.groups[chosen].instances.push_back(index);

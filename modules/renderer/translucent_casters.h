@@ -3,7 +3,6 @@
 #include "modules/scene/scene_snapshot.h"
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -11,7 +10,6 @@ namespace gnomon {
 /// Casters that leave the same part of the light, and of which no ray of the light meets two: their
 /// shadow is one technique's, in one colour.
 struct TranslucentGroup {
-	std::string name; // of its first caster's node
 	std::vector<uint32_t> instances;
 	glm::vec3 transmittance = glm::vec3(0.0f); // 0..1 for each colour, below 1 for one at least
 };

@@ -1,6 +1,7 @@
 #include "modules/renderer/truth_source.h"
 
 #include "modules/core/files.h"
+#include "modules/renderer/mask_filter.h"
 
 #include "shared/mask_shared.h"
 
@@ -12,7 +13,7 @@ float compute_mask_luminance(const glm::vec3 &p_mask) {
 
 uint64_t compute_truth_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px) {
-	uint64_t hash = 0;
+	uint64_t hash = compute_filter_hash();
 	hash = compute_value_hash(p_size_px, hash);
 	hash = compute_value_hash(p_scene.camera.position_world, hash);
 	hash = compute_value_hash(p_scene.camera.world_from_camera, hash);

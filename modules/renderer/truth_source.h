@@ -28,6 +28,8 @@ struct TruthQuestion {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<SurfacePoint> surfaces; // one per pixel, rows from the top
 	std::vector<float> receiver;		// 1, or 0 where the light does not reach
+	/// See find_surface_spread; null: light leaves where it enters.
+	std::shared_ptr<const SurfaceSpread> spread = nullptr;
 };
 
 struct TruthAnswer {

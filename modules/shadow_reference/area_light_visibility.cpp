@@ -134,7 +134,8 @@ float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
 					std::sqrt(p_first_count * p_second_count) / (p_first_count + p_second_count));
 }
 
-/// The receiver sees what the surface about it sees. Returns the number of rays.
+/// The receiver sees what the surface about it sees. Returns the number of rays; 0: none of them
+/// began on the body, which is far smaller than the spread.
 uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
 	const SpreadMean mean = r_job.options.spread->compute(r_job.scene, r_job.light,
@@ -147,6 +148,21 @@ uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint
 				mean.visible_counts[0], mean.counts[0], mean.visible_counts[1], mean.counts[1]);
 	}
 	return static_cast<uint64_t>(count);
+}
+
+/// Returns the number of rays.
+uint64_t trace_plain_pixel(Job &r_job, uint32_t p_pixel, const DiscView &p_view, uint64_t p_hash) {
+	const glm::dvec3 first =
+			sum_visible(r_job.scene, p_view, r_job.first_half, mix_bits(p_hash ^ 1));
+	const glm::dvec3 second = r_job.has_second_half
+			? sum_visible(r_job.scene, p_view, r_job.second_half, mix_bits(p_hash ^ 2))
+			: glm::dvec3(0.0);
+	store_visibility(r_job, p_pixel, (first + second) / double(r_job.options.sample_count));
+	if (r_job.has_second_half) {
+		r_job.half_error[p_pixel] = compute_half_error(
+				first, r_job.first_half.get_count(), second, r_job.second_half.get_count());
+	}
+	return r_job.options.sample_count;
 }
 
 /// Returns the number of rays.
@@ -164,19 +180,11 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 		store_visibility(r_job, p_pixel, glm::dvec3(known));
 		return 0;
 	}
+	uint64_t ray_count = 0;
 	if (point.spread_radius_m > 0.0f && r_job.options.spread != nullptr) {
-		return trace_spread_pixel(r_job, p_pixel, offset_m, hash);
+		ray_count = trace_spread_pixel(r_job, p_pixel, offset_m, hash);
 	}
-	const glm::dvec3 first = sum_visible(r_job.scene, view, r_job.first_half, mix_bits(hash ^ 1));
-	const glm::dvec3 second = r_job.has_second_half
-			? sum_visible(r_job.scene, view, r_job.second_half, mix_bits(hash ^ 2))
-			: glm::dvec3(0.0);
-	store_visibility(r_job, p_pixel, (first + second) / double(r_job.options.sample_count));
-	if (r_job.has_second_half) {
-		r_job.half_error[p_pixel] = compute_half_error(
-				first, r_job.first_half.get_count(), second, r_job.second_half.get_count());
-	}
-	return r_job.options.sample_count;
+	return ray_count > 0 ? ray_count : trace_plain_pixel(r_job, p_pixel, view, hash);
 }
 
 void trace_tiles(Job &r_job, const std::function<void(float)> &p_progress) {

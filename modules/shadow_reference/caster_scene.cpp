@@ -1,10 +1,41 @@
 #include "modules/shadow_reference/caster_scene.h"
 
+#include <algorithm>
+
 namespace gnomon {
 
 namespace {
 
 constexpr uint32_t LANE_COUNT = 8;
+
+/// Notes each body that a ray crosses, once.
+class Crossings : public CrossingListener {
+public:
+	void clear() {
+		for (std::vector<uint32_t> &lane : bodies) {
+			lane.clear();
+		}
+	}
+	void cross(uint32_t p_ray_id, uint32_t p_geometry) override {
+		std::vector<uint32_t> &lane = bodies[p_ray_id];
+		if (std::find(lane.begin(), lane.end(), p_geometry) == lane.end()) {
+			lane.push_back(p_geometry);
+		}
+	}
+	/// In the bodies' order, so that rounding does not depend on the way through the tree.
+	glm::vec3 multiply(uint32_t p_ray_id, std::span<const glm::vec3> p_transmittances) {
+		std::vector<uint32_t> &lane = bodies[p_ray_id];
+		std::sort(lane.begin(), lane.end());
+		glm::vec3 left(1.0f);
+		for (const uint32_t body : lane) {
+			left *= p_transmittances[body];
+		}
+		return left;
+	}
+
+private:
+	std::vector<uint32_t> bodies[LANE_COUNT];
+};
 
 } // namespace
 
@@ -12,40 +43,52 @@ CasterScene::CasterScene(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices,
 		std::span<const TranslucentTriangles> p_translucent) :
 		opaque(p_positions, p_triangle_indices) {
+	std::vector<const Triangles *> bodies;
 	for (const TranslucentTriangles &body : p_translucent) {
-		translucent.push_back(
-				{ std::make_unique<EmbreeScene>(body.triangles.positions, body.triangles.indices),
-						body.transmittance });
+		bodies.push_back(&body.triangles);
+		transmittances.push_back(body.transmittance);
+	}
+	if (!bodies.empty()) {
+		translucent.emplace(EmbreeScene::make_crossed(bodies));
 	}
 }
 
 void CasterScene::trace(const int *p_valid, RTCRay8 &r_rays, glm::vec3 *r_left) const {
-	const RTCRay8 rays = r_rays;
+	alignas(32) RTCRay8 again = r_rays;
 	find_occluded_8(opaque.get(), p_valid, r_rays);
 	alignas(32) int lit[LANE_COUNT];
 	for (uint32_t i = 0; i < LANE_COUNT; ++i) {
 		lit[i] = p_valid[i] != 0 && r_rays.tfar[i] >= 0.0f ? -1 : 0;
 		r_left[i] = glm::vec3(lit[i] != 0 ? 1.0f : 0.0f);
+		again.id[i] = i;
 	}
-	for (const Body &body : translucent) {
-		alignas(32) RTCRay8 again = rays;
-		find_occluded_8(body.scene->get(), lit, again);
+	if (translucent) {
+		thread_local Crossings crossings;
+		crossings.clear();
+		find_crossings_8(translucent->get(), lit, again, crossings);
 		for (uint32_t i = 0; i < LANE_COUNT; ++i) {
-			if (lit[i] != 0 && again.tfar[i] < 0.0f) {
-				r_left[i] *= body.transmittance;
-			}
+			r_left[i] *= crossings.multiply(i, transmittances);
 		}
 	}
 }
 
 glm::vec3 CasterScene::trace(const glm::vec3 &p_origin, const glm::vec3 &p_ray, float p_end) const {
-	glm::vec3 left(opaque.is_occluded(p_origin, p_ray, p_end) ? 0.0f : 1.0f);
-	for (const Body &body : translucent) {
-		if (left != glm::vec3(0.0f) && body.scene->is_occluded(p_origin, p_ray, p_end)) {
-			left *= body.transmittance;
-		}
+	if (!translucent) {
+		return glm::vec3(opaque.is_occluded(p_origin, p_ray, p_end) ? 0.0f : 1.0f);
 	}
-	return left;
+	alignas(32) RTCRay8 rays = {};
+	rays.org_x[0] = p_origin.x;
+	rays.org_y[0] = p_origin.y;
+	rays.org_z[0] = p_origin.z;
+	rays.dir_x[0] = p_ray.x;
+	rays.dir_y[0] = p_ray.y;
+	rays.dir_z[0] = p_ray.z;
+	rays.tfar[0] = p_end;
+	rays.mask[0] = 0xffffffffu;
+	alignas(32) const int valid[LANE_COUNT] = { -1 };
+	glm::vec3 left[LANE_COUNT];
+	trace(valid, rays, left);
+	return left[0];
 }
 
 } // namespace gnomon

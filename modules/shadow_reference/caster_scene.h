@@ -2,17 +2,11 @@
 
 #include "modules/shadow_reference/embree_scene.h"
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace gnomon {
-
-/// Triangles, relative to an origin near the camera, so that float32 suffices; three indices each.
-struct Triangles {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-};
 
 /// Triangles that leave a part of each ray that meets them, once or more often.
 struct TranslucentTriangles {
@@ -27,7 +21,7 @@ public:
 			std::span<const uint32_t> p_triangle_indices,
 			std::span<const TranslucentTriangles> p_translucent);
 
-	bool is_colored() const { return !translucent.empty(); }
+	bool is_colored() const { return translucent.has_value(); }
 	/// What is left of each of eight rays, which start at one point; of those with valid = 0,
 	/// nothing.
 	void trace(const int *p_valid, RTCRay8 &r_rays, glm::vec3 *r_left) const;
@@ -35,12 +29,9 @@ public:
 	glm::vec3 trace(const glm::vec3 &p_origin, const glm::vec3 &p_ray, float p_end) const;
 
 private:
-	struct Body {
-		std::unique_ptr<EmbreeScene> scene;
-		glm::vec3 transmittance;
-	};
 	EmbreeScene opaque;
-	std::vector<Body> translucent;
+	std::optional<EmbreeScene> translucent; // a geometry for each body
+	std::vector<glm::vec3> transmittances;	// of the bodies
 };
 
 } // namespace gnomon

@@ -7,6 +7,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstdint>
+
 namespace gnomon {
 
 /// Sets tfar of each ray with valid = -1 to -infinity when anything is hit between tnear and tfar.
@@ -48,6 +50,54 @@ inline void find_nearest_1(RTCScene p_scene, RTCRayHit &r_query) {
 	RTCIntersectContext context = {};
 	rtcInitIntersectContext(&context);
 	rtcIntersect1(p_scene, &context, &r_query);
+#endif
+}
+
+/// Told of each geometry that a ray meets, once or more often.
+class CrossingListener {
+public:
+	virtual void cross(uint32_t p_ray_id, uint32_t p_geometry) = 0;
+
+protected:
+	~CrossingListener() = default;
+};
+
+struct CrossingContext {
+#if RTC_VERSION_MAJOR >= 4
+	RTCRayQueryContext base; // first, as the filter gets its address
+#else
+	RTCIntersectContext base;
+#endif
+	CrossingListener *listener;
+};
+
+/// A geometry's filter for find_crossings_8: no hit counts, each is told.
+inline void tell_crossing(const RTCFilterFunctionNArguments *p_arguments) {
+	CrossingListener *listener =
+			reinterpret_cast<CrossingContext *>(p_arguments->context)->listener;
+	for (unsigned int i = 0; i < p_arguments->N; ++i) {
+		if (p_arguments->valid[i] != 0) {
+			listener->cross(RTCRayN_id(p_arguments->ray, p_arguments->N, i),
+					RTCHitN_geomID(p_arguments->hit, p_arguments->N, i));
+			p_arguments->valid[i] = 0;
+		}
+	}
+}
+
+/// All geometries with tell_crossing that the rays meet between tnear and tfar. Rays of any start.
+inline void find_crossings_8(
+		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, CrossingListener &r_listener) {
+	CrossingContext context = {};
+	context.listener = &r_listener;
+#if RTC_VERSION_MAJOR >= 4
+	rtcInitRayQueryContext(&context.base);
+	RTCOccludedArguments arguments = {};
+	rtcInitOccludedArguments(&arguments);
+	arguments.context = &context.base;
+	rtcOccluded8(p_valid, p_scene, &r_rays, &arguments);
+#else
+	rtcInitIntersectContext(&context.base);
+	rtcOccluded8(p_valid, p_scene, &context.base, &r_rays);
 #endif
 }
 

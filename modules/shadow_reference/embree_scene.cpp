@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -44,33 +46,58 @@ std::vector<uint32_t> keep_finite(
 	return kept;
 }
 
+/// One for all, as long as there is a scene: each has threads and memory of its own.
+std::shared_ptr<RTCDeviceTy> acquire_device() {
+	static std::mutex mutex;
+	static std::weak_ptr<RTCDeviceTy> shared;
+	const std::lock_guard<std::mutex> lock(mutex);
+	std::shared_ptr<RTCDeviceTy> device = shared.lock();
+	if (!device) {
+		RTCDevice made = rtcNewDevice(nullptr);
+		if (made == nullptr) {
+			fail("Reference: Embree cannot begin (error ",
+					static_cast<int>(rtcGetDeviceError(nullptr)), "). Free memory.");
+		}
+		device.reset(made, &rtcReleaseDevice);
+		shared = device;
+	}
+	return device;
+}
+
 } // namespace
 
-EmbreeScene::EmbreeScene(
-		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
-	try {
-		build(p_positions, p_triangle_indices);
-	} catch (...) {
-		release();
-		throw;
-	}
+EmbreeScene::EmbreeScene() : device(acquire_device()), scene(rtcNewScene(device.get())) {
+	rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+	rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
 }
+
+EmbreeScene::EmbreeScene(
+		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) :
+		EmbreeScene() { // from here on the destructor runs, whatever throws
+	add(p_positions, p_triangle_indices, Hits::COUNT);
+	finish();
+}
+
+EmbreeScene EmbreeScene::make_crossed(std::span<const Triangles *const> p_geometries) {
+	EmbreeScene made;
+	for (const Triangles *triangles : p_geometries) {
+		made.add(triangles->positions, triangles->indices, Hits::ARE_TOLD);
+	}
+	made.finish();
+	return made;
+}
+
+EmbreeScene::EmbreeScene(EmbreeScene &&p_other) noexcept :
+		device(std::move(p_other.device)), scene(std::exchange(p_other.scene, nullptr)) {}
 
 EmbreeScene::~EmbreeScene() {
-	release();
-}
-
-void EmbreeScene::release() {
 	if (scene != nullptr) {
 		rtcReleaseScene(scene);
-	}
-	if (device != nullptr) {
-		rtcReleaseDevice(device);
 	}
 }
 
 void EmbreeScene::check() const {
-	const RTCError error = rtcGetDeviceError(device);
+	const RTCError error = rtcGetDeviceError(device.get());
 	if (error != RTC_ERROR_NONE) {
 		fail("Reference: Embree reports error ", static_cast<int>(error),
 				" while building the scene. Free memory or use fewer triangles.");
@@ -99,16 +126,12 @@ bool EmbreeScene::is_occluded(
 	return ray.tfar < 0.0f;
 }
 
-void EmbreeScene::build(
-		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
+/// Every call takes the next geometry's number, also where no triangle is left.
+void EmbreeScene::add(std::span<const glm::vec3> p_positions,
+		std::span<const uint32_t> p_triangle_indices, Hits p_hits) {
 	const std::vector<uint32_t> kept = keep_finite(p_positions, p_triangle_indices);
-	device = rtcNewDevice(nullptr);
-	check();
-	scene = rtcNewScene(device);
-	rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-	rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+	RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
 	if (!kept.empty()) {
-		RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
 		// Buffers of Embree's own, because it reads 16 bytes beyond the last vertex of a shared
 		// one.
 		void *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
@@ -118,12 +141,18 @@ void EmbreeScene::build(
 		if (vertices != nullptr && indices != nullptr) {
 			std::copy(p_positions.begin(), p_positions.end(), static_cast<glm::vec3 *>(vertices));
 			std::copy(kept.begin(), kept.end(), static_cast<uint32_t *>(indices));
-			rtcCommitGeometry(geometry);
-			rtcAttachGeometry(scene, geometry);
 		}
-		rtcReleaseGeometry(geometry);
-		check();
 	}
+	if (p_hits == Hits::ARE_TOLD) {
+		rtcSetGeometryOccludedFilterFunction(geometry, &tell_crossing);
+	}
+	rtcCommitGeometry(geometry);
+	rtcAttachGeometry(scene, geometry);
+	rtcReleaseGeometry(geometry);
+	check();
+}
+
+void EmbreeScene::finish() {
 	rtcCommitScene(scene);
 	check();
 }

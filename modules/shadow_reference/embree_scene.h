@@ -5,7 +5,9 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace gnomon {
 
@@ -15,16 +17,24 @@ struct SurfaceHit {
 	glm::vec3 normal = glm::vec3(0.0f); // unit, of the triangle, on either side; 0 of a flat one
 };
 
-/// Owns an Embree device and one scene of triangles: robust (no ray slips through a shared edge),
-/// built for fast tracing. Rays may be traced from several threads.
+/// Triangles, relative to an origin near the camera, so that float32 suffices; three indices each.
+struct Triangles {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+};
+
+/// A scene of triangles: robust (no ray slips through a shared edge), built for fast tracing. Rays
+/// may be traced from several threads. All scenes share one Embree device.
 class EmbreeScene {
 public:
 	/// See AreaLightVisibility.
 	EmbreeScene(
 			std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices);
+	/// A geometry for each, whose hits are told and do not count (tell_crossing).
+	static EmbreeScene make_crossed(std::span<const Triangles *const> p_geometries);
 	~EmbreeScene();
-	EmbreeScene(const EmbreeScene &) = delete;
-	EmbreeScene &operator=(const EmbreeScene &) = delete;
+	EmbreeScene(EmbreeScene &&) noexcept;
+	EmbreeScene &operator=(EmbreeScene &&) = delete;
 
 	RTCScene get() const { return scene; }
 	/// p_direction: unit; hits at 0..p_reach_m count.
@@ -34,13 +44,15 @@ public:
 	bool is_occluded(const glm::vec3 &p_origin, const glm::vec3 &p_ray, float p_end) const;
 
 private:
-	RTCDevice device = nullptr;
-	RTCScene scene = nullptr;
-
-	void build(
-			std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices);
+	EmbreeScene();
+	enum class Hits { COUNT, ARE_TOLD };
+	void add(std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices,
+			Hits p_hits);
+	void finish();
 	void check() const;
-	void release();
+
+	std::shared_ptr<RTCDeviceTy> device;
+	RTCScene scene = nullptr;
 };
 
 } // namespace gnomon

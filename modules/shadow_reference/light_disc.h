@@ -2,12 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include <cstdint>
-#include <span>
-
 namespace gnomon {
-
-class EmbreeScene;
 
 /// The light as the truth sees it. Lengths in metres, in the space of the triangles.
 struct AreaLight {

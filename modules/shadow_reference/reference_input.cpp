@@ -1,7 +1,5 @@
 #include "modules/shadow_reference/reference_input.h"
 
-#include "modules/renderer/mask_filter.h"
-
 #include <cmath>
 
 namespace gnomon {
@@ -21,15 +19,6 @@ void add_triangles(
 }
 
 } // namespace
-
-std::shared_ptr<const SurfaceSpread> find_surface_spread() {
-	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_filters()) {
-		if (filter.spread) {
-			return filter.spread;
-		}
-	}
-	return nullptr;
-}
 
 std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
 		const SurfaceSpread *p_spread, const std::function<bool(size_t)> &p_is_receiver) {

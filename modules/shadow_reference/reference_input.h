@@ -21,8 +21,6 @@ struct CasterTriangles {
 	std::vector<TranslucentTriangles> translucent;
 };
 
-/// What a mask filter approximates that is registered; null: none has an exact form.
-std::shared_ptr<const SurfaceSpread> find_surface_spread();
 /// p_is_receiver: of a pixel, does the light reach there? p_spread may be null.
 std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
 		const SurfaceSpread *p_spread, const std::function<bool(size_t)> &p_is_receiver);

@@ -13,14 +13,13 @@ TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<boo
 				question.surfaces.size() == pixel_count && question.receiver.size() == pixel_count,
 				question.surfaces.size(), " surfaces and ", question.receiver.size(),
 				" receivers for ", pixel_count, " pixels");
-		spread = find_surface_spread();
-		points = make_receiver_points(question.surfaces, spread.get(),
+		points = make_receiver_points(question.surfaces, question.spread.get(),
 				[&](size_t p_pixel) { return question.receiver[p_pixel] >= 0.5f; });
 		const CasterTriangles triangles = collect_triangles(*question.scene);
 		tracer.emplace(triangles.opaque.positions, triangles.opaque.indices, triangles.translucent);
-		if (spread) {
-			spread_visibility.emplace(
-					collect_spread_bodies(*question.scene, spread.get()), *spread);
+		if (question.spread) {
+			spread_visibility.emplace(collect_spread_bodies(*question.scene, question.spread.get()),
+					*question.spread);
 		}
 	}
 	VisibilityOptions options;

@@ -20,7 +20,6 @@ private:
 	TruthQuestion question;
 	std::vector<ReceiverPoint> points;
 	std::optional<AreaLightVisibility> tracer;
-	std::shared_ptr<const SurfaceSpread> spread;
 	std::optional<SpreadVisibility> spread_visibility;
 };
 

@@ -5,6 +5,7 @@
 #include "modules/core/log.h"
 #include "modules/core/progress.h"
 #include "modules/renderer/gbuffer.h"
+#include "modules/renderer/mask_filter.h"
 #include "modules/shadow_reference/reference_input.h"
 
 #include <chrono>

@@ -3,7 +3,6 @@
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/embree_scene.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gnomon {

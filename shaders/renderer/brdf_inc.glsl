@@ -32,9 +32,15 @@ struct ReflectAngles {
 	float r_v; // of the mirrored light
 };
 
+/// pow(x, 5) is not defined below 0, where rounding may lead.
+float power_of_5(float p_x) {
+	const float x2 = p_x * p_x;
+	return x2 * x2 * p_x;
+}
+
 ReflectAngles find_angles(vec3 p_normal, vec3 p_to_viewer, vec3 p_to_light) {
 	const vec3 half_vector = normalize(p_to_viewer + p_to_light);
-	return ReflectAngles(dot(p_normal, p_to_light), max(dot(p_normal, p_to_viewer), 1e-4),
+	return ReflectAngles(min(dot(p_normal, p_to_light), 1.0), clamp(dot(p_normal, p_to_viewer), 1e-4, 1.0),
 			clamp(dot(p_normal, half_vector), 0.0, 1.0), clamp(dot(p_to_viewer, half_vector), 0.0, 1.0),
 			clamp(dot(reflect(-p_to_light, p_normal), p_to_viewer), 0.0, 1.0));
 }
@@ -44,8 +50,8 @@ ReflectAngles find_angles(vec3 p_normal, vec3 p_to_viewer, vec3 p_to_light) {
 /// lifts grazing light, as what comes from below the surface has lost the direction it came from.
 float scatter_lobe(ReflectAngles p_angles, float p_roughness) {
 	const float grazing = p_roughness * p_angles.v_h * p_angles.v_h;
-	const float in_share = mix(1.0, grazing, pow(1.0 - p_angles.n_l, 5.0));
-	const float out_share = mix(1.0, grazing, pow(1.0 - p_angles.n_v, 5.0));
+	const float in_share = mix(1.0, grazing, power_of_5(1.0 - p_angles.n_l));
+	const float out_share = mix(1.0, grazing, power_of_5(1.0 - p_angles.n_v));
 	return 1.25 * (in_share * out_share * (1.0 / (p_angles.n_l + p_angles.n_v) - 0.5) + 0.5);
 }
 
@@ -68,7 +74,7 @@ float ggx_lobe(ReflectAngles p_angles, float p_roughness) {
 float phong_lobe(ReflectAngles p_angles, float p_roughness) {
 	const float alpha = max(p_roughness * p_roughness, 1e-3);
 	const float exponent = max(2.0 / (alpha * alpha) - 2.0, 0.0) * 0.25;
-	return (exponent + 2.0) / (2.0 * PI) * pow(p_angles.r_v, exponent);
+	return (exponent + 2.0) / (2.0 * PI) * pow(max(p_angles.r_v, 1e-6), exponent);
 }
 
 /// Reflected radiance per illuminance, cosine included. All vectors unit, pointing away.
@@ -84,7 +90,7 @@ vec3 reflect_light(Surface p_surface, vec3 p_normal, vec3 p_to_viewer, vec3 p_to
 		fresnel = f0;
 		lobe = phong_lobe(angles, p_surface.roughness);
 	} else {
-		fresnel = f0 + (1.0 - f0) * pow(1.0 - angles.v_h, 5.0);
+		fresnel = f0 + (1.0 - f0) * power_of_5(1.0 - angles.v_h);
 		lobe = ggx_lobe(angles, p_surface.roughness);
 	}
 	vec3 diffuse = (1.0 - fresnel) * (1.0 - p_surface.metallic) * p_surface.base_color / PI;

@@ -19,6 +19,12 @@
 #define RENDERER_GROUP_SIZE 8
 #define RENDERER_CONSTANT_IS_COLORED 0 // 1: the mask has three colours
 
+// Bindings of tint.comp.
+#define TINT_BINDING_OPAQUE 0 // the mask of the opaque casters
+#define TINT_BINDING_BOTH 1	  // of them and the group
+#define TINT_BINDING_BEFORE 2 // as coloured so far
+#define TINT_BINDING_RESULT 3
+
 /// Push constants of tint.comp.
 struct SHARED_ALIGN TintPush {
 	vec4 transmittance; // rgb

@@ -8,10 +8,10 @@
 // of that comes through. Exact for one group. Several multiply, as if they hid independently of each
 // other: exact where each hides all or nothing.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D opaque_texture;
-layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D both_texture;
-layout(set = 0, binding = RENDERER_BINDING_RADIANCE) uniform texture2D before_texture;
-layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba16f) uniform writeonly image2D output_image;
+layout(set = 0, binding = TINT_BINDING_OPAQUE) uniform texture2D opaque_texture;
+layout(set = 0, binding = TINT_BINDING_BOTH) uniform texture2D both_texture;
+layout(set = 0, binding = TINT_BINDING_BEFORE) uniform texture2D before_texture;
+layout(set = 0, binding = TINT_BINDING_RESULT, rgba16f) uniform writeonly image2D result_image;
 layout(constant_id = RENDERER_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u; // what was before
 layout(push_constant) uniform Push {
 	TintPush push;
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (any(greaterThanEqual(pixel, imageSize(output_image)))) {
+	if (any(greaterThanEqual(pixel, imageSize(result_image)))) {
 		return;
 	}
 	const vec4 stored = texelFetch(before_texture, pixel, 0);
@@ -27,5 +27,5 @@ void main() {
 	const float opaque = texelFetch(opaque_texture, pixel, 0).r;
 	const float both = texelFetch(both_texture, pixel, 0).r;
 	const float hidden = opaque > 0.0 ? clamp(1.0 - both / opaque, 0.0, 1.0) : 0.0;
-	imageStore(output_image, pixel, vec4(before * (1.0 - hidden * (1.0 - push.transmittance.rgb)), 1.0));
+	imageStore(result_image, pixel, vec4(before * (1.0 - hidden * (1.0 - push.transmittance.rgb)), 1.0));
 }

@@ -112,3 +112,25 @@ TEST_CASE("[UndoHistory] it knows when the scene is as it was saved") {
 	tree.history.redo();
 	CHECK(tree.history.is_saved());
 }
+
+TEST_CASE("[UndoHistory] a change of a second material is a step, though the first says what is "
+		  "shown") {
+	auto grey = std::make_shared<Material>();
+	auto shiny = std::make_shared<Material>();
+	shiny->shading_model = ShadingModel::PHONG;
+	MeshInstance3D node;
+	node.surfaces = { { nullptr, grey }, { nullptr, shiny } };
+	UndoHistory history;
+	const std::string plain = get_shading_model_name(ShadingModel::METALLIC_ROUGHNESS);
+	history.change(node, "Set", "", [&] { set_node_property(node, "shading_model", plain); });
+	CHECK(node.surfaces[1].material->shading_model == ShadingModel::METALLIC_ROUGHNESS);
+	REQUIRE(history.can_undo());
+	CHECK_FALSE(history.is_saved());
+	history.undo();
+	CHECK(node.surfaces[1].material == shiny);
+	CHECK(node.surfaces[0].material == grey);
+	history.redo();
+	history.change(node, "Again", "", [&] { set_node_property(node, "shading_model", plain); });
+	CHECK_FALSE(history.can_redo());
+	CHECK(history.get_undo_name() == "Set"); // the second changed nothing
+}

@@ -165,3 +165,82 @@ TEST_CASE("[GltfMaterials] a new scene's materials say all that they are") {
 	const Json json = folder.read_json("new.gltf");
 	CHECK(json["extensionsUsed"] == Json({ "KHR_materials_transmission", "KHR_materials_volume" }));
 }
+
+TEST_CASE("[GltfMaterials] a distance that the volume told stays what it is when the volume "
+		  "changes") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const Json json = make_waxes(folder);
+	const auto save_and_load = [&](const Scene &p_scene) {
+		save_gltf(p_scene, folder.path / "again.gltf");
+		const auto again = load_gltf(folder.path / "again.gltf");
+		return *get_instances(*again)[0]->surfaces[0].material;
+	};
+	const auto scene = folder.load(json);
+	MeshInstance3D &instance = *get_instances(*scene)[0];
+	CHECK(save_and_load(*scene).scatter_distance_m == 0.25f);
+	CHECK_FALSE(
+			folder.read_json("again.gltf")["materials"][0]["extras"].contains("scatter_distance"));
+	set_node_property(instance, "attenuation_distance", 0.5);
+	CHECK(save_and_load(*scene).scatter_distance_m == 0.25f);
+	set_node_property(instance, "scatter_distance", 0.0);
+	CHECK(save_and_load(*scene).scatter_distance_m == 0.0f);
+	CHECK(save_and_load(*scene).attenuation_distance_m == 0.5f);
+	Json opaque = json;
+	opaque["materials"][0].erase("extras");
+	const auto other = folder.load(opaque);
+	set_node_property(*get_instances(*other)[0], "scatter", 0.5); // and 16 pixels
+	CHECK(save_and_load(*other).scatter_distance_m == 0.0f);
+	CHECK(save_and_load(*other).scatter == 0.5f);
+}
+
+TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has besides, stay in the file") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_waxes(folder);
+	Json &primitives = json["meshes"][0]["primitives"];
+	Json lines = primitives[0];
+	lines["mode"] = 1;
+	lines["extras"] = { { "drawn", "by hand" } };
+	primitives.insert(primitives.begin(), lines);
+	const auto scene = folder.load(json);
+	// A copy of the second node, whose material changes, as does that of the second.
+	auto copy = get_instances(*scene)[1]->copy();
+	copy->name = "Copy";
+	copy->file_index = -1;
+	Node3D *added = scene->root->add_child(std::move(copy));
+	set_node_property(*added, "roughness", 0.25);
+	set_node_property(*get_instances(*scene)[1], "roughness", 0.5);
+	save_gltf(*scene, folder.path / "again.gltf");
+	const Json after = folder.read_json("again.gltf");
+	CHECK(after["accessors"] == json["accessors"]);
+	REQUIRE(after["meshes"].size() == 3);
+	for (const Json &mesh : after["meshes"]) {
+		REQUIRE(mesh["primitives"].size() == 2);
+		CHECK(mesh["primitives"][0] == lines);
+		CHECK(mesh["extras"] == json["meshes"][0]["extras"]);
+	}
+	const auto again = load_gltf(folder.path / "again.gltf");
+	REQUIRE(get_instances(*again).size() == 3);
+	CHECK(get_instances(*again)[0]->surfaces[0].material->roughness == 1.0f);
+	CHECK(get_instances(*again)[1]->surfaces[0].material->roughness == 0.5f);
+	CHECK(get_instances(*again)[2]->surfaces[0].material->roughness == 0.25f);
+}
+
+TEST_CASE("[GltfMaterials] the other scenes of a file keep the material") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_waxes(folder);
+	json["scenes"][0]["nodes"].erase(1);
+	json["scenes"].push_back({ { "nodes", { json["nodes"].size() - 1 } } });
+	json["scene"] = 0;
+	const auto scene = folder.load(json);
+	REQUIRE(get_instances(*scene).size() == 1);
+	set_node_property(*get_instances(*scene)[0], "scatter", 1.0);
+	save_gltf(*scene, folder.path / "again.gltf");
+	Json after = folder.read_json("again.gltf");
+	CHECK(after["materials"][0] == json["materials"][0]);
+	CHECK(after["materials"].size() == 3);
+	after["scene"] = 1;
+	CHECK(get_instances(*folder.load(after))[0]->surfaces[0].material->scatter == 0.5f);
+}

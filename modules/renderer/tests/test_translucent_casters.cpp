@@ -71,7 +71,9 @@ TEST_CASE(
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
 		scene.box->surfaces[0].material = make_glass(RED);
-		add_pane(scene, "Far", RED, { 2.9, 0.6, -2.4 });
+		const bool has_place = type != LightType::DIRECTIONAL;
+		add_pane(scene, "Far", RED,
+				has_place ? glm::dvec3(2.9, 0.6, -2.4) : glm::dvec3(1.9, 0.6, -1.2));
 		CHECK(find_casters(scene).groups.size() == 1);
 		scene.light->properties["light_size"] = 3.0; // so wide that it sees past the other's edge
 		scene.light->properties["light_angular_distance"] = 90.0;
@@ -83,6 +85,19 @@ TEST_CASE(
 	CHECK(find_casters(scene).groups.size() == 2);
 	lamp.parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 3.7, 0.6));
 	CHECK(find_casters(scene).groups.size() == 2);
+}
+
+TEST_CASE("[TranslucentCasters] a slanting ray meets two that lie far apart along the light") {
+	SmallScene scene(LightType::DIRECTIONAL);
+	scene.light->parent_from_node = look_at({ 0, 50, 0 }, { 0, 0, 0 });
+	scene.light->properties["light_angular_distance"] = 10.0;
+	scene.box->surfaces[0].material = make_glass(RED);
+	add_pane(scene, "Beside", RED, { 2.4, 1.0, 0.0 });
+	CHECK(find_casters(scene).groups.size() == 1);
+	MeshInstance3D &above = add_pane(scene, "Above", RED, { 2.4, 21.0, 0.0 });
+	CHECK(find_casters(scene).groups.size() == 2); // though S is 4 m
+	above.parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(-6.0, 21.0, 0.0));
+	CHECK(find_casters(scene).groups.size() == 1);
 }
 
 TEST_CASE("[TranslucentCasters] too many colours share the nearest, and are counted") {

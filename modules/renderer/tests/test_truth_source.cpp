@@ -1,3 +1,4 @@
+#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/tests/render_fixture.h"
 #include "modules/renderer/truth_source.h"
 
@@ -29,7 +30,7 @@ struct TracedScene {
 		request.wants_surfaces = true;
 		result = r_fixture.renderer->render(request);
 		question = { request.scene, request.scene->lights.front(), request.size_px, result.surfaces,
-			result.receiver };
+			result.receiver, find_surface_spread() };
 	}
 };
 
