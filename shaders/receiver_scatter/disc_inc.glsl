@@ -1,35 +1,34 @@
-// The source's method, in pixels: Wang and Xiao 2015, section 1.2. A disc of radius 16 s in the
-// picture, sectors times rings, one random point in each cell, a mean whose weights fall with the
-// distance.
+// The source's method, in pixels: a disc in the picture, sectors times rings, one random point in each
+// cell, a mean whose weights fall with the distance.
 #ifndef RECEIVER_SCATTER_DISC_INC_GLSL
 #define RECEIVER_SCATTER_DISC_INC_GLSL
 
-#include "common/sampling_inc.glsl"
+#include "receiver_scatter/cells_inc.glsl"
 #include "receiver_scatter/receiver_inc.glsl"
 
 vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 	const float radius_px = SCATTER_RADIUS_PX * p_receiver.scatter;
-	const uint ring_count = uint(ceil(radius_px));
+	const uvec2 counts = uvec2(count_rings(p_receiver.scatter), push.sector_count);
 	const bool refuses = refuses_others(p_receiver);
 	uint random = hash_pixel(uvec2(p_pixel));
 	vec3 sum = vec3(0.0);
 	float weight_sum = 0.0;
-	for (uint ring = 0u; ring < ring_count; ++ring) {
-		for (uint sector = 0u; sector < push.sector_count; ++sector) {
-			const float distance_px =
-					(float(ring) + next_random(random)) * radius_px / float(ring_count);
-			const float angle_rad =
-					(float(sector) + next_random(random)) * TWO_PI / float(push.sector_count);
-			const ivec2 other =
-					p_pixel + ivec2(round(distance_px * vec2(cos(angle_rad), sin(angle_rad))));
+	for (uint ring = 0u; ring < counts.x; ++ring) {
+		for (uint sector = 0u; sector < counts.y; ++sector) {
+			const float along = next_random(random);
+			const float around = next_random(random);
+			const vec2 offset_px =
+					find_cell_point(uvec2(ring, sector), counts, radius_px, vec2(along, around));
+			const ivec2 other = p_pixel + ivec2(round(offset_px));
 			if (!is_in_picture(other)) {
 				continue;
 			}
 			const uvec4 packed = load_pixel(other);
+			const float distance_px = length(offset_px);
 			const float tolerance_m = 2.0 * (distance_px + 1.0) * p_receiver.pixel_size_m;
 			if (refuses ? is_same_surface(p_receiver, other, packed, p_receiver.position, tolerance_m)
 						: get_depth(packed) > 0.0) {
-				const float weight = exp(-SCATTER_FALLOFF * distance_px / radius_px);
+				const float weight = find_disc_weight(distance_px, radius_px);
 				sum += weight * get_light(packed);
 				weight_sum += weight;
 			}

@@ -1,0 +1,63 @@
+#include "tests/shaders/kernel_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr double TWO_PI = 6.283185307179586;
+
+} // namespace
+
+TEST_CASE("[GPU][ReceiverScatter] the source's disc has as many rings as its radius has pixels, "
+		  "rounded up") {
+	KernelFixture fixture;
+	const std::vector<glm::vec4> input = { { 0.15f, 0, 0, 6 }, { 0.5f, 0, 0, 6 }, { 0.8f, 0, 0, 6 },
+		{ 1.0f, 0, 0, 6 }, { 0.01f, 0, 0, 6 }, { 0.51f, 0, 0, 6 } };
+	const std::vector<glm::vec4> results =
+			fixture.run("scatter_cells.comp", input, input.size(), 1);
+	const float expected[] = { 3, 8, 13, 16, 1, 9 };
+	for (size_t i = 0; i < input.size(); ++i) {
+		CAPTURE(input[i].x);
+		CHECK(results[i].w == expected[i]);
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] each cell of the source's disc has one point, whose weight falls "
+		  "outward") {
+	KernelFixture fixture;
+	for (const float scatter : { 0.15f, 0.5f, 0.8f }) {
+		for (const int sector_count : { 6, 15 }) {
+			CAPTURE(scatter);
+			CAPTURE(sector_count);
+			const float radius_px = 16 * scatter;
+			const int ring_count = static_cast<int>(std::ceil(radius_px));
+			std::vector<glm::vec4> input;
+			for (int ring = 0; ring < ring_count; ++ring) {
+				for (int sector = 0; sector < sector_count; ++sector) {
+					input.push_back({ scatter, ring, sector, sector_count });
+				}
+			}
+			const std::vector<glm::vec4> results =
+					fixture.run("scatter_cells.comp", input, input.size(), 1);
+			double along_sum = 0;
+			for (size_t i = 0; i < input.size(); ++i) {
+				const double distance = std::hypot(results[i].x, results[i].y);
+				const double along = distance / radius_px * ring_count - input[i].y;
+				double turn = std::atan2(results[i].y, results[i].x) / TWO_PI;
+				turn += turn < 0 ? 1 : 0;
+				const double around = turn * sector_count - input[i].z;
+				CHECK(along > -1e-3);
+				CHECK(along < 1.001);
+				// Near the middle and the first sector's beginning an angle rounds round.
+				CHECK((distance < 1e-3 || (around > -1e-3 && around < 1.001)));
+				CHECK(results[i].z == doctest::Approx(std::exp(-3 * distance / radius_px)));
+				along_sum += along;
+			}
+			CHECK(along_sum / double(input.size()) == doctest::Approx(0.5).epsilon(0.15));
+		}
+	}
+}

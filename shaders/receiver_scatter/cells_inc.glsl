@@ -1,0 +1,26 @@
+// The cells of the source's disc, Wang and Xiao 2015, section 1.2: pure functions.
+#ifndef RECEIVER_SCATTER_CELLS_INC_GLSL
+#define RECEIVER_SCATTER_CELLS_INC_GLSL
+
+#include "common/sampling_inc.glsl"
+#include "receiver_scatter/receiver_scatter_shared.h"
+
+/// c: the radius R = 16 s in pixels, rounded up. p_scatter: s in 0..1.
+uint count_rings(float p_scatter) {
+	return uint(ceil(SCATTER_RADIUS_PX * p_scatter));
+}
+
+/// A point of a cell, in pixels from the middle. p_random: two numbers in 0..1.
+vec2 find_cell_point(
+		uvec2 p_ring_and_sector, uvec2 p_counts, float p_radius_px, vec2 p_random) {
+	const vec2 place = (vec2(p_ring_and_sector) + p_random) / vec2(p_counts);
+	const float angle_rad = TWO_PI * place.y;
+	return p_radius_px * place.x * vec2(cos(angle_rad), sin(angle_rad));
+}
+
+/// Falls with the distance, 1 in the middle.
+float find_disc_weight(float p_distance_px, float p_radius_px) {
+	return exp(-SCATTER_FALLOFF * p_distance_px / p_radius_px);
+}
+
+#endif
