@@ -71,13 +71,11 @@ void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
 			"Whether shadows soften on materials whose scatter is above 0.", "", GROUP });
 	r_list.add({ METHOD, PropertyType::ENUM, std::string("auto"), "auto,metres,pixels",
 			"How wide shadows soften: metres = scatter times the material's scatter_distance, "
-			"pixels = "
-			"16 times scatter, auto = metres where the material has a scatter_distance.",
+			"pixels = 16 times scatter, auto = metres where there is a scatter_distance.",
 			"", GROUP });
 	r_list.add({ SAMPLES, PropertyType::INT, int64_t(48), "8,1024,8",
 			"Samples per pixel; in pixels that many at scatter 0.5, and twice at 1. Few make "
-			"noise, "
-			"many cost time.",
+			"noise, many cost time.",
 			"", GROUP });
 	r_list.add({ REFUSAL, PropertyType::ENUM, std::string("auto"), "auto,on,off",
 			"Whether samples on other surfaces are left out, so that light does not leak between "

@@ -1,31 +1,14 @@
 #include "modules/receiver_scatter/dipole_spread.h"
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/receiver_scatter/tests/scatter_fixture.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
 
 using namespace gnomon;
 
 namespace {
-
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
-constexpr float INFINITE = std::numeric_limits<float>::infinity();
-
-std::shared_ptr<const Material> make_wax(float p_scatter, float p_distance_m) {
-	auto material = std::make_shared<Material>();
-	material->scatter = p_scatter;
-	material->scatter_distance_m = p_distance_m;
-	return material;
-}
-
-/// A technique with sharp edges, so that all softness is the filter's.
-std::string find_technique() {
-	return ShadowRegistry::find_default()->id;
-}
 
 /// The hard shadow of half a plane, straight below a light, on a translucent ground that fills the
 /// picture of a camera that looks straight down.
@@ -276,78 +259,6 @@ TEST_CASE("[GPU][ReceiverScatter] each of several lights has its own spread") {
 	const RenderResult on = fixture.render_mask(scene, find_technique());
 	CHECK(compute_mask_difference(off, on) > 0.002);
 	CHECK_NOTHROW(fixture.render_picture(scene));
-}
-
-TEST_CASE("[GPU][ReceiverScatter] extreme materials and pictures give valid masks") {
-	RenderFixture fixture;
-	SmallScene scene;
-	const RenderResult opaque = fixture.render_mask(scene, find_technique());
-	const auto render = [&](float p_scatter, float p_distance_m, glm::uvec2 p_size_px) {
-		scene.ground->surfaces[0].material = make_wax(p_scatter, p_distance_m);
-		return fixture.render_mask(scene, find_technique(), p_size_px);
-	};
-	for (const float scatter : { 0.0f, NOT_A_NUMBER, -1.0f }) {
-		CAPTURE(scatter);
-		CHECK(render(scatter, 0.5f, glm::uvec2(64)).visibility == opaque.visibility);
-	}
-	for (const float scatter : { 1e-4f, 1.0f, 5.0f, INFINITE }) {
-		for (const float distance_m : { 0.0f, 1e-6f, 0.5f, 1e4f, INFINITE, NOT_A_NUMBER }) {
-			CAPTURE(scatter);
-			CAPTURE(distance_m);
-			CHECK(is_valid_mask(render(scatter, distance_m, glm::uvec2(64))));
-		}
-	}
-	// A radius far below a pixel changes nothing that is to be seen.
-	CHECK(compute_mask_difference(render(1.0f, 1e-5f, glm::uvec2(64)), opaque) < 1e-3);
-	for (const glm::uvec2 size_px :
-			{ glm::uvec2(1, 1), glm::uvec2(1, 64), glm::uvec2(64, 1), glm::uvec2(3, 5) }) {
-		CAPTURE(size_px.x);
-		CAPTURE(size_px.y);
-		for (const float distance_m : { 0.0f, 0.5f }) {
-			CHECK(is_valid_mask(render(1.0f, distance_m, size_px)));
-		}
-	}
-	// Everything lit stays lit up to the picture's border: what lies outside does not count.
-	scene.box->casts_shadow = false;
-	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
-	for (const float distance_m : { 0.0f, 2.0f }) {
-		CAPTURE(distance_m);
-		const RenderResult lit = render(1.0f, distance_m, glm::uvec2(64));
-		size_t dark_count = 0;
-		for (size_t index = 0; index < lit.visibility.size(); ++index) {
-			dark_count += lit.receiver[index] > 0 && lit.visibility[index] < 0.999f; // half floats
-		}
-		CHECK(dark_count == 0);
-	}
-}
-
-TEST_CASE("[GPU][ReceiverScatter] a receiver of one pixel keeps its own mask") {
-	RenderFixture fixture;
-	SmallScene scene;
-	// Crumbs so small that each shows in a few pixels or none, no two of one material.
-	const auto crumb = make_box_mesh("crumb", glm::vec3(0.02f));
-	for (int i = 0; i < 9; ++i) {
-		MeshInstance3D &node = add_mesh(scene.scene, "Crumb " + std::to_string(i), crumb,
-				glm::dvec3(-0.8 + 0.2 * i, 0.02, -0.3));
-		node.surfaces[0].material = make_wax(1.0f, 0.5f * float(i + 1));
-	}
-	scene.light->properties["receiver_scatter_enabled"] = false;
-	const RenderResult before = fixture.render_mask(scene, find_technique(), glm::uvec2(48));
-	scene.light->properties["receiver_scatter_enabled"] = true;
-	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
-	for (const char *method : { "metres", "pixels" }) {
-		CAPTURE(method);
-		scene.light->properties["receiver_scatter_method"] = std::string(method);
-		const RenderResult after = fixture.render_mask(scene, find_technique(), glm::uvec2(48));
-		CHECK(is_valid_mask(after));
-		// A crumb's pixels see nearly the same, so that their mean is what each has.
-		CHECK(compute_mask_difference(before, after) < 1e-3);
-		size_t black_count = 0;
-		for (size_t index = 0; index < after.visibility.size(); ++index) {
-			black_count += before.visibility[index] > 0.5f && after.visibility[index] < 0.2f;
-		}
-		CHECK(black_count == 0);
-	}
 }
 
 TEST_CASE("[GPU][ReceiverScatter] the same frame twice is the same to the bit") {

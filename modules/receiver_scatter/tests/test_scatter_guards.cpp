@@ -1,0 +1,142 @@
+// TECHNIQUES, section 6, and what materials and pictures may be at worst.
+
+#include "modules/receiver_scatter/tests/scatter_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
+constexpr float INFINITE = std::numeric_limits<float>::infinity();
+
+} // namespace
+
+TEST_CASE("[GPU][ReceiverScatter] extreme materials and pictures give valid masks") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const RenderResult opaque = fixture.render_mask(scene, find_technique());
+	const auto render = [&](float p_scatter, float p_distance_m, glm::uvec2 p_size_px) {
+		scene.ground->surfaces[0].material = make_wax(p_scatter, p_distance_m);
+		return fixture.render_mask(scene, find_technique(), p_size_px);
+	};
+	for (const float scatter : { 0.0f, NOT_A_NUMBER, -1.0f }) {
+		CAPTURE(scatter);
+		CHECK(render(scatter, 0.5f, glm::uvec2(64)).visibility == opaque.visibility);
+	}
+	for (const float scatter : { 1e-4f, 1.0f, 5.0f, INFINITE }) {
+		for (const float distance_m : { 0.0f, 1e-6f, 0.5f, 1e4f, INFINITE, NOT_A_NUMBER }) {
+			CAPTURE(scatter);
+			CAPTURE(distance_m);
+			CHECK(is_valid_mask(render(scatter, distance_m, glm::uvec2(64))));
+		}
+	}
+	// A radius far below a pixel changes nothing that is to be seen.
+	CHECK(compute_mask_difference(render(1.0f, 1e-5f, glm::uvec2(64)), opaque) < 1e-3);
+	for (const glm::uvec2 size_px :
+			{ glm::uvec2(1, 1), glm::uvec2(1, 64), glm::uvec2(64, 1), glm::uvec2(3, 5) }) {
+		CAPTURE(size_px.x);
+		CAPTURE(size_px.y);
+		for (const float distance_m : { 0.0f, 0.5f }) {
+			CHECK(is_valid_mask(render(1.0f, distance_m, size_px)));
+		}
+	}
+	// Everything lit stays lit up to the picture's border: what lies outside does not count.
+	scene.box->casts_shadow = false;
+	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
+	for (const float distance_m : { 0.0f, 2.0f }) {
+		CAPTURE(distance_m);
+		const RenderResult lit = render(1.0f, distance_m, glm::uvec2(64));
+		size_t dark_count = 0;
+		for (size_t index = 0; index < lit.visibility.size(); ++index) {
+			dark_count += lit.receiver[index] > 0 && lit.visibility[index] < 0.999f; // half floats
+		}
+		CHECK(dark_count == 0);
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] a receiver of one pixel keeps its own mask") {
+	RenderFixture fixture;
+	SmallScene scene;
+	// Crumbs so small that each shows in a few pixels or none, no two of one material.
+	const auto crumb = make_box_mesh("crumb", glm::vec3(0.02f));
+	for (int i = 0; i < 9; ++i) {
+		MeshInstance3D &node = add_mesh(scene.scene, "Crumb " + std::to_string(i), crumb,
+				glm::dvec3(-0.8 + 0.2 * i, 0.02, -0.3));
+		node.surfaces[0].material = make_wax(1.0f, 0.5f * float(i + 1));
+	}
+	scene.light->properties["receiver_scatter_enabled"] = false;
+	const RenderResult before = fixture.render_mask(scene, find_technique(), glm::uvec2(48));
+	scene.light->properties["receiver_scatter_enabled"] = true;
+	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
+	for (const char *method : { "metres", "pixels" }) {
+		CAPTURE(method);
+		scene.light->properties["receiver_scatter_method"] = std::string(method);
+		const RenderResult after = fixture.render_mask(scene, find_technique(), glm::uvec2(48));
+		CHECK(is_valid_mask(after));
+		// A crumb's pixels see nearly the same, so that their mean is what each has.
+		CHECK(compute_mask_difference(before, after) < 1e-3);
+		size_t black_count = 0;
+		for (size_t index = 0; index < after.visibility.size(); ++index) {
+			black_count += before.visibility[index] > 0.5f && after.visibility[index] < 0.2f;
+		}
+		CHECK(black_count == 0);
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] a scene of another size or place has the same mask") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		const auto render = [&](double p_scale, const glm::dvec3 &p_origin, float p_distance_m) {
+			SmallScene scene(type, p_scale, p_origin);
+			scene.ground->surfaces[0].material = make_wax(0.8f, p_distance_m);
+			return fixture.render_mask(scene, find_technique());
+		};
+		for (const float distance_m : { 0.0f, 0.5f }) {
+			CAPTURE(get_light_type_name(type));
+			CAPTURE(distance_m);
+			const RenderResult plain = render(1, glm::dvec3(0.0), distance_m);
+			CHECK(is_valid_mask(plain));
+			for (const double scale : { 1e-3, 1e3 }) {
+				CAPTURE(scale);
+				const RenderResult scaled =
+						render(scale, glm::dvec3(0.0), distance_m * static_cast<float>(scale));
+				CHECK(compute_mask_difference(plain, scaled) < 0.002);
+			}
+			const RenderResult moved = render(1, glm::dvec3(1e5, -1e5, 1e5), distance_m);
+			CHECK(compute_mask_difference(plain, moved) < 0.002);
+		}
+	}
+}
+
+TEST_CASE("[GPU][ReceiverScatter] lights and places that have no direction to speak of are "
+		  "survived") {
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.ground->surfaces[0].material = make_wax(1.0f, 0.7f);
+	scene.box->surfaces[0].material = make_wax(0.4f, 0.0f);
+	const glm::dvec3 places[] = { { 0, 1.0, 0 }, // inside the box
+		{ 0, 0, 0 }, { 0.3, 1e-6, 0.3 },		 // on the ground
+		{ 0, -3, 0 },							 // below it
+		{ 40, 0.01, 0 } };						 // grazing
+	for (const glm::dvec3 &place : places) {
+		CAPTURE(place.x);
+		CAPTURE(place.y);
+		scene.light->parent_from_node = look_at(place, place + glm::dvec3(0.1, -1, 0.2));
+		for (const double size_m : { 0.0, 0.3, 50.0 }) {
+			scene.light->properties["light_size"] = size_m;
+			CHECK(is_valid_mask(fixture.render_mask(scene, find_technique(), glm::uvec2(32))));
+		}
+	}
+	// No receivers, no casters.
+	scene.camera->parent_from_node = look_at({ 0, 5, 0 }, { 0.1, 20, 0 });
+	CHECK(count_receivers(fixture.render_mask(scene, find_technique(), glm::uvec2(32))) == 0);
+	for (int i = 0; i < 63; ++i) {
+		scene.add_light("Light " + std::to_string(i), LightType::OMNI, { 0.1 * i - 3.0, 2.5, 0.5 },
+				{ 0, 0, 0 });
+	}
+	CHECK_NOTHROW(fixture.render_picture(scene));
+}
