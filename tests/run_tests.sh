@@ -181,7 +181,8 @@ if is_wanted docs; then
     run_part docs python3 tests/run_unittest.py tests/docs/test_docs.py
 fi
 if is_wanted engine; then
-    run_part engine bin/gnomon_tests
+    run_part "engine slices" python3 tests/run_unittest.py tests/canaries/test_engine_slices.py
+    run_part engine python3 tests/run_engine.py bin/gnomon_tests --processes "$jobs"
 fi
 if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \

@@ -88,7 +88,7 @@ def test_module(module, ids, jobs):
             return 0, 1
         results = [
             run(target, what, [sys.executable, "tests/layers/test_layers.py"]),
-            run(target, what, ["bin/gnomon_tests"]),
+            run(target, what, [sys.executable, "tests/run_engine.py", "bin/gnomon_tests"]),
         ]
         listed = subprocess.run(["bin/gnomon", "techniques"], cwd=target, capture_output=True, text=True, check=False)
         still_there = [name for name in ids if re.search(r"(?m)^\W*%s\b" % name, listed.stdout)]

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Runs the engine's tests in several processes at once, each a slice of them in a shuffled order.
+
+    run_engine.py PROGRAM [--processes N] [-- TEST_OPTION...]
+
+The order is the same every time, and no test may count on another. The last line is the sum of all slices: "N passed,
+N failed, N skipped"; a slice that ends without its own such line counts as one failure.
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+COUNT = re.compile(r"passing the current filters: (\d+)")
+SUMMARY = re.compile(r"(?m)^(\d+) passed, (\d+) failed, (\d+) skipped$")
+ORDER = ("--order-by=rand", "--rand-seed=1")
+
+
+def count_tests(program, options):
+    result = subprocess.run([program, "--count", *options], capture_output=True, text=True, check=False)
+    found = COUNT.search(result.stdout)
+    if not found:
+        raise SystemExit("ERROR: %s --count ended with %d and told no number of tests: %s" % (program, result.returncode, result.stdout + result.stderr))
+    return int(found.group(1))
+
+
+def split(count, parts):
+    """First and last test of each part, from 1; parts without tests are left out."""
+    bounds = [count * part // parts for part in range(parts + 1)]
+    return [(low + 1, high) for low, high in zip(bounds, bounds[1:]) if high > low]
+
+
+def add_up(outputs):
+    """Passed, failed and skipped of all slices: (exit code, output) each."""
+    totals = [0, 0, 0]
+    for code, output in outputs:
+        found = SUMMARY.findall(output)
+        counts = [int(number) for number in found[-1]] if found else [0, 1, 0]
+        if not found or (code != 0 and counts[1] == 0):
+            print("FAILED: a slice ended with %d%s" % (code, "" if found else " and without its summary"))
+            counts[1] = max(counts[1], 1)
+        totals = [total + number for total, number in zip(totals, counts)]
+    return totals
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Runs the engine's tests in several processes.")
+    parser.add_argument("program")
+    parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("options", nargs="*", help="for the program, behind --")
+    arguments = parser.parse_args()
+    if arguments.processes < 1:
+        parser.error("--processes is %d, must be at least 1" % arguments.processes)
+    running = []
+    for first, last in split(count_tests(arguments.program, arguments.options), arguments.processes):
+        command = [arguments.program, *ORDER, "--first=%d" % first, "--last=%d" % last, *arguments.options]
+        log = tempfile.TemporaryFile("w+", errors="replace")
+        running.append((subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT), log))
+    outputs = []
+    for process, log in running:
+        code = process.wait()
+        log.seek(0)
+        output = log.read()
+        log.close()
+        # The sum alone is to be read as the summary.
+        print(SUMMARY.sub(r"slice: \g<0>", output), flush=True)
+        outputs.append((code, output))
+    passed, failed, skipped = add_up(outputs)
+    print("%d passed, %d failed, %d skipped" % (passed, failed, skipped))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
