@@ -28,18 +28,12 @@ const ShadowTechniqueInfo &get_reference() {
 			"Enable the module of one; `gnomon modules` lists them.");
 }
 
-bool contains_filter(const std::string &p_id) {
-	const std::vector<MaskFilterInfo> &filters = MaskFilterRegistry::get_filters();
-	return std::any_of(filters.begin(), filters.end(),
-			[&](const MaskFilterInfo &p_info) { return p_info.id == p_id; });
-}
-
 RenderRequest make_request(const MaskQuestion &p_question, const std::string &p_technique) {
 	RenderRequest request;
 	request.scene = p_question.scene;
 	request.size_px = p_question.size_px;
 	request.technique_override = p_technique;
-	if (contains_filter(p_technique)) {
+	if (MaskFilterRegistry::find(p_technique) != nullptr) {
 		request.technique_override = ShadowRegistry::find_default()->id; // see find_techniques
 	}
 	request.mask_light = p_question.light;

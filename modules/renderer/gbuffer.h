@@ -16,7 +16,8 @@ struct GBuffer {
 	RGTexture base_color;		// RGBA8_SRGB
 	RGTexture geometric_normal; // R32_UINT
 	RGTexture shading_normal;	// R32_UINT
-	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness
+								// (-1 - roughness for Phong's model), metallic
 	RGTexture emissive;			// RGBA16_SFLOAT, cd/m^2
 };
 

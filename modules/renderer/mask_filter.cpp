@@ -17,9 +17,7 @@ uint64_t revision = 0;
 } // namespace
 
 void MaskFilterRegistry::add(MaskFilterInfo p_info) {
-	for (const MaskFilterInfo &info : filters) {
-		GNOMON_ASSERT(info.id != p_info.id, "mask filter ", p_info.id, " is registered twice");
-	}
+	GNOMON_ASSERT(!find(p_info.id), "mask filter ", p_info.id, " is registered twice");
 	PropertyList list;
 	p_info.make()->get_light_properties(list);
 	check_own_properties(p_info.id, list);
@@ -38,6 +36,15 @@ void MaskFilterRegistry::remove(std::string_view p_id) {
 
 const std::vector<MaskFilterInfo> &MaskFilterRegistry::get_filters() {
 	return filters;
+}
+
+const MaskFilterInfo *MaskFilterRegistry::find(std::string_view p_id) {
+	for (const MaskFilterInfo &info : filters) {
+		if (info.id == p_id) {
+			return &info;
+		}
+	}
+	return nullptr;
 }
 
 const PropertyList &MaskFilterRegistry::get_light_properties(std::string_view p_id) {

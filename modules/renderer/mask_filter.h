@@ -52,6 +52,8 @@ public:
 	static void add(MaskFilterInfo p_info);
 	static void remove(std::string_view p_id);
 	static const std::vector<MaskFilterInfo> &get_filters();
+	/// Null: no filter has that id.
+	static const MaskFilterInfo *find(std::string_view p_id);
 	/// Light properties of one filter, which must exist.
 	static const PropertyList &get_light_properties(std::string_view p_id);
 	/// Counts adds and removes.

@@ -67,7 +67,8 @@ public:
 		RGTexture depth;			// D32_SFLOAT, reversed; 0 = background
 		RGTexture geometric_normal; // R32_UINT, normal_inc.glsl; of the face, towards the viewer
 		RGTexture shading_normal;	// likewise; interpolated
-		RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness, metallic
+		RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness
+									// (-1 - roughness for Phong's model), metallic
 		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
 		RGBuffer frame;		 // FrameConstants
 		RGBuffer light_constants; // LightConstants

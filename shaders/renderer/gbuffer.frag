@@ -17,7 +17,7 @@ layout(location = 0) in vec3 in_normal;
 layout(location = 0) out vec4 out_base_color;
 layout(location = 1) out uint out_geometric_normal;
 layout(location = 2) out uint out_shading_normal;
-layout(location = 3) out vec4 out_material; // s, scatter_distance_m, roughness, metallic
+layout(location = 3) out vec4 out_material; // see make_surface of brdf_inc.glsl
 layout(location = 4) out vec4 out_emissive;
 
 vec3 load_position(uint p_corner) {
