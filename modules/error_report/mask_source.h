@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct MaskQuestion {
 struct TracedTruth {
 	MaskImage mask;
 	std::vector<uint8_t> sees_whole_light; // per pixel, see sees_whole_disc; 0 where no receiver
+	std::vector<glm::vec3> positions;	   // per pixel, camera-relative, metres
+	std::vector<glm::vec3> normals;		   // per pixel, of the face; 0 where nothing is
+	bool is_double = false;				   // traced in double, as float32 was not enough
 	double standard_error = 0;
 	double wall_ms = 0;
 };
@@ -33,6 +37,13 @@ struct MeasuredMask {
 	MaskImage mask; // empty where the question is for the cost only
 	MaskTiming time;
 	uint64_t bytes = 0; // of device memory in use
+};
+
+/// Frames drawn for what is in them, not for their time.
+struct DrawnMasks {
+	std::vector<MaskImage> frames;
+	std::vector<std::string> warnings;
+	unsigned validation_message_count = 0; // where the layers are on
 };
 
 /// A technique that the report can ask for, or a mask filter behind one.
@@ -51,6 +62,9 @@ public:
 	virtual TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
+	/// The questions one after another, as frames of one run: what a technique keeps, it keeps.
+	virtual DrawnMasks draw(
+			std::span<const MaskQuestion> p_questions, const std::string &p_technique) = 0;
 };
 
 /// True when no part of the light's disc lies below the surface's own horizon: the population of

@@ -24,6 +24,15 @@ ReportStatus parse_status(const std::string &p_name) {
 	fail("status is \"", p_name, "\", must be ok, failed or missing");
 }
 
+ErrorCause parse_cause(const std::string &p_name) {
+	for (const ErrorCause cause : { ErrorCause::METHOD, ErrorCause::ROUNDING, ErrorCause::TRUTH }) {
+		if (p_name == get_cause_name(cause)) {
+			return cause;
+		}
+	}
+	fail("cause is \"", p_name, "\", must be method, rounding or truth");
+}
+
 ErrorMetrics read_metrics(const Json &p_json, uint64_t p_pixel_count) {
 	return { p_pixel_count, p_json.at("mae"), p_json.at("rmse"), p_json.at("p99"),
 		p_json.at("bias") };
@@ -69,6 +78,22 @@ size_t find_or_add_machine(Report &r_report, const ReportMachine &p_machine) {
 	return machines.size() - 1;
 }
 
+ReportStability read_stability(const Json &p_json) {
+	ReportStability stability;
+	stability.wrong_share = p_json.at("wrong_share");
+	stability.warnings = p_json.at("warnings").get<std::vector<std::string>>();
+	stability.refusal = p_json.at("refusal");
+	if (p_json.contains("temporal_rmse")) {
+		stability.temporal_rmse = p_json.at("temporal_rmse").get<double>();
+	}
+	if (p_json.contains("condition")) {
+		const Json &json = p_json.at("condition");
+		stability.condition = VisibilityCondition{ json.at("number"), json.at("rounding"),
+			json.at("truth_error"), json.at("error"), parse_cause(json.at("cause")) };
+	}
+	return stability;
+}
+
 void read_result(const Json &p_json, ReportCell &r_cell) {
 	ReportCell cell = r_cell;
 	cell.status = parse_status(p_json.at("status"));
@@ -77,6 +102,9 @@ void read_result(const Json &p_json, ReportCell &r_cell) {
 		const Json &error = p_json.at("error");
 		cell.error =
 				ReportError{ read_error(error.at("all")), read_error(error.at("whole_light")) };
+	}
+	if (p_json.contains("stability")) {
+		cell.stability = read_stability(p_json.at("stability"));
 	}
 	if (cell.is_ok()) {
 		cell.time = read_time(p_json.at("time"));
@@ -103,6 +131,7 @@ ReportConfiguration read_configuration(const Json &p_json) {
 	configuration.id = p_json.at("id");
 	configuration.group = p_json.at("group");
 	configuration.value = p_json.at("value");
+	configuration.sweep = p_json.value("sweep", ""); // absent in older reports
 	configuration.scene = p_json.at("scene");
 	configuration.light = p_json.at("light");
 	configuration.light_type = p_json.at("light_type");
@@ -178,8 +207,9 @@ void read_truth_result(const Json &p_json, ReportConfiguration &r_configuration)
 		configuration.message = p_json.at("message");
 		if (p_json.contains("truth")) {
 			const Json &truth = p_json.at("truth");
-			configuration.truth = { truth.at("standard_error"), truth.at("wall_ms"),
-				truth.at("image"), p_json.at("receiver_pixels"), p_json.at("penumbra_pixels") };
+			configuration.truth = { truth.at("standard_error"), truth.value("is_double", false),
+				truth.at("wall_ms"), truth.at("image"), p_json.at("receiver_pixels"),
+				p_json.at("penumbra_pixels") };
 		}
 		r_configuration = std::move(configuration);
 	} catch (const Json::exception &error) {

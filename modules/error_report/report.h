@@ -2,6 +2,7 @@
 
 #include "modules/error_report/mask_metrics.h"
 #include "modules/error_report/mask_timing.h"
+#include "modules/error_report/visibility_condition.h"
 
 #include <glm/glm.hpp>
 
@@ -39,8 +40,9 @@ const char *get_status_name(ReportStatus p_status);
 /// The exact mask of a configuration, as far as the report keeps it.
 struct ReportTruth {
 	double standard_error = 0;
-	double wall_ms = 0; // to trace it; from the cache, to load it
-	std::string image;	// grey and alpha (0 = no receiver); empty where there is none
+	bool is_double = false; // of a stability sweep: in double precision, as float32 was not enough
+	double wall_ms = 0;		// to trace it; from the cache, to load it
+	std::string image;		// grey and alpha (0 = no receiver); empty where there is none
 	uint64_t receiver_pixel_count = 0;
 	uint64_t penumbra_pixel_count = 0;
 };
@@ -51,13 +53,15 @@ inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
 inline constexpr const char *LIGHTS_GROUP = "lights";
 inline constexpr const char *RESOLUTION_GROUP = "resolution";
+inline constexpr const char *STABILITY_GROUP = "stability"; // points of sweeps, see StabilitySweep
 
 /// A scene, a light and its size: one question that all techniques answer.
 struct ReportConfiguration {
 	std::string id;		// its own in the report
 	std::string record; // of its truth, see RecordStore; empty without truth
 	std::string group = MATRIX_GROUP;
-	double value = 0; // abscissa in its group: R in metres, triangles, lights, pixels of a side
+	double value = 0;  // abscissa in its group: R in metres, triangles, lights, pixels of a side
+	std::string sweep; // of the stability group, else empty: what the value is of
 	std::string scene;
 	std::string light;
 	std::string light_type;				   // "spot", "omni", "directional"
@@ -72,13 +76,27 @@ struct ReportConfiguration {
 	std::string message;						 // why it failed
 	ReportTruth truth;
 
-	bool has_truth() const { return group == MATRIX_GROUP; }
+	bool is_matrix() const { return group == MATRIX_GROUP; }
+	bool is_stability() const { return group == STABILITY_GROUP; }
+	bool has_truth() const { return is_matrix() || is_stability(); }
 };
 
 /// Over all receivers, and over those that see the whole disc above their own horizon.
 struct ReportError {
 	MaskMetrics all;
 	MaskMetrics whole_light;
+};
+
+/// What else a point of a stability sweep is asked.
+struct ReportStability {
+	/// Over penumbra pixels, when the light moves by a thousandth of its radius: see
+	/// TemporalMetrics. None where the light has no place to move to.
+	std::optional<double> temporal_rmse;
+	/// Of the receivers whose truth is 0 or 1: how many of them are wrong by more than a half.
+	double wrong_share = 0;
+	std::vector<std::string> warnings; // that the program gave
+	std::string refusal; // why it drew nothing: an error that says what to do; then no numbers
+	std::optional<VisibilityCondition> condition; // where the error is far above the centre's
 };
 
 /// One technique with one setting in one configuration.
@@ -92,6 +110,7 @@ struct ReportCell {
 	std::string message; // why it failed
 	size_t machine_index = 0;
 	std::optional<ReportError> error;
+	std::optional<ReportStability> stability;
 	MaskTiming time;
 	uint64_t bytes = 0;
 	std::string image; // grey

@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/error_report/report_ranking.h"
+#include "modules/error_report/stability_curves.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,21 @@ Json machine_to_json(const ReportMachine &p_machine) {
 		{ "cpu", p_machine.cpu }, { "threads", p_machine.threads } };
 }
 
+Json stability_to_json(const ReportStability &p_stability) {
+	Json json = { { "wrong_share", p_stability.wrong_share }, { "warnings", p_stability.warnings },
+		{ "refusal", p_stability.refusal } };
+	if (p_stability.temporal_rmse) {
+		json["temporal_rmse"] = *p_stability.temporal_rmse;
+	}
+	if (p_stability.condition) {
+		const VisibilityCondition &condition = *p_stability.condition;
+		json["condition"] = { { "number", condition.number }, { "rounding", condition.rounding },
+			{ "truth_error", condition.truth_error }, { "error", condition.error },
+			{ "cause", get_cause_name(condition.cause) } };
+	}
+	return json;
+}
+
 /// Everything of a cell but which cell it is.
 void add_result(const ReportCell &p_cell, Json &r_json) {
 	r_json["status"] = get_status_name(p_cell.status);
@@ -45,6 +61,9 @@ void add_result(const ReportCell &p_cell, Json &r_json) {
 	if (p_cell.error) {
 		r_json["error"] = { { "all", error_to_json(p_cell.error->all) },
 			{ "whole_light", error_to_json(p_cell.error->whole_light) } };
+	}
+	if (p_cell.stability) {
+		r_json["stability"] = stability_to_json(*p_cell.stability);
 	}
 	if (p_cell.is_ok()) {
 		r_json["time"] = time_to_json(p_cell.time);
@@ -67,8 +86,9 @@ Json cell_to_json(const Report &p_report, const ReportCell &p_cell) {
 
 Json configuration_to_json(const ReportConfiguration &p_configuration) {
 	Json json = { { "id", p_configuration.id }, { "group", p_configuration.group },
-		{ "value", p_configuration.value }, { "scene", p_configuration.scene },
-		{ "light", p_configuration.light }, { "light_type", p_configuration.light_type },
+		{ "sweep", p_configuration.sweep }, { "value", p_configuration.value },
+		{ "scene", p_configuration.scene }, { "light", p_configuration.light },
+		{ "light_type", p_configuration.light_type },
 		{ "light_size_m", p_configuration.light_size_m },
 		{ "light_angular_distance_deg", p_configuration.light_angular_distance_deg },
 		{ "light_count", p_configuration.light_count },
@@ -108,6 +128,9 @@ Json truth_result_to_json(const ReportConfiguration &p_configuration) {
 		json["penumbra_pixels"] = truth.penumbra_pixel_count;
 		json["truth"] = { { "standard_error", truth.standard_error }, { "wall_ms", truth.wall_ms },
 			{ "image", truth.image } };
+		if (truth.is_double) {
+			json["truth"]["is_double"] = true;
+		}
 	}
 	return json;
 }
@@ -137,7 +160,7 @@ Json to_json(const Report &p_report) {
 	json["ranking"] = to_json(rank_settings(p_report));
 	json["best_settings"] = to_json(rank_best_settings(p_report));
 	json["scaling"] = to_json(p_report, find_scaling_curves(p_report));
-	json["stability"] = Json::array();
+	json["stability"] = to_json(find_stability_plots(p_report));
 	return json;
 }
 

@@ -4,6 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/error_report/question_hash.h"
 #include "modules/error_report/scaling_scenes.h"
+#include "modules/error_report/stability_plan.h"
 #include "modules/mesh_tools/topology.h"
 
 #include <algorithm>
@@ -81,6 +82,13 @@ public:
 				add_scaling_configuration(series.group, value, cache);
 			}
 		}
+	}
+
+	void add_stability() {
+		plan_stability(options, [this](ReportConfiguration p_configuration, ReportPlan::Ask p_ask) {
+			add_configuration(
+					std::move(p_configuration), std::move(p_ask), ExpensiveSettings::LEFT_OUT);
+		});
 	}
 
 	ReportPlan finish() { return std::move(plan); }
@@ -207,8 +215,8 @@ private:
 		if (light.type == LightType::DIRECTIONAL) {
 			p_configuration.light_angular_distance_deg = light.light_angular_distance_deg;
 		} else {
-			p_configuration.light_size_m = p_configuration.group == LIGHT_SIZE_GROUP ||
-							p_configuration.group == MATRIX_GROUP
+			p_configuration.light_size_m =
+					p_configuration.group == LIGHT_SIZE_GROUP || p_configuration.is_matrix()
 					? p_configuration.value
 					: light.light_size_m;
 		}
@@ -236,11 +244,12 @@ private:
 				continue;
 			}
 			std::vector<QualitySetting> settings = technique.get_settings(light);
-			if (!p_configuration.has_truth()) {
+			if (!p_configuration.is_matrix()) {
 				// A technique of expensive settings is brute force: many times the cost of another.
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
 						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
-				if (is_expensive && options.scaling == ScalingExtent::QUICK) {
+				if (is_expensive && !p_configuration.has_truth() &&
+						options.scaling == ScalingExtent::QUICK) {
 					continue;
 				}
 				settings.clear();
@@ -259,7 +268,8 @@ private:
 	void add_cell(size_t p_configuration, const std::string &p_technique,
 			const QualitySetting &p_setting) {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
-		PropertyValues properties = derive_widths();
+		PropertyValues properties =
+				configuration.is_stability() ? PropertyValues() : derive_widths();
 		ReportCell cell;
 		cell.configuration_index = p_configuration;
 		cell.technique = p_technique;
@@ -294,6 +304,7 @@ ReportPlan make_report_plan(const ReportOptions &p_options,
 		planner.add_scene(scene);
 	}
 	planner.add_scaling();
+	planner.add_stability();
 	return planner.finish();
 }
 

@@ -4,6 +4,7 @@
 #include "modules/error_report/mask_source.h"
 #include "modules/error_report/report.h"
 #include "modules/error_report/scaling_scenes.h"
+#include "modules/error_report/stability_sweeps.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,6 +26,8 @@ struct ReportOptions {
 	double precision_percent = 5; // see Report
 	uint64_t filter_hash = 0;	  // see MaskQuestion
 	ScalingExtent scaling = ScalingExtent::QUICK;
+	StabilityExtent stability = StabilityExtent::QUICK;
+	std::vector<std::string> sweeps; // of stability; empty: all
 };
 
 /// A scene of the matrix, or why it could not be loaded.

@@ -20,6 +20,10 @@ bool is_comparable(const ReportCell &p_cell) {
 	return p_cell.is_ok() && p_cell.error && p_cell.error->all.penumbra.pixel_count > 0;
 }
 
+bool is_in_matrix(const Report &p_report, const ReportCell &p_cell) {
+	return p_report.configurations[p_cell.configuration_index].is_matrix();
+}
+
 double get_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
@@ -82,7 +86,7 @@ std::vector<RankingRow> rank_settings(const Report &p_report) {
 	std::map<std::pair<std::string, std::string>, std::vector<size_t>> lists;
 	for (size_t index = 0; index < p_report.cells.size(); ++index) {
 		const ReportCell &cell = p_report.cells[index];
-		if (is_comparable(cell)) {
+		if (is_comparable(cell) && is_in_matrix(p_report, cell)) {
 			lists[{ cell.technique, cell.setting }].push_back(index);
 		}
 	}
@@ -93,7 +97,7 @@ std::vector<RankingRow> rank_best_settings(const Report &p_report) {
 	std::map<std::pair<std::string, size_t>, size_t> best; // by technique and configuration
 	for (size_t index = 0; index < p_report.cells.size(); ++index) {
 		const ReportCell &cell = p_report.cells[index];
-		if (!is_comparable(cell)) {
+		if (!is_comparable(cell) || !is_in_matrix(p_report, cell)) {
 			continue;
 		}
 		const auto [place, is_new] =

@@ -7,6 +7,8 @@
 #include "modules/error_report/mask_picture.h"
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
+#include "modules/error_report/stability_curves.h"
+#include "modules/error_report/stability_run.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +21,8 @@ namespace gnomon {
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask in a stability sweep
 
 /// The mask with the receivers that the list leaves out taken away.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_kept) {
@@ -146,6 +150,7 @@ private:
 		const bool needs_truth = configuration.has_truth() && !configuration.record.empty() &&
 				(!missing.empty() || configuration.status == ReportStatus::MISSING);
 		truth = {};
+		stability_truth = {};
 		if (needs_truth) {
 			run_truth(p_index);
 		}
@@ -160,7 +165,13 @@ private:
 		ReportConfiguration &configuration = report.configurations[p_index];
 		std::vector<uint8_t> image;
 		const std::optional<std::string> failure = find_failure([&] {
-			truth = source.trace_truth(plan.questions[p_index]({}), report.sample_count);
+			const MaskQuestion question = plan.questions[p_index]({});
+			if (configuration.is_stability()) {
+				stability_truth = trace_stability_truth(source, question, report.sample_count);
+				truth = stability_truth.still;
+			} else {
+				truth = source.trace_truth(question, report.sample_count);
+			}
 			image = encode_truth_png(truth.mask);
 		});
 		if (failure) {
@@ -171,7 +182,7 @@ private:
 			const MaskMetrics metrics = compute_mask_metrics(truth.mask, truth.mask);
 			configuration.status = ReportStatus::OK;
 			configuration.message.clear();
-			configuration.truth = { truth.standard_error, truth.wall_ms,
+			configuration.truth = { truth.standard_error, truth.is_double, truth.wall_ms,
 				configuration.record + ".png", metrics.receiver.pixel_count,
 				metrics.penumbra.pixel_count };
 		} else {
@@ -201,6 +212,7 @@ private:
 		if (failure) {
 			cell.message = *failure;
 			cell.error.reset();
+			cell.stability.reset();
 			cell.image.clear();
 			log_error(configuration.id, ", ", cell.technique, ", ", cell.setting, ": ", *failure);
 		}
@@ -214,8 +226,20 @@ private:
 		const size_t index = size_t(&r_cell - report.cells.data());
 		const MaskQuestion question =
 				plan.questions[r_cell.configuration_index](plan.settings[index]);
+		const ReportConfiguration &configuration =
+				report.configurations[r_cell.configuration_index];
+		if (configuration.is_stability()) {
+			const std::optional<size_t> center = find_stability_center(report, r_cell);
+			const MaskImage mask = run_stability_cell(source, question, stability_truth,
+					configuration.truth, center ? &report.cells[*center] : nullptr, r_cell);
+			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MOST_SHOWN_PIXELS) {
+				r_image = encode_png(question.size_px, 1, compute_mask_pixels(mask));
+				r_cell.image = r_cell.record + ".png";
+			}
+			return;
+		}
 		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
-		if (report.configurations[r_cell.configuration_index].has_truth()) {
+		if (configuration.has_truth()) {
 			r_cell.error = ReportError{
 				compute_mask_metrics(truth.mask, measured_mask.mask),
 				compute_mask_metrics(restrict_mask(truth.mask, truth.sees_whole_light),
@@ -234,6 +258,7 @@ private:
 	const RunOptions &options;
 	Report report;
 	const ReportMachine machine;
+	StabilityTruth stability_truth; // where that is a point of a sweep
 	TracedTruth truth;				// of the configuration that is running
 	std::set<std::string> measured; // records of this run
 	size_t left_count = 0;

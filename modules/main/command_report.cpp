@@ -39,7 +39,7 @@ bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
 		std::printf("Least error within %g ms:\n", *p_arguments.budget_ms);
 		for (size_t index = 0; index < p_report.configurations.size(); ++index) {
 			const ReportConfiguration &configuration = p_report.configurations[index];
-			if (!configuration.has_truth()) {
+			if (!configuration.is_matrix()) {
 				continue;
 			}
 			Json choice = { { "configuration", index } };
@@ -192,6 +192,11 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 			->check(CLI::Range(1u, 65536u));
 	command->add_option("--scaling", arguments.scaling, "Curves of cost: none, quick or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
+	command->add_option("--stability", arguments.stability,
+				   "Sweeps into stiff and extreme cases: none, quick or full")
+			->check(CLI::IsMember({ "none", "quick", "full" }));
+	command->add_option("--sweeps", arguments.sweeps, "A,B: of stability, these sweeps only")
+			->delimiter(',');
 	command->add_option("--precision", arguments.precision_percent,
 				   "Percent: a cell may end before 20 frames once its median is known so well; 0 = "
 				   "never")

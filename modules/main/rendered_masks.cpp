@@ -89,6 +89,10 @@ TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t 
 	TracedTruth truth;
 	truth.sees_whole_light = find_whole_light(p_question, result);
 	truth.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
+	for (const SurfacePoint &point : result.surfaces) {
+		truth.positions.push_back(point.position);
+		truth.normals.push_back(point.geometric_normal);
+	}
 	truth.standard_error = result.standard_error;
 	for (const PassTiming &timing : result.timings) {
 		truth.wall_ms += timing.is_on_host ? timing.wall_ms : 0;
@@ -113,6 +117,54 @@ MeasuredMask RenderedMasks::measure(
 	measured.time = measure_mask_timing(renderer, request, limits, {});
 	measured.bytes = device.get_memory_use().used_bytes;
 	return measured;
+}
+
+namespace {
+
+/// Takes the program's warnings while it lives; other lines go where they went.
+class WarningCollector {
+public:
+	explicit WarningCollector(std::vector<std::string> &r_warnings) {
+		before = set_log_sink([this, &r_warnings](LogLevel p_level, const std::string &p_line) {
+			if (p_level == LogLevel::WARNING) {
+				r_warnings.push_back(p_line);
+			} else if (before) {
+				before(p_level, p_line);
+			}
+		});
+	}
+	~WarningCollector() { set_log_sink(std::move(before)); }
+	WarningCollector(const WarningCollector &) = delete;
+	WarningCollector &operator=(const WarningCollector &) = delete;
+
+private:
+	LogSink before;
+};
+
+} // namespace
+
+DrawnMasks RenderedMasks::draw(
+		std::span<const MaskQuestion> p_questions, const std::string &p_technique) {
+	DrawnMasks drawn;
+	const unsigned message_count = RenderingDevice::get_validation_message_count();
+	const WarningCollector collector(drawn.warnings);
+	Renderer renderer(device);
+	for (const MaskQuestion &question : p_questions) {
+		RenderRequest request = make_request(question, p_technique);
+		if (question.scene->lights.size() > 1) {
+			// Beside the one light that is measured all of them are drawn.
+			RenderRequest picture = request;
+			picture.mask_light.clear();
+			picture.wants_mask = false;
+			renderer.render(picture);
+		}
+		RenderResult result = renderer.render(request);
+		drawn.frames.push_back(
+				{ question.size_px, std::move(result.visibility), std::move(result.receiver) });
+	}
+	drawn.validation_message_count =
+			RenderingDevice::get_validation_message_count() - message_count;
+	return drawn;
 }
 
 namespace {

@@ -20,6 +20,8 @@ public:
 	ReportMachine get_machine() const override;
 	TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) override;
 	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override;
+	DrawnMasks draw(
+			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override;
 
 	/// The techniques of those ids; empty: all but the reference and examples. An unknown id is a
 	/// UsageError.

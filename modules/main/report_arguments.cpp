@@ -80,6 +80,20 @@ ReportOptions make_report_options(
 	options.scaling = p_arguments.scaling == "none" ? ScalingExtent::NONE
 			: p_arguments.scaling == "full"			? ScalingExtent::FULL
 													: ScalingExtent::QUICK;
+	options.stability = p_arguments.stability == "none" ? StabilityExtent::NONE
+			: p_arguments.stability == "full"			? StabilityExtent::FULL
+														: StabilityExtent::QUICK;
+	for (const std::string &sweep : p_arguments.sweeps) {
+		if (find_stability_sweep(sweep) == nullptr) {
+			std::string known;
+			for (const StabilitySweep &other : get_stability_sweeps()) {
+				known += (known.empty() ? "" : ", ") + other.id;
+			}
+			throw UsageError(
+					text("--sweeps: there is no \"", sweep, "\", must be of ", known, "."));
+		}
+		options.sweeps.push_back(sweep);
+	}
 	return options;
 }
 

@@ -20,6 +20,8 @@ struct ReportArguments {
 	std::string size = "256x256";
 	uint32_t sample_count = 1024;
 	std::string scaling = "quick";
+	std::string stability = "quick";
+	std::vector<std::string> sweeps;
 	double precision_percent = 5; // a third of what --against calls a change
 	std::string out;
 	bool resumes = false;

@@ -38,7 +38,7 @@ bool has_scatter(const SceneSnapshot &p_scene, glm::uvec2 p_size_px, Scatter p_w
 				const Material &material = *p_instance.material;
 				return clamp_scatter(material.scatter) > 0.0f &&
 						(p_which == Scatter::ANY || material.scatter_distance_m > 0.0f) &&
-						camera_view.may_see(p_instance.bounds_world);
+						camera_view.may_see(p_instance);
 			});
 }
 

@@ -146,7 +146,7 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	std::vector<Draw> draws;
 	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (!camera_view.may_see(instance.bounds_world)) {
+		if (!camera_view.may_see(instance)) {
 			continue;
 		}
 		const Material &material = *instance.material;

@@ -25,7 +25,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, b
 	hash = compute_value_hash(p_view.far_m, hash);
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];
-		if (!instance.casts_shadow || (p_may_cull && !p_view.may_see(instance.bounds_world))) {
+		if (!instance.casts_shadow || (p_may_cull && !p_view.may_see(instance))) {
 			continue;
 		}
 		casters.instances.push_back(index);
@@ -122,7 +122,11 @@ void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 }
 
 void LightShadows::warn_once(const std::string &p_warning) {
-	if (!p_warning.empty() && warned.insert(p_warning).second) {
+	warn_once(p_warning, p_warning);
+}
+
+void LightShadows::warn_once(const std::string &p_key, const std::string &p_warning) {
+	if (!p_warning.empty() && warned.insert(p_key).second) {
 		log_warning(p_warning);
 	}
 }
@@ -222,6 +226,10 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 	const Work work = { r_graph, p_request, *choice.info, properties, r_plan, r_debug_views };
 	Slot &slot = get_slot({ light.name, 0 }, *choice.info);
 	slot.scene.reset();
+	for (const BrokenLimit &limit : slot.limits.find_broken(
+				 p_request.scene, light, choice.info->id, slot.technique->get_limits(properties))) {
+		warn_once(limit.key, limit.warning);
+	}
 	RGTexture mask;
 	TranslucentCasters translucent;
 	if (!slot.technique->sees_translucent_casters()) {

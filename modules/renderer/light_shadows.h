@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/renderer/gbuffer.h"
+#include "modules/renderer/light_limits.h"
 #include "modules/renderer/mask_filter.h"
 #include "modules/renderer/shadow_registry.h"
 #include "modules/renderer/translucent_casters.h"
@@ -54,6 +55,7 @@ private:
 	struct Slot {
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
+		LightLimits limits;
 		/// Of the last frame, where casters are translucent: other than the frame's own.
 		std::shared_ptr<const SceneSnapshot> scene;
 	};
@@ -68,6 +70,8 @@ private:
 	RGTexture add_translucent_casters(
 			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);
 	void warn_once(const std::string &p_warning); // empty: nothing
+	/// Not again for the same key, whatever the warning says.
+	void warn_once(const std::string &p_key, const std::string &p_warning);
 	/// p_is_exact: the mask is a reference's, which has done already what filters approximate.
 	RGTexture add_filters(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			bool p_is_exact, RGTexture p_mask, TechniquePlan &r_plan);

@@ -33,10 +33,18 @@ struct LightView {
 	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
 	/// behind it.
 	bool may_see(const Bounds &p_bounds_world) const;
+	/// As above, also of the instance's own box, which fits closer where it is turned.
+	bool may_see(const InstanceSnapshot &p_instance) const;
 	/// Least and greatest distance of the box along the view, metres; negative behind the view. Of
 	/// the whole box, wherever it lies.
 	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
+	glm::dvec2 compute_distance_range_m(const InstanceSnapshot &p_instance) const;
 	bool operator==(const LightView &) const = default;
+
+private:
+	/// Of a box in any space, grown by a margin to all sides.
+	bool may_see_box(
+			const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const;
 };
 
 /// Views that together hold everything the light reaches: 1 for a spot up to 60 degrees and for a

@@ -9,15 +9,15 @@ namespace {
 
 /// Distance along the view before which none of the box lies, as far as the view sees it.
 double compute_nearest_distance_m(
-		const LightView &p_view, const LightSnapshot &p_light, const Bounds &p_bounds) {
-	const double along_m = p_view.compute_distance_range_m(p_bounds).x;
+		const LightView &p_view, const LightSnapshot &p_light, const InstanceSnapshot &p_instance) {
+	const Bounds &bounds = p_instance.bounds_world;
+	const double along_m = p_view.compute_distance_range_m(p_instance).x;
 	if (p_view.is_orthographic) {
 		return along_m;
 	}
 	// A box that reaches behind the light may still be far from it wherever the view looks: what is
 	// so far away, and between the view's sides, has at least this distance along the view.
-	const glm::dvec3 nearest =
-			glm::clamp(p_light.position_world, p_bounds.minimum, p_bounds.maximum);
+	const glm::dvec3 nearest = glm::clamp(p_light.position_world, bounds.minimum, bounds.maximum);
 	const double straight_m = glm::distance(p_light.position_world, nearest);
 	const double corner = std::sqrt(
 			1.0 + glm::dot(glm::dvec2(p_view.half_extent), glm::dvec2(p_view.half_extent)));
@@ -26,22 +26,28 @@ double compute_nearest_distance_m(
 
 } // namespace
 
-float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs) {
+float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
+	const LightView &view = p_inputs.views[p_view_index];
 	double nearest_w = 0;
-	for (size_t index = 0; index < p_inputs.views.size(); ++index) {
-		const LightView &view = p_inputs.views[index];
-		for (uint32_t caster : p_inputs.casters[index].instances) {
-			const Bounds &bounds = p_inputs.scene.instances[caster].bounds_world;
-			if (!view.may_see(bounds)) {
-				continue; // listed only when nothing may be left out
-			}
-			const double distance_m = std::max(
-					double(view.near_m), compute_nearest_distance_m(view, p_inputs.light, bounds));
-			nearest_w = std::max(
-					nearest_w, view.is_orthographic ? view.far_m - distance_m : 1.0 / distance_m);
+	for (uint32_t caster : p_inputs.casters[p_view_index].instances) {
+		const InstanceSnapshot &instance = p_inputs.scene.instances[caster];
+		if (!view.may_see(instance)) {
+			continue; // listed only when nothing may be left out
 		}
+		const double distance_m = std::max(
+				double(view.near_m), compute_nearest_distance_m(view, p_inputs.light, instance));
+		nearest_w = std::max(
+				nearest_w, view.is_orthographic ? view.far_m - distance_m : 1.0 / distance_m);
 	}
 	return static_cast<float>(nearest_w);
+}
+
+float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs) {
+	float nearest_w = 0;
+	for (uint32_t view = 0; view < p_inputs.views.size(); ++view) {
+		nearest_w = std::max(nearest_w, compute_nearest_w(p_inputs, view));
+	}
+	return nearest_w;
 }
 
 } // namespace gnomon

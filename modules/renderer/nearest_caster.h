@@ -6,6 +6,8 @@ namespace gnomon {
 
 /// The greatest w (see LightViewConstants) that a caster has in any view: no blocker is nearer to
 /// the light, so that none is searched farther out than it can reach.
+float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
+/// The greatest of all views.
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs);
 
 } // namespace gnomon

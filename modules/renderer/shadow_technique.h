@@ -6,6 +6,7 @@
 #include "modules/renderer/light_view.h"
 #include "modules/scene/scene_snapshot.h"
 
+#include <limits>
 #include <memory>
 #include <set>
 #include <span>
@@ -44,6 +45,16 @@ private:
 	FramePlan &plan;
 	std::string prefix;
 	std::set<uint32_t> left_out_views;
+};
+
+/// Where the answer stays sensible, measured by the stability sweeps (doc/stability.md). Beyond it
+/// there is light where all is dark, or shadow where all is lit.
+struct ShadowLimits {
+	/// From the light's centre to the nearest caster, over R; placed lights of some size only.
+	/// Within 1 the light's sphere touches the caster, and part of it is inside.
+	double least_caster_distance_radii = 1.0;
+	/// Of r and t, over S.
+	double most_width_sizes = std::numeric_limits<double>::infinity();
 };
 
 /// Answers one question for one light: what fraction of it does each visible pixel see?
@@ -91,6 +102,10 @@ public:
 	};
 
 	virtual ~ShadowTechnique() = default;
+
+	/// Within what the technique answers as its page tells. Called once a frame, with p_properties
+	/// as in Inputs; beyond a limit the renderer warns.
+	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on
 	/// any instance, at any time; always the same list.

@@ -19,6 +19,12 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 			"PCSS" });
 }
 
+ShadowLimits ShadowPcss::get_limits(const PropertyValues & /*p_properties*/) const {
+	// Nearer, the search for blockers is wider than the shadows: sweep near_caster of
+	// doc/stability.md.
+	return { .least_caster_distance_radii = 5 };
+}
+
 void ShadowPcss::get_quality_settings(
 		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
 	for (const int64_t taps : { 16, 32, 64 }) {
@@ -54,7 +60,9 @@ RGTexture ShadowPcss::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	push.empty_views = maps.get_empty_views();
 	push.tap_count = static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("pcss_taps")));
 	push.disc_radius = p_inputs.light.get_disc_radius();
-	push.nearest_w = compute_nearest_w(p_inputs);
+	for (uint32_t view = 0; view < p_inputs.views.size(); ++view) {
+		push.nearest_w[view] = compute_nearest_w(p_inputs, view);
+	}
 	add_compute_pass(r_graph, "resolve",
 			p_inputs.device.get_compute_pipeline(
 					{ "pcss resolve", "shadow_pcss/resolve.comp", {} }),

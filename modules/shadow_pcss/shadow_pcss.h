@@ -10,6 +10,7 @@ namespace gnomon {
 /// is unknown; noise where N is small for the width.
 class ShadowPcss : public ShadowTechnique {
 public:
+	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;

@@ -97,8 +97,8 @@ shader::FinsViewConstants compute_fins_view_constants(const ShadowTechnique::Inp
 	const LightView &view = p_inputs.views[p_view_index];
 	double farthest_m = 0;
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
-		const Bounds &bounds = p_inputs.scene.instances[index].bounds_world;
-		farthest_m = std::max(farthest_m, view.compute_distance_range_m(bounds).y);
+		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+		farthest_m = std::max(farthest_m, view.compute_distance_range_m(instance).y);
 	}
 	farthest_m += std::max(p_settings.outer_width_m, p_settings.inner_width_m);
 	const float nearest_limit_m = static_cast<float>(farthest_m) * NEAREST_PER_FARTHEST;

@@ -15,6 +15,12 @@ constexpr uint32_t BORDER_PX = 2; // bilinear lookups, and the 3 x 3 texels of a
 
 } // namespace
 
+ShadowLimits ShadowPenumbraFins::get_limits(const PropertyValues & /*p_properties*/) const {
+	// Wider fins cross one another, and one texel serves one receiver: sweep fin_width of
+	// doc/stability.md.
+	return { .most_width_sizes = has_inner_half ? 0.15 : 0.075 };
+}
+
 void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {
 	add_fins_properties(id, has_inner_half, r_list);
 }

@@ -19,6 +19,7 @@ public:
 			has_inner_half(p_halves == Halves::OUTER_AND_INNER),
 			id(has_inner_half ? "penumbra_fins" : "outer_fins") {}
 
+	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;

@@ -1,5 +1,7 @@
 #include "modules/shadow_reference/light_disc.h"
 
+#include "shared/light_shared.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,13 +37,13 @@ void find_basis(const glm::vec3 &p_normal, glm::vec3 &r_x, glm::vec3 &r_y) {
 
 bool AreaLight::reaches(const glm::vec3 &p_position, const glm::vec3 &p_normal) const {
 	const glm::vec3 to_light = is_directional ? -direction : position - p_position;
-	if (!(glm::dot(p_normal, to_light) > 0.0f)) {
+	const float distance_m = glm::length(to_light);
+	if (!(glm::dot(p_normal, to_light) > LIGHT_LEAST_COSINE * distance_m)) {
 		return false;
 	}
 	if (is_directional) {
 		return true;
 	}
-	const float distance_m = glm::length(to_light);
 	if (range_m > 0.0f && distance_m > range_m) {
 		return false;
 	}

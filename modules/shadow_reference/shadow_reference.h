@@ -10,6 +10,9 @@ namespace gnomon {
 /// hands the mask to the GPU in float32. Kept on disk by the content of everything it depends on.
 class ShadowReference : public ShadowTechnique {
 public:
+	ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const override {
+		return { .least_caster_distance_radii = 0 }; // exact everywhere
+	}
 	void get_light_properties(PropertyList &r_list) const override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
 	bool sees_translucent_casters() const override { return true; }

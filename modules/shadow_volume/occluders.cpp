@@ -70,11 +70,11 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	std::vector<OccluderDraw> draws;
 	for (uint32_t index : p_occluders) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-		if (!p_view.may_see(instance.bounds_world)) {
+		if (!p_view.may_see(instance)) {
 			continue;
 		}
 		OccluderDraw draw;
-		draw.begin_m = p_view.compute_distance_range_m(instance.bounds_world).x;
+		draw.begin_m = p_view.compute_distance_range_m(instance).x;
 		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh);
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;

@@ -14,7 +14,7 @@ vec3 vector_to_light(LightConstants p_light, vec3 p_position) {
 bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 	const vec3 to_light = vector_to_light(p_light, p_position);
 	const float distance_m = length(to_light);
-	if (!(dot(p_normal, to_light) > 0.0)) {
+	if (!(dot(p_normal, to_light) > LIGHT_LEAST_COSINE * distance_m)) {
 		return false; // also for a point on the light, and NaN
 	}
 	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {

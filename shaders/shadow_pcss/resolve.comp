@@ -22,7 +22,7 @@ void main() {
 		visibility = point.w <= 0.0
 				? 1.0
 				: pcss(map_texture, push.empty_views, light_views.views[view], point,
-						  push.disc_radius, push.nearest_w, push.tap_count,
+						  push.disc_radius, push.nearest_w[view], push.tap_count,
 						  interleaved_noise(pixel) * TWO_PI);
 	}
 	imageStore(mask_image, pixel, vec4(visibility));

@@ -9,7 +9,7 @@ from command_line_case import ROOT, CommandLineTest, load_json, run  # noqa: E40
 
 PROJECT = os.path.join(ROOT, "demo_project")
 SMALL_TRUTH = ("--size", "64x64", "--samples", "64")
-QUICK = (*SMALL_TRUTH, "--scaling", "none")
+QUICK = (*SMALL_TRUTH, "--scaling", "none", "--stability", "none")
 
 
 def load_report(folder):

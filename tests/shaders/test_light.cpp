@@ -80,6 +80,9 @@ TEST_CASE("[GPU][Shaders] a receiver faces the light and lies in its cone and ra
 		CHECK_FALSE(receives(fixture, light, below, -up));		   // turned away
 		CHECK_FALSE(receives(fixture, light, below, { 1, 0, 0 })); // edge on
 		CHECK(receives(fixture, light, below, { 1, 1e-3f, 0 }));   // just not edge on
+		// Nearer to edge on rounding would decide, pixel by pixel.
+		CHECK(receives(fixture, light, below, { 1, 2.0f * LIGHT_LEAST_COSINE, 0 }));
+		CHECK_FALSE(receives(fixture, light, below, { 1, 0.5f * LIGHT_LEAST_COSINE, 0 }));
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(0.0f)));
 		CHECK_FALSE(receives(fixture, light, below, glm::vec3(NOT_A_NUMBER)));
 		// On the light there is no direction; a directional light is nowhere.

@@ -94,21 +94,6 @@
 		return report.makeTable(caption, [...NAME_COLUMNS, ...NUMBER_COLUMNS, count], rows, NAME_COLUMNS.length, isPartial);
 	};
 
-	report.makeStability = function (rows) {
-		if (rows.length === 0) {
-			return make("p", { class: "soft" }, "Not measured yet.");
-		}
-		const keys = [...new Set(rows.flatMap((row) => Object.keys(row)))];
-		const columns = keys.map((key) => {
-			const isText = rows.some((row) => row[key] !== undefined && !report.isNumber(row[key]));
-			const showAny = (value) => (report.isNumber(value) ? report.showPlain(value)
-				: typeof value === "object" && value !== null ? JSON.stringify(value) : String(value ?? "–"));
-			return { title: key.replaceAll("_", " "), isText, value: (row) => (isText ? showAny(row[key]) : row[key]),
-				show: (row) => (key === "technique" ? report.makeName(row) : showAny(row[key])) };
-		});
-		return report.makeTable("Stability under motion", columns, rows, -1);
-	};
-
 	/* Changes since another report; null where there was none to compare with. */
 	report.makeAgainst = function (against) {
 		if (!against?.rows) {

@@ -61,7 +61,7 @@
 	};
 
 	/* Draws into p_host, whose width decides; an earlier plot there gives way. p_plot: { points, front (points),
-	   x_label, y_label, x_domain, y_domain, height_px, labels: "best" | "end", describe(point) -> lines of the tip,
+	   x_label, y_label, x_domain, y_domain, x_ticks ([x, name] of each; absent: the usual ones), height_px, labels: "best" | "end", describe(point) -> lines of the tip,
 	   onPick(point), name }. A point: { x, y, technique, is_hollow, item }. Returns { mark(item) }. */
 	report.drawPlot = function (host, plot) {
 		const width_px = Math.max(240, Math.floor(host.clientWidth));
@@ -71,10 +71,11 @@
 		measuring.font = LABEL_FONT;
 		const right_px = isLabelled && plot.labels === "end"
 			? d3.max(groups, ([id]) => measuring.measureText(ofTechnique(id).name).width) + 16 : MARGIN_PX.right;
-		const x_ticks = chooseTicks(plot.x_domain, width_px - MARGIN_PX.left - right_px, 38);
+		const x_ticks = plot.x_ticks ? plot.x_ticks.map(([x]) => x) : chooseTicks(plot.x_domain, width_px - MARGIN_PX.left - right_px, 38);
+		const x_names = new Map(plot.x_ticks || []);
 		const y_ticks = chooseTicks(plot.y_domain, plot.height_px - MARGIN_PX.top - MARGIN_PX.bottom, 22);
 		// The text of a logarithmic axis is given here: d3 would leave out that of some ticks.
-		const axes = [Plot.gridX(x_ticks), Plot.gridY(y_ticks), Plot.axisX(x_ticks, { text: report.showTick, tickSize: 0, label: plot.x_label }),
+		const axes = [Plot.gridX(x_ticks), Plot.gridY(y_ticks), Plot.axisX(x_ticks, { text: (x) => x_names.get(x) || report.showTick(x), tickSize: 0, label: plot.x_label }),
 			Plot.axisY(y_ticks, { text: report.showTick, tickSize: 0, label: plot.y_label })];
 		const marks = groups.map(([id, points]) => Plot.line(d3.sort(points, (point) => point.x), {
 			x: "x", y: "y", stroke: ofTechnique(id).color, strokeWidth: 1.5, strokeOpacity: 0.65, className: `t${ofTechnique(id).index}`,

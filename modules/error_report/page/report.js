@@ -224,7 +224,7 @@
 		const scenes = d3.groups(report.matrix, (item) => item.scene);
 		const sections = [makeRanking(data), report.makeBudget(data),
 			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data),
-			report.makeSection("stability", "Stability", report.makeStability(data.stability))];
+			report.makeStability(data.stability, drawOnEverySize)];
 		const against = report.makeAgainst(data.against);
 		if (against) {
 			sections.push(report.makeSection("against", "Against the other report", against));

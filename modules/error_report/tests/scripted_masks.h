@@ -21,6 +21,9 @@ public:
 	bool fails_truth = false;
 	size_t kill_after_count = SIZE_MAX; // calls of measure
 	std::string device = "scripted";
+	std::vector<std::string> warnings; // that drawing gives
+	unsigned validation_message_count = 0;
+	std::optional<float> spoiled_value; // of a pixel of what is drawn
 	size_t truth_count = 0;
 	size_t measure_count = 0;
 	std::vector<PropertyValues> asked; // properties of the light, as measure got them
@@ -61,6 +64,23 @@ public:
 		return measured;
 	}
 
+	DrawnMasks draw(
+			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override {
+		if (p_technique == failing_technique) {
+			fail("the device is sad");
+		}
+		DrawnMasks drawn;
+		drawn.warnings = warnings;
+		drawn.validation_message_count = validation_message_count;
+		for (const MaskQuestion &question : p_questions) {
+			drawn.frames.push_back(make_mask(question, errors.at(p_technique)));
+			if (spoiled_value) {
+				drawn.frames.back().visibility[1] = *spoiled_value;
+			}
+		}
+		return drawn;
+	}
+
 private:
 	static MaskImage make_mask(const MaskQuestion &p_question, float p_error) {
 		MaskImage mask;
@@ -92,6 +112,7 @@ inline ReportOptions make_scripted_options() {
 	options.size_px = glm::uvec2(16u);
 	options.sample_count = 64;
 	options.scaling = ScalingExtent::NONE;
+	options.stability = StabilityExtent::NONE;
 	return options;
 }
 

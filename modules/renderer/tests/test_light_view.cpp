@@ -71,6 +71,33 @@ TEST_CASE("[LightView] a box beside or behind a view is not seen by it") {
 	CHECK_FALSE(view.may_see(Bounds()));
 }
 
+TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box around it") {
+	SmallScene scene;
+	// A long rod along the view's side, outside of it; the box around it reaches into the view.
+	MeshInstance3D &rod = add_mesh(
+			scene.scene, "Rod", make_box_mesh("rod", { 2.0f, 0.01f, 0.01f }), { 1.3, 0, 2 });
+	rod.parent_from_node =
+			glm::rotate(rod.parent_from_node, -std::atan(2.0), glm::dvec3(0, 1, 0)); // x to z
+	const auto snapshot = scene.snap();
+	const InstanceSnapshot &instance = snapshot->instances.back();
+	LightView view;
+	view.half_extent = glm::vec2(0.5f);
+	CHECK(view.may_see(instance.bounds_world));
+	CHECK_FALSE(view.may_see(instance));
+	view.caster_margin_m = 1.0f; // now it is near enough
+	CHECK(view.may_see(instance));
+	view.caster_margin_m = 0.0f;
+	rod.parent_from_node[3] = glm::dvec4(0, 0, 2, 1);
+	CHECK(view.may_see(scene.snap()->instances.back()));
+	// Along the view.
+	rod.parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 3)),
+			glm::radians(45.0), glm::dvec3(0, 1, 0));
+	const auto turned = scene.snap();
+	const glm::dvec2 range_m = view.compute_distance_range_m(turned->instances.back());
+	CHECK(range_m.x == doctest::Approx(3 - (2.0 + 0.01) * std::sqrt(0.5)));
+	CHECK(range_m.y == doctest::Approx(3 + (2.0 + 0.01) * std::sqrt(0.5)));
+}
+
 TEST_CASE("[LightView] a margin lists casters beside the view, and a directional view holds it") {
 	SmallScene scene;
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();

@@ -156,6 +156,38 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 	}
 }
 
+TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts the same shadow") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		std::vector<float> first;
+		for (const double near_m : { 0.4, 0.4e-3, 0.4e-6 }) {
+			SmallScene scene(type);
+			scene.box->casts_shadow = false;
+			scene.light->properties["light_size"] = 0.02 * near_m;
+			MeshInstance3D &plate = add_mesh(scene.scene, "Plate",
+					make_box_mesh("plate", { 0.08f, 0.06f, 0.01f }), glm::dvec3(0.0));
+			plate.parent_from_node = glm::scale(
+					glm::translate(scene.light->parent_from_node, glm::dvec3(0, 0, -near_m)),
+					glm::dvec3(near_m));
+			const RenderResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			if (first.empty()) {
+				first = frame.visibility;
+				CHECK(compare_with_reference(fixture, scene).penumbra_mean < 0.006);
+			}
+			double difference = 0;
+			size_t dark_count = 0;
+			for (size_t index = 0; index < first.size(); ++index) {
+				difference += std::abs(double(frame.visibility[index]) - double(first[index]));
+				dark_count += frame.receiver[index] > 0 && frame.visibility[index] < 0.5f ? 1 : 0;
+			}
+			CHECK(dark_count > 100);
+			// The receiver is no nearer than infinite: the far caster's shadow is a little smaller.
+			CHECK(difference / double(first.size()) < 0.02);
+		}
+	}
+}
+
 TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both sides") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {

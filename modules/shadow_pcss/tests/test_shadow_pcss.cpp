@@ -79,3 +79,19 @@ TEST_CASE("[GPU][Pcss] a static scene's second frame draws no map, another tap c
 	CHECK(second.plan.is_left_out("Light", "light view 0"));
 	CHECK(first.visibility != second.visibility);
 }
+
+TEST_CASE("[GPU][Pcss] a caster behind the light changes nothing") {
+	RenderFixture fixture;
+	for (LightType type : { LightType::SPOT, LightType::OMNI }) {
+		CAPTURE(get_light_type_name(type));
+		SmallScene scene(type);
+		const RenderResult without = fixture.render_mask(scene, "pcss", glm::uvec2(64));
+		const glm::dvec3 way = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
+		MeshInstance3D &box = add_mesh(scene.scene, "Behind",
+				make_box_mesh("behind", glm::vec3(0.4f)), glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way);
+		box.parent_from_node = scene.light->parent_from_node;
+		box.parent_from_node[3] = glm::dvec4(glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way, 1.0);
+		const RenderResult with = fixture.render_mask(scene, "pcss", glm::uvec2(64));
+		CHECK(compute_mask_difference(with, without) < 1e-3);
+	}
+}

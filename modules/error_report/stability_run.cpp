@@ -1,0 +1,196 @@
+#include "modules/error_report/stability_run.h"
+
+#include "modules/core/error.h"
+#include "modules/error_report/double_visibility.h"
+#include "modules/error_report/light_variant.h"
+#include "modules/error_report/stability_curves.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const double MOTION_SHARE = 1e-3;					  // of R, a frame
+const uint64_t MOST_RAYS = uint64_t(1) << 30;		  // of a truth; some minutes of two cores
+const uint64_t MOST_MOVED_PIXELS = uint64_t(1) << 18; // that are traced a second time
+const uint32_t LEAST_SAMPLES = 16;
+const size_t CONDITION_POINT_COUNT = 16;
+const size_t CHECKED_RECEIVERS = 256; // of a truth, in double
+// Mean difference that 256 and 1024 stratified rays do not have: it is about 0.001 in our scenes.
+const double MOST_TRUTH_ERROR = 0.01;
+const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
+
+void check_values(const std::vector<MaskImage> &p_frames) {
+	size_t bad_count = 0;
+	for (const MaskImage &frame : p_frames) {
+		for (const float value : frame.visibility) {
+			bad_count += value >= 0.0f && value <= 1.0f ? 0 : 1; // also counts NaN
+		}
+	}
+	if (bad_count > 0) {
+		fail(bad_count, " values of the mask are not finite or outside 0..1.");
+	}
+}
+
+double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
+	uint64_t sharp_count = 0;
+	uint64_t wrong_count = 0;
+	uint64_t receiver_count = 0;
+	for (size_t index = 0; index < p_truth.visibility.size(); ++index) {
+		if (!p_truth.is_receiver(index)) {
+			continue;
+		}
+		++receiver_count;
+		const float truth = p_truth.visibility[index];
+		if (truth <= 0.002f || truth >= 0.998f) {
+			++sharp_count;
+			wrong_count += std::abs(p_mask.visibility[index] - truth) > 0.5f ? 1 : 0;
+		}
+	}
+	return sharp_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
+}
+
+/// The pixels that are worst, as points to be asked in double.
+std::vector<ConditionPoint> find_worst_points(const TracedTruth &p_truth, const MaskImage &p_mask) {
+	std::vector<ConditionPoint> points;
+	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
+		if (p_truth.mask.is_receiver(index) && index < p_truth.positions.size()) {
+			const double truth = p_truth.mask.visibility[index];
+			points.push_back({ p_truth.positions[index], p_truth.normals[index], truth,
+					std::abs(double(p_mask.visibility[index]) - truth) });
+		}
+	}
+	const size_t count = std::min(points.size(), CONDITION_POINT_COUNT);
+	std::partial_sort(points.begin(), points.begin() + long(count), points.end(),
+			[](const ConditionPoint &p_first, const ConditionPoint &p_second) {
+				return p_first.error > p_second.error;
+			});
+	points.resize(count);
+	return points;
+}
+
+/// The reference traces in float32. Where that is not enough for the question, the truth is traced
+/// anew in double; asked at some receivers, evenly spread.
+void mend_truth(const MaskQuestion &p_question, TracedTruth &r_truth) {
+	MaskImage &mask = r_truth.mask;
+	std::vector<size_t> receivers;
+	for (size_t index = 0; index < mask.visibility.size(); ++index) {
+		if (mask.is_receiver(index)) {
+			receivers.push_back(index);
+		}
+	}
+	if (receivers.empty() || r_truth.positions.size() != mask.visibility.size()) {
+		return;
+	}
+	const DoubleVisibility exact(*p_question.scene, get_light(*p_question.scene, p_question.light));
+	const auto compute = [&](size_t p_index) {
+		return exact.compute(
+				p_question.scene->camera.position_world + glm::dvec3(r_truth.positions[p_index]),
+				r_truth.normals[p_index]);
+	};
+	const size_t step = std::max<size_t>(1, receivers.size() / CHECKED_RECEIVERS);
+	double error = 0;
+	size_t count = 0;
+	for (size_t index = step / 2; index < receivers.size(); index += step) {
+		error += std::abs(compute(receivers[index]) - double(mask.visibility[receivers[index]]));
+		++count;
+	}
+	if (count == 0 || error / double(count) <= MOST_TRUTH_ERROR) {
+		return;
+	}
+	for (const size_t index : receivers) {
+		mask.visibility[index] = float(compute(index));
+	}
+	r_truth.is_double = true;
+	r_truth.standard_error = DOUBLE_STANDARD_ERROR;
+}
+
+} // namespace
+
+MaskQuestion move_light(const MaskQuestion &p_question) {
+	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
+	for (LightSnapshot &light : scene->lights) {
+		if (light.name != p_question.light) {
+			continue;
+		}
+		const double radius = light.get_disc_radius();
+		if (light.type == LightType::DIRECTIONAL) {
+			const double angle = MOTION_SHARE * (radius > 0 ? std::atan(radius) : MOTION_SHARE);
+			const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, light.world_from_light[1]);
+			light.world_from_light = glm::dmat3(turn) * light.world_from_light;
+		} else {
+			const double least = MOTION_SHARE * scene->scene_size_m;
+			light.position_world +=
+					MOTION_SHARE * (radius > 0 ? radius : least) * light.world_from_light[0];
+		}
+	}
+	MaskQuestion moved = p_question;
+	moved.scene = scene;
+	return moved;
+}
+
+StabilityTruth trace_stability_truth(
+		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) {
+	const uint64_t pixel_count = uint64_t(p_question.size_px.x) * p_question.size_px.y;
+	const uint32_t sample_count = static_cast<uint32_t>(std::clamp<uint64_t>(
+			MOST_RAYS / pixel_count, std::min(LEAST_SAMPLES, p_sample_count), p_sample_count));
+	StabilityTruth truth = { r_source.trace_truth(p_question, sample_count), {} };
+	if (pixel_count > MOST_MOVED_PIXELS) {
+		return truth;
+	}
+	mend_truth(p_question, truth.still);
+	const MaskQuestion moved = move_light(p_question);
+	truth.moved = r_source.trace_truth(moved, sample_count);
+	if (truth.still.is_double) {
+		mend_truth(moved, *truth.moved);
+	}
+	return truth;
+}
+
+MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_question,
+		const StabilityTruth &p_truth, const ReportTruth &p_reported, const ReportCell *p_center,
+		ReportCell &r_cell) {
+	ReportStability stability;
+	std::vector<MaskQuestion> questions = { p_question };
+	if (p_truth.moved) {
+		questions.push_back(move_light(p_question));
+	}
+	DrawnMasks drawn;
+	try {
+		drawn = r_source.draw(questions, r_cell.technique);
+	} catch (const Error &error) {
+		stability.refusal = error.what();
+		r_cell.stability = stability;
+		return {};
+	}
+	stability.warnings = drawn.warnings;
+	if (drawn.validation_message_count > 0) {
+		fail(drawn.validation_message_count, " validation messages.");
+	}
+	check_values(drawn.frames);
+	const MaskImage &mask = drawn.frames.front();
+	r_cell.error = ReportError{ compute_mask_metrics(p_truth.still.mask, mask), {} };
+	r_cell.error->whole_light = r_cell.error->all;
+	stability.wrong_share = compute_wrong_share(p_truth.still.mask, mask);
+	if (p_truth.moved && p_truth.still.mask.receiver == p_truth.moved->mask.receiver) {
+		const MaskImage truths[] = { p_truth.still.mask, p_truth.moved->mask };
+		stability.temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
+	}
+	r_cell.stability = stability;
+	ReportCell judged = r_cell;
+	judged.status = ReportStatus::OK;
+	const StabilityState state = judge_stability(judged, p_reported, p_center);
+	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
+		r_cell.stability->condition = compute_visibility_condition(*p_question.scene,
+				get_light(*p_question.scene, p_question.light),
+				find_worst_points(p_truth.still, mask));
+	}
+	const bool is_worth_seeing = state == StabilityState::NONSENSE || p_center == &r_cell;
+	return is_worth_seeing ? std::move(drawn.frames.front()) : MaskImage();
+}
+
+} // namespace gnomon

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "modules/scene/nodes.h"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+enum class StabilityExtent {
+	NONE,
+	QUICK, // the ends of each sweep and its centre, 64 x 64 pixels
+	FULL,
+};
+
+/// One quantity taken from harmless to extreme while all else stays: a curve for each technique.
+struct StabilitySweep {
+	std::string id;		  // "light_size"
+	std::string quantity; // what the values are: "light radius, S"
+	std::vector<LightType> types;
+	std::vector<double> values;		  // in the order of the curve
+	double center = 0;				  // of the values: what the others' errors are compared with
+	std::vector<double> quick_values; // of the values
+	/// Names of the values, where they are cases and no quantity; else empty.
+	std::vector<std::string> labels = {};
+
+	/// "1e-06", or the value's own label.
+	std::string describe_value(double p_value) const;
+};
+/// All that there are, guards of TECHNIQUES, section 6, among them.
+const std::vector<StabilitySweep> &get_stability_sweeps();
+/// Null: there is none of that name.
+const StabilitySweep *find_stability_sweep(const std::string &p_id);
+
+/// What is drawn at one point of a sweep. The light is "Light", or "Light 1" among several.
+struct StabilityCase {
+	std::unique_ptr<Scene> scene;
+	std::string light;
+	glm::uvec2 size_px = glm::uvec2(0u);
+};
+/// S is 4 m, but where the scale is what is swept. The extent chooses the picture's size.
+StabilityCase make_stability_case(
+		const StabilitySweep &p_sweep, LightType p_type, double p_value, StabilityExtent p_extent);
+
+} // namespace gnomon

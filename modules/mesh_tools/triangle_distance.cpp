@@ -1,0 +1,58 @@
+#include "modules/mesh_tools/triangle_distance.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+double compute_segment_distance(
+		const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b) {
+	const glm::dvec3 way = p_b - p_a;
+	const double length2 = glm::dot(way, way);
+	const double along =
+			length2 > 0 ? std::clamp(glm::dot(p_point - p_a, way) / length2, 0.0, 1.0) : 0.0;
+	return glm::distance(p_point, p_a + along * way);
+}
+
+} // namespace
+
+double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
+		const glm::dvec3 &p_b, const glm::dvec3 &p_c) {
+	const double to_rim = std::min({ compute_segment_distance(p_point, p_a, p_b),
+			compute_segment_distance(p_point, p_b, p_c),
+			compute_segment_distance(p_point, p_c, p_a) });
+	const glm::dvec3 normal = glm::cross(p_b - p_a, p_c - p_a);
+	const double area = glm::length(normal);
+	if (area == 0.0) {
+		return to_rim;
+	}
+	// Above the face where it is on the inner side of all three edges.
+	const bool is_above = glm::dot(glm::cross(p_b - p_a, p_point - p_a), normal) >= 0 &&
+			glm::dot(glm::cross(p_c - p_b, p_point - p_b), normal) >= 0 &&
+			glm::dot(glm::cross(p_a - p_c, p_point - p_c), normal) >= 0;
+	return is_above ? std::abs(glm::dot(p_point - p_a, normal)) / area : to_rim;
+}
+
+bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node,
+		const glm::dvec3 &p_point_world, double p_distance) {
+	const auto get_corner = [&](size_t p_index) {
+		return glm::dvec3(p_world_from_node *
+				glm::dvec4(glm::dvec3(p_mesh.positions_node[p_mesh.indices[p_index]]), 1.0));
+	};
+	for (size_t index = 0; index < p_mesh.indices.size(); index += 3) {
+		const glm::dvec3 a = get_corner(index);
+		const glm::dvec3 b = get_corner(index + 1);
+		const glm::dvec3 c = get_corner(index + 2);
+		const glm::dvec3 low = glm::min(a, glm::min(b, c)) - p_distance;
+		const glm::dvec3 high = glm::max(a, glm::max(b, c)) + p_distance;
+		if (glm::all(glm::greaterThan(p_point_world, low)) &&
+				glm::all(glm::lessThan(p_point_world, high)) &&
+				compute_triangle_distance(p_point_world, a, b, c) < p_distance) {
+			return true;
+		}
+	}
+	return false;
+}
+
+} // namespace gnomon

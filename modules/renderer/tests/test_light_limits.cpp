@@ -1,0 +1,94 @@
+#include "modules/core/log.h"
+#include "modules/renderer/light_limits.h"
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+std::vector<BrokenLimit> find_broken(const SmallScene &p_scene, const ShadowLimits &p_limits) {
+	const auto snapshot = p_scene.snap();
+	return LightLimits().find_broken(*snapshot, snapshot->lights[0], "some", p_limits);
+}
+
+bool holds(const std::string &p_text, const std::string &p_part) {
+	return p_text.find(p_part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("[LightLimits] a caster that touches the light's sphere is named, one beside it is not") {
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		SmallScene scene(type);
+		CHECK(find_broken(scene, {}).empty());
+		// Of size 0.2 m at (1.2, 4.0, 0.8).
+		MeshInstance3D &shade = add_mesh(
+				scene.scene, "Shade", make_box_mesh("shade", glm::vec3(0.1f)), { 1.2, 4.25, 0.8 });
+		const std::vector<BrokenLimit> broken = find_broken(scene, {}); // 0.15 m away
+		REQUIRE(broken.size() == 1);
+		CAPTURE(broken[0].warning);
+		CHECK(holds(broken[0].warning, "Light \"Light\": caster \"shade\""));
+		CHECK(holds(broken[0].warning, "1 x light_size = 0.2"));
+		CHECK(holds(broken[0].warning, "Lower light_size"));
+		shade.parent_from_node[3].y = 4.35; // 0.25 m
+		CHECK(find_broken(scene, {}).empty());
+		CHECK(find_broken(scene, { .least_caster_distance_radii = 2 }).size() == 1);
+		// The light inside a wide lamp shade: no face of it is near.
+		shade.parent_from_node = glm::scale(
+				glm::translate(glm::dmat4(1.0), glm::dvec3(1.2, 4.0, 0.8)), glm::dvec3(3.0));
+		CHECK(find_broken(scene, {}).empty());
+		shade.casts_shadow = false;
+		CHECK(find_broken(scene, { .least_caster_distance_radii = 2 }).empty());
+	}
+	SmallScene sunny(LightType::DIRECTIONAL); // is nowhere
+	add_mesh(sunny.scene, "Shade", make_box_mesh("shade", glm::vec3(0.1f)), { 1.2, 4.1, 0.8 });
+	CHECK(find_broken(sunny, {}).empty());
+}
+
+TEST_CASE("[LightLimits] widths beyond a technique's limit are told with their values") {
+	SmallScene scene;
+	scene.scene.scene_size_m = 4.0;
+	scene.light->properties["penumbra_outer_width"] = 0.3;
+	scene.light->properties["penumbra_inner_width"] = 1.0;
+	CHECK(find_broken(scene, { .most_width_sizes = 0.25 }).empty());
+	const std::vector<BrokenLimit> broken = find_broken(scene, { .most_width_sizes = 0.2 });
+	REQUIRE(broken.size() == 1);
+	CHECK(holds(broken[0].warning, "penumbra_inner_width 1"));
+	CHECK(holds(broken[0].warning, "above 0.8"));
+}
+
+TEST_CASE("[LightLimits] nothing is looked for again while nothing moved") {
+	SmallScene scene;
+	const auto snapshot = scene.snap();
+	LightLimits limits;
+	const std::vector<BrokenLimit> &first =
+			limits.find_broken(*snapshot, snapshot->lights[0], "some", { .most_width_sizes = 0 });
+	REQUIRE(first.size() == 1);
+	const char *text = first[0].warning.data();
+	CHECK(limits.find_broken(*snapshot, snapshot->lights[0], "some", { .most_width_sizes = 0 })[0]
+					.warning.data() == text);
+	CHECK(limits.find_broken(*snapshot, snapshot->lights[0], "other", {}).empty());
+}
+
+TEST_CASE("[GPU][LightLimits] the renderer warns once, whatever the light does then") {
+	RenderFixture fixture;
+	SmallScene scene;
+	add_mesh(scene.scene, "Shade", make_box_mesh("shade", glm::vec3(0.1f)), { 1.2, 4.15, 0.8 });
+	std::vector<std::string> warnings;
+	const LogSink before = set_log_sink([&](LogLevel p_level, const std::string &p_line) {
+		if (p_level == LogLevel::WARNING) {
+			warnings.push_back(p_line);
+		}
+	});
+	const ShadowTechniqueInfo *technique = ShadowRegistry::find_fallback();
+	if (technique != nullptr) {
+		for (const double size_m : { 0.2, 0.21, 0.22 }) {
+			scene.light->properties["light_size"] = size_m;
+			fixture.render_mask(scene, technique->id);
+		}
+	}
+	set_log_sink(before);
+	CHECK(warnings.size() == (technique != nullptr ? 1 : 0));
+}
