@@ -164,7 +164,7 @@ std::string format_hash(uint64_t p_hash) {
 	return digits;
 }
 
-void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes) {
+std::vector<uint8_t> build_cache_entry(std::span<const uint8_t> p_bytes) {
 	std::vector<uint8_t> entry(CACHE_HEADER_BYTES + p_bytes.size());
 	const uint64_t numbers[2] = { p_bytes.size(), compute_hash(p_bytes) };
 	std::memcpy(entry.data(), CACHE_MAGIC, sizeof(CACHE_MAGIC));
@@ -172,8 +172,26 @@ void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_byte
 	if (!p_bytes.empty()) {
 		std::memcpy(entry.data() + CACHE_HEADER_BYTES, p_bytes.data(), p_bytes.size());
 	}
+	return entry;
+}
+
+std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_t> p_entry) {
+	if (p_entry.size() < CACHE_HEADER_BYTES ||
+			std::memcmp(p_entry.data(), CACHE_MAGIC, sizeof(CACHE_MAGIC)) != 0) {
+		return std::nullopt;
+	}
+	uint64_t numbers[2] = {};
+	std::memcpy(numbers, p_entry.data() + sizeof(CACHE_MAGIC), sizeof(numbers));
+	const std::span<const uint8_t> payload = p_entry.subspan(CACHE_HEADER_BYTES);
+	if (numbers[0] != payload.size() || numbers[1] != compute_hash(payload)) {
+		return std::nullopt;
+	}
+	return payload;
+}
+
+void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes) {
 	try {
-		save_file_atomically(get_cache_folder() / p_name, entry);
+		save_file_atomically(get_cache_folder() / p_name, build_cache_entry(p_bytes));
 	} catch (const Error &error) {
 		log_warning("Cache entry not kept: ", error.what());
 	}
@@ -192,16 +210,9 @@ std::vector<uint8_t> load_cache_entry(const std::string &p_name) {
 		log_warning("Cache entry not used: ", error.what());
 		return {};
 	}
-	uint64_t numbers[2] = {};
-	const bool has_header = entry.size() >= CACHE_HEADER_BYTES &&
-			std::memcmp(entry.data(), CACHE_MAGIC, sizeof(CACHE_MAGIC)) == 0;
-	if (has_header) {
-		std::memcpy(numbers, entry.data() + sizeof(CACHE_MAGIC), sizeof(numbers));
-		const auto payload = std::span(entry).subspan(CACHE_HEADER_BYTES);
-		if (numbers[0] == payload.size() && numbers[1] == compute_hash(payload)) {
-			entry.erase(entry.begin(), entry.begin() + CACHE_HEADER_BYTES);
-			return entry;
-		}
+	if (parse_cache_entry(entry)) {
+		entry.erase(entry.begin(), entry.begin() + CACHE_HEADER_BYTES);
+		return entry;
 	}
 	log_warning("Cache entry ", path, " is damaged; it is removed and made again.");
 	fs::remove(path, code);

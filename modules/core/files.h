@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,6 +50,10 @@ template <typename T> std::span<const uint8_t> bytes_of(std::span<const T> p_val
 	return { reinterpret_cast<const uint8_t *>(p_values.data()), p_values.size_bytes() };
 }
 
+/// What a file of the cache holds: a magic, the size and the hash of the bytes, the bytes.
+std::vector<uint8_t> build_cache_entry(std::span<const uint8_t> p_bytes);
+/// The bytes in such a file; nothing when it is damaged.
+std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_t> p_entry);
 /// Stores bytes under a name in the cache folder with a checksum. A failure to write only warns.
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes);
 /// The stored bytes, or empty when absent or damaged (a damaged entry is logged and removed).

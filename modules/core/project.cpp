@@ -46,9 +46,13 @@ Project Project::load(const fs::path &p_path) {
 	if (!fs::exists(path)) {
 		fail("Project ", p_path, " has no project.cfg. Name a project's folder or a .gltf file.");
 	}
+	return parse(load_text_file(path, MAX_PROJECT_BYTES), path);
+}
+
+Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 	Project project;
-	project.folder = fs::absolute(path).parent_path();
-	std::stringstream stream(load_text_file(path, MAX_PROJECT_BYTES));
+	project.folder = fs::absolute(p_path).parent_path();
+	std::stringstream stream(p_text);
 	std::string section;
 	int line_number = 0;
 	for (std::string line; std::getline(stream, line);) {
@@ -63,7 +67,7 @@ Project Project::load(const fs::path &p_path) {
 		}
 		const size_t equals = line.find('=');
 		if (equals == std::string::npos) {
-			fail(path, ":", line_number, ": \"", line,
+			fail(p_path, ":", line_number, ": \"", line,
 					"\" is no section, comment or key=value. Mend the line.");
 		}
 		const std::string key = trim(line.substr(0, equals));
@@ -71,7 +75,7 @@ Project Project::load(const fs::path &p_path) {
 		// A list may go on over several lines.
 		for (std::string more; !value.empty() && value.front() == '[' && value.back() != ']';) {
 			if (!std::getline(stream, more)) {
-				fail(path, ":", line_number, ": the list of ", key, " has no end. Add a ].");
+				fail(p_path, ":", line_number, ": the list of ", key, " has no end. Add a ].");
 			}
 			++line_number;
 			value = trim(value + trim(more));
@@ -101,12 +105,19 @@ void Project::save_disabled_modules() const {
 	if (!fs::exists(path)) {
 		return;
 	}
+	save_file_atomically(path,
+			std::string_view(replace_disabled_modules(
+					load_text_file(path, MAX_PROJECT_BYTES), disabled_modules)));
+}
+
+std::string Project::replace_disabled_modules(
+		const std::string &p_text, const std::vector<std::string> &p_modules) {
 	std::string list;
-	for (const std::string &module : disabled_modules) {
+	for (const std::string &module : p_modules) {
 		list += (list.empty() ? "\"" : ", \"") + module + "\"";
 	}
 	const std::string wanted = "disabled=[" + list + "]\n";
-	std::stringstream stream(load_text_file(path, MAX_PROJECT_BYTES));
+	std::stringstream stream(p_text);
 	std::string lines;
 	std::string section;
 	bool is_written = false;
@@ -131,8 +142,7 @@ void Project::save_disabled_modules() const {
 		}
 		lines += line + "\n";
 	}
-	save_file_atomically(
-			path, std::string_view(is_written ? lines : lines + "\n[modules]\n" + wanted));
+	return is_written ? lines : lines + "\n[modules]\n" + wanted;
 }
 
 fs::path Project::find_folder(const fs::path &p_scene_path) {

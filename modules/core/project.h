@@ -22,9 +22,14 @@ public:
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
 	/// line.
 	static Project load(const std::filesystem::path &p_path);
+	/// The same for the text of a project.cfg that stands at p_path.
+	static Project parse(const std::string &p_text, const std::filesystem::path &p_path);
 	/// Writes disabled_modules into project.cfg and leaves all else in it as it is. Without a
 	/// project.cfg nothing is stored.
 	void save_disabled_modules() const;
+	/// The text of a project.cfg with that list of disabled modules, all else as it was.
+	static std::string replace_disabled_modules(
+			const std::string &p_text, const std::vector<std::string> &p_modules);
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
 	static std::filesystem::path find_folder(const std::filesystem::path &p_scene_path);
 };

@@ -277,21 +277,34 @@ void GltfReader::remember(size_t p_index, const Node3D &p_node) {
 	}
 }
 
+/// Where the file stands, and what it may refer to.
+GltfPlace find_place(const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
+	GltfPlace place;
+	place.folder = std::filesystem::absolute(p_path).parent_path();
+	place.project_folder =
+			p_options.project_folder.empty() ? place.folder : p_options.project_folder;
+	if (!is_inside_folder(p_path, place.project_folder)) {
+		fail("\"", p_path.string(), "\" lies outside of the project folder ", place.project_folder,
+				". Move it into the project.");
+	}
+	return place;
+}
+
 } // namespace
 
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
+	find_place(p_path, p_options); // refuses a file elsewhere before it is read
+	return parse_gltf(load_file(p_path, GLTF_MAX_FILE_BYTES), p_path, p_options);
+}
+
+std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
+		const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
 	GltfMessages messages{ p_path.string(), {} };
 	auto document = std::make_shared<GltfDocument>();
 	document->file = p_path.string();
-	document->place.folder = std::filesystem::absolute(p_path).parent_path();
-	document->place.project_folder =
-			p_options.project_folder.empty() ? document->place.folder : p_options.project_folder;
-	if (!is_inside_folder(p_path, document->place.project_folder)) {
-		fail("\"", p_path.string(), "\" lies outside of the project folder ",
-				document->place.project_folder, ". Move it into the project.");
-	}
-	document->container = parse_gltf_container(load_file(p_path, GLTF_MAX_FILE_BYTES), messages);
+	document->place = find_place(p_path, p_options);
+	document->container = parse_gltf_container(p_bytes, messages);
 	auto scene = std::make_unique<Scene>();
 	scene->path = p_path.string();
 	scene->document = document;

@@ -3,9 +3,11 @@
 #include "modules/core/property.h"
 #include "modules/scene/nodes.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace gnomon {
@@ -24,6 +26,10 @@ struct GltfLoadOptions {
 /// in the same words, and its default used. Textures, skins, animations and morph targets are not
 /// read; one warning each says so.
 std::unique_ptr<Scene> load_gltf(
+		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
+/// The same for the bytes of a file. p_path: where it stands, for messages and the files that it
+/// refers to; it need not exist.
+std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 
 /// Writes the scene, binary when the name ends in .glb. A scene that came from a file keeps

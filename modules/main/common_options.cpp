@@ -5,6 +5,7 @@
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
 #include "modules/renderer/light_properties.h"
+#include "modules/scene/light_setting.h"
 
 #include <unistd.h>
 
@@ -119,30 +120,20 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 }
 
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {
-	const size_t equals = p_setting.find('=');
-	if (equals == std::string::npos) {
-		throw UsageError(text("--set is \"", p_setting, "\", must be property=value."));
-	}
-	std::string name = p_setting.substr(0, equals);
-	const std::string value = p_setting.substr(equals + 1);
-	if (name.rfind("light.", 0) == 0) {
-		const size_t dot = name.rfind('.');
-		if (dot <= 6) {
-			throw UsageError(
-					text("--set is \"", p_setting, "\", must be light.NAME.property=value."));
-		}
-		p_light = &p_scene.find_node<Light3D>(name.substr(6, dot - 6), "Light");
-		name = name.substr(dot + 1);
+	const LightSetting setting = parse_light_setting(p_setting);
+	if (!setting.light_name.empty()) {
+		p_light = &p_scene.find_node<Light3D>(setting.light_name, "Light");
 	}
 	if (!p_light) {
 		throw UsageError(text("--set is \"", p_setting, "\", must be light.NAME.property=value."));
 	}
-	const PropertyInfo *info = find_property(name);
+	const PropertyInfo *info = find_property(setting.property);
 	if (!info) {
-		fail("Light \"", p_light->name, "\": there is no property \"", name,
+		fail("Light \"", p_light->name, "\": there is no property \"", setting.property,
 				"\". There are: ", list_properties(), ".");
 	}
-	p_light->properties[name] = parse_property(*info, value, text("Light \"", p_light->name, "\""));
+	p_light->properties[setting.property] =
+			parse_property(*info, setting.value, text("Light \"", p_light->name, "\""));
 }
 
 std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common) {

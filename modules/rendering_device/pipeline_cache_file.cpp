@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/rendering_device/pipeline_cache_header.h"
 #include "modules/rendering_device/rendering_device_impl.h"
 
 #include <cstring>
@@ -10,17 +11,11 @@ namespace gnomon {
 
 namespace {
 
-/// Drivers must refuse foreign data themselves, but some have crashed on it instead.
-bool is_made_by(std::span<const uint8_t> p_bytes, const VkPhysicalDeviceProperties &p_properties) {
-	VkPipelineCacheHeaderVersionOne header;
-	if (p_bytes.size() < sizeof(header)) {
-		return false;
-	}
-	std::memcpy(&header, p_bytes.data(), sizeof(header));
-	return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-			header.vendorID == p_properties.vendorID && header.deviceID == p_properties.deviceID &&
-			std::memcmp(header.pipelineCacheUUID, p_properties.pipelineCacheUUID, VK_UUID_SIZE) ==
-			0;
+PipelineCacheMaker get_maker(const VkPhysicalDeviceProperties &p_properties) {
+	PipelineCacheMaker maker{ p_properties.vendorID, p_properties.deviceID, {} };
+	static_assert(sizeof(maker.cache_uuid) == VK_UUID_SIZE);
+	std::memcpy(maker.cache_uuid.data(), p_properties.pipelineCacheUUID, VK_UUID_SIZE);
+	return maker;
 }
 
 } // namespace
@@ -42,7 +37,7 @@ void RenderingDevice::Impl::load_pipeline_cache() {
 	VkPhysicalDeviceProperties properties;
 	vkGetPhysicalDeviceProperties(physical.handle, &properties);
 	std::vector<uint8_t> bytes = load_cache_entry(get_cache_name());
-	if (!bytes.empty() && !is_made_by(bytes, properties)) {
+	if (!bytes.empty() && !is_pipeline_cache_of(bytes, get_maker(properties))) {
 		log_info(
 				"Pipeline cache ", get_cache_name(), " was made by another driver; it is ignored.");
 		bytes.clear();

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+/// What `--set` says of a light.
+struct LightSetting {
+	std::string light_name; // empty: the command's own light
+	std::string property;
+	std::string value; // as written; see parse_property
+};
+
+/// Reads "property=value" or "light.NAME.property=value"; the name may hold dots. Other text is a
+/// UsageError.
+LightSetting parse_light_setting(std::string_view p_text);
+
+} // namespace gnomon

@@ -1,0 +1,65 @@
+#include "modules/shadow_reference/truth_entry.h"
+
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+struct EntryHeader {
+	uint64_t key = 0;
+	uint64_t penumbra_pixel_count = 0;
+	uint64_t pixel_count = 0;
+	float standard_error = 0;
+	uint32_t padding = 0;
+};
+
+/// std::memcpy may not get the null that an empty vector has.
+void copy_bytes(void *r_target, const void *p_source, size_t p_count) {
+	if (p_count > 0) {
+		std::memcpy(r_target, p_source, p_count);
+	}
+}
+
+} // namespace
+
+std::vector<uint8_t> build_truth_entry(uint64_t p_key, const Truth &p_truth) {
+	EntryHeader header;
+	header.key = p_key;
+	header.penumbra_pixel_count = p_truth.penumbra_pixel_count;
+	header.pixel_count = p_truth.visibility.size();
+	header.standard_error = p_truth.standard_error;
+	const size_t value_bytes = p_truth.visibility.size() * sizeof(float);
+	const size_t color_bytes = p_truth.colors.size() * sizeof(glm::vec3);
+	std::vector<uint8_t> bytes(sizeof(header) + value_bytes + color_bytes);
+	copy_bytes(bytes.data(), &header, sizeof(header));
+	copy_bytes(bytes.data() + sizeof(header), p_truth.visibility.data(), value_bytes);
+	copy_bytes(bytes.data() + sizeof(header) + value_bytes, p_truth.colors.data(), color_bytes);
+	return bytes;
+}
+
+std::optional<Truth> parse_truth_entry(
+		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
+	EntryHeader header;
+	const size_t value_bytes = p_pixel_count * sizeof(float);
+	const size_t color_bytes = p_is_colored ? p_pixel_count * sizeof(glm::vec3) : 0;
+	if (p_bytes.size() != sizeof(header) + value_bytes + color_bytes) {
+		return std::nullopt;
+	}
+	std::memcpy(&header, p_bytes.data(), sizeof(header));
+	if (header.key != p_key || header.pixel_count != p_pixel_count) {
+		return std::nullopt;
+	}
+	Truth truth;
+	truth.standard_error = header.standard_error;
+	truth.penumbra_pixel_count = header.penumbra_pixel_count;
+	truth.visibility.resize(p_pixel_count);
+	copy_bytes(truth.visibility.data(), p_bytes.data() + sizeof(header), value_bytes);
+	if (p_is_colored) {
+		truth.colors.resize(p_pixel_count);
+		copy_bytes(truth.colors.data(), p_bytes.data() + sizeof(header) + value_bytes, color_bytes);
+	}
+	return truth;
+}
+
+} // namespace gnomon
