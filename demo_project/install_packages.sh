@@ -17,6 +17,8 @@ TEST_PACKAGES=(
 )
 # What tests/run_tests.sh --full uses beside that, to download meshes.
 LARGE_MESH_PACKAGES=(npm)
+# What tests/run_tests.sh --full uses beside that, to fuzz: libFuzzer is clang's.
+FUZZ_PACKAGES=(clang libclang-rt-14-dev)
 # What tests/run_tests.sh --only blender uses beside that; 160 MB with what they depend on.
 BLENDER_PACKAGES=(blender python3-numpy)
 

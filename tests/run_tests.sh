@@ -2,18 +2,19 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo removal template sanitized sanitized_all threads tables editor_repeats large_meshes blender"
+PARTS="layers scenes build docs engine command_line demo removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes blender"
 
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
-               large meshes (installs npm, which downloads them)
+               large meshes (installs npm, which downloads them), fuzzing (installs clang)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
-               demo removal template sanitized; with --full also sanitized_all threads tables
-               editor_repeats large_meshes; only when named: blender (installs Blender, 160 MB)
+               demo removal template sanitized fuzz_replay; with --full also sanitized_all threads
+               tables editor_repeats large_meshes fuzz; only when named: blender (installs Blender, 160 MB)
+FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
 }
@@ -67,6 +68,9 @@ is_wanted() {
 packages=("${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
 if [ "$is_full" = yes ] && is_wanted large_meshes && ! command -v npm >/dev/null; then
     packages+=("${LARGE_MESH_PACKAGES[@]}")
+fi
+if [ "$is_full" = yes ] && is_wanted fuzz; then
+    packages+=("${FUZZ_PACKAGES[@]}")
 fi
 if [[ " ${only[*]} " == *" blender "* ]]; then
     packages+=("${BLENDER_PACKAGES[@]}")
@@ -155,13 +159,19 @@ for module in modules_builders.find_modules("modules"):  # dependencies come fir
 PYTHON
 }
 
+# build_without_device SANITIZERS TARGET...: modules that need no device, built with sanitizers.
+build_without_device() {
+    local sanitizers=$1 options
+    shift
+    mapfile -t options < <(list_device_options)
+    scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" "$@"
+}
+
 # run_sanitized PART SANITIZERS TEST_OPTION...: modules without a device, built with sanitizers.
 run_sanitized() {
-    local part=$1 sanitizers=$2 suffix=release_${2//,/_} options
+    local part=$1 sanitizers=$2 suffix=release_${2//,/_}
     shift 2
-    mapfile -t options < <(list_device_options)
-    run_check "$part build" scons -Q -j"$jobs" compiledb=no sanitize="$sanitizers" "${options[@]}" \
-        "bin/gnomon_tests.$suffix" canaries || return
+    run_check "$part build" build_without_device "$sanitizers" "bin/gnomon_tests.$suffix" canaries || return
     run_part "$part canary" python3 tests/canaries/test_canaries.py "$sanitizers"
     run_part "$part" "bin/gnomon_tests.$suffix" '--test-case-exclude=*[GPU]*' "$@"
 }
@@ -210,6 +220,12 @@ fi
 if is_wanted sanitized; then
     run_sanitized sanitized address,undefined
 fi
+if is_wanted fuzz_replay; then
+    if run_check "fuzz_replay build" build_without_device address,undefined fuzz_targets; then
+        run_part "fuzz_replay canary" python3 tests/canaries/test_replay.py release_address_undefined
+        run_part fuzz_replay python3 tests/fuzz/replay_corpus.py release_address_undefined
+    fi
+fi
 if [ "$is_full" = yes ]; then
     if is_wanted sanitized_all; then
         run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
@@ -220,6 +236,10 @@ if [ "$is_full" = yes ]; then
     fi
     if is_wanted tables; then
         run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
+    fi
+    if is_wanted fuzz; then
+        run_check "fuzz build" scons -Q -j"$jobs" compiledb=no fuzz=yes &&
+            run_part fuzz python3 tests/fuzz/run_fuzz.py --jobs "$jobs"
     fi
     if is_wanted large_meshes; then
         run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py

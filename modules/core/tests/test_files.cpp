@@ -64,3 +64,18 @@ TEST_CASE("[Files] a damaged cache entry is noticed and removed") {
 	CHECK_FALSE(fs::exists(folder.path / "entry"));
 	set_log_sink(before);
 }
+
+TEST_CASE("[Files] a cache entry is read as it was built, and not when a byte is another") {
+	const std::vector<uint8_t> bytes = { 1, 2, 3, 250 };
+	std::vector<uint8_t> entry = build_cache_entry(bytes);
+	const auto payload = parse_cache_entry(entry);
+	REQUIRE(payload);
+	CHECK(std::vector<uint8_t>(payload->begin(), payload->end()) == bytes);
+	for (size_t place = 0; place < entry.size(); ++place) {
+		CAPTURE(place);
+		entry[place] ^= 1;
+		CHECK_FALSE(parse_cache_entry(entry));
+		entry[place] ^= 1;
+		CHECK_FALSE(parse_cache_entry(std::span(entry).first(place)));
+	}
+}

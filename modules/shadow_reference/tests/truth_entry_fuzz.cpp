@@ -1,0 +1,43 @@
+// fuzz: modules=core sources=modules/shadow_reference/truth_entry.cpp
+// Any bytes as a kept truth. The first nine say what is asked for: the pixels, and with colours?
+#include "modules/shadow_reference/truth_entry.h"
+
+#include "tests/fuzz/fuzz_target.h"
+
+#include <algorithm>
+#include <cstring>
+
+using namespace gnomon;
+
+namespace {
+
+const uint64_t KEY = 0x676E6F6D6F6E2121;
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
+	return run_reader([&] {
+		uint64_t pixel_count = 0;
+		if (p_size <= sizeof(pixel_count)) {
+			return;
+		}
+		std::memcpy(&pixel_count, p_data, sizeof(pixel_count));
+		const bool is_colored = (p_data[sizeof(pixel_count)] & 1) != 0;
+		const auto bytes = std::span(p_data, p_size).subspan(sizeof(pixel_count) + 1);
+		const auto truth = parse_truth_entry(bytes, KEY, pixel_count, is_colored);
+		if (!truth) {
+			return;
+		}
+		GNOMON_ASSERT(truth->visibility.size() == pixel_count, truth->visibility.size(), " values");
+		GNOMON_ASSERT(truth->colors.size() == (is_colored ? pixel_count : 0), "colours");
+		const std::vector<uint8_t> again = build_truth_entry(KEY, *truth);
+		constexpr size_t PADDING_BYTES = 4; // the last of the header, never looked at
+		constexpr size_t HEADER_BYTES = 32;
+		GNOMON_ASSERT(again.size() == bytes.size() &&
+						std::equal(again.begin(), again.begin() + HEADER_BYTES - PADDING_BYTES,
+								bytes.begin()) &&
+						std::equal(again.begin() + HEADER_BYTES, again.end(),
+								bytes.begin() + HEADER_BYTES),
+				"another truth came back");
+	});
+}

@@ -1,0 +1,25 @@
+// fuzz: modules=core
+// Any text as a project.cfg: what is read of it stays when its list of disabled modules is written.
+#include "modules/core/project.h"
+
+#include "tests/fuzz/fuzz_target.h"
+
+using namespace gnomon;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
+	return run_reader([&] {
+		const std::filesystem::path path = "/nonexistent/project.cfg";
+		const std::string before(to_text(p_data, p_size));
+		const Project project = Project::parse(before, path);
+		for (const std::vector<std::string> &names :
+				{ std::vector<std::string>{}, { "one" }, { "one", "two" } }) {
+			const std::string after = Project::replace_disabled_modules(before, names);
+			const Project again = Project::parse(after, path);
+			GNOMON_ASSERT(again.disabled_modules == names, "the list became another: ", after);
+			GNOMON_ASSERT(again.name == project.name && again.defaults == project.defaults &&
+							again.start_scene == project.start_scene &&
+							again.missing_scenes == project.missing_scenes,
+					"the list changed more than itself: ", after);
+		}
+	});
+}

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Runs the fuzz targets that `scons fuzz=yes` has built.
+
+    run_fuzz.py [--seconds N] [--jobs N] [TARGET]...
+
+Each target runs for N seconds (default: $FUZZ_SECONDS, else 600), as many at once as there are jobs (default: one a
+core). What it learns stays in build/fuzz/<target>/corpus, where the next run goes on; what goes wrong (crash-*, leak-*,
+timeout-*, oom-*) in build/fuzz/<target>/findings, beside the log. A target passes when it ran and has no new finding.
+The last line is "N passed, N failed, N skipped".
+"""
+
+import argparse
+import concurrent.futures
+import os
+import subprocess
+import sys
+
+import fuzz_targets
+
+MAX_INPUT_BYTES = 1 << 16
+LIMIT_S = 10  # of one input
+MEMORY_MIB = 2048
+GRACE_S = 120
+
+
+def run_target(target, seconds):
+    """(has passed, what to print)"""
+    program = os.path.join(fuzz_targets.ROOT, "bin", "fuzz_" + target.name)
+    if not os.path.isfile(program):
+        return False, "FAILED: %s: bin/fuzz_%s is not built. Run: scons fuzz=yes" % (target.name, target.name)
+    folder = os.path.join(fuzz_targets.ROOT, "build", "fuzz", target.name)
+    learned, findings = os.path.join(folder, "corpus"), os.path.join(folder, "findings")
+    os.makedirs(learned, exist_ok=True)
+    os.makedirs(findings, exist_ok=True)
+    before = set(os.listdir(findings))
+    command = [program, learned, target.corpus, "-max_total_time=%d" % seconds, "-max_len=%d" % MAX_INPUT_BYTES]
+    command += ["-timeout=%d" % LIMIT_S, "-rss_limit_mb=%d" % MEMORY_MIB, "-malloc_limit_mb=%d" % (MEMORY_MIB // 2)]
+    command += ["-artifact_prefix=%s/" % findings, "-print_final_stats=1"]
+    if target.dictionary:
+        command.append("-dict=" + target.dictionary)
+    log = os.path.join(folder, "log.txt")
+    with open(log, "wb") as output:
+        try:
+            status = subprocess.run(
+                command, stdout=output, stderr=subprocess.STDOUT, check=False, timeout=seconds + GRACE_S
+            ).returncode
+        except subprocess.TimeoutExpired:
+            status = "no end"
+    with open(log, encoding="utf-8", errors="replace") as file:
+        lines = file.read().splitlines()
+    runs = [line.split()[-1] for line in lines if line.startswith("stat::number_of_executed_units")]
+    covered = [line.split("cov: ")[1].split()[0] for line in lines if " cov: " in line]
+    new = sorted(set(os.listdir(findings)) - before)
+    told = "%s: %s runs, %s edges" % (target.name, runs[-1] if runs else "?", covered[-1] if covered else "?")
+    if status == 0 and not new and runs and runs[-1] != "0":
+        return True, told
+    told += "\nFAILED: %s ended with %s; log: %s" % (target.name, status, log)
+    return False, told + "".join("\n    finding: %s" % os.path.join(findings, name) for name in new)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Runs the fuzz targets.")
+    parser.add_argument("--seconds", type=int, default=int(os.environ.get("FUZZ_SECONDS", "600")))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    arguments = parser.parse_args()
+    targets = fuzz_targets.find_targets()
+    unknown = sorted(set(arguments.targets) - {target.name for target in targets})
+    if unknown or arguments.seconds < 1 or arguments.jobs < 1:
+        names = ", ".join(target.name for target in targets)
+        parser.error("seconds and jobs must be above 0, targets some of %s" % names)
+    wanted = [target for target in targets if not arguments.targets or target.name in arguments.targets]
+    passed = 0
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for has_passed, told in pool.map(lambda target: run_target(target, arguments.seconds), wanted):
+            passed += has_passed
+            print(told, flush=True)
+    print("%d passed, %d failed, 0 skipped" % (passed, len(wanted) - passed))
+    return 0 if passed == len(wanted) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
