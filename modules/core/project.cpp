@@ -39,11 +39,81 @@ std::vector<std::string> parse_list(const std::string &p_text) {
 	return items;
 }
 
+/// A key=value, with the lines that it takes.
+struct Entry {
+	std::string section;
+	std::string key;
+	std::string value; // of a list over several lines, all of them
+	size_t first_line = 0;
+	size_t end_line = 0; // the one after the last
+	bool is_list() const { return !value.empty() && value.front() == '['; }
+};
+
+/// What reading and writing see of a file: the same, so that neither harms what the other wrote.
+struct Layout {
+	std::vector<std::string> lines;
+	std::vector<Entry> entries;
+	std::map<std::string, size_t> sections; // to the line of each one's first heading
+};
+
+bool is_heading(const std::string &p_line) {
+	return p_line.size() > 1 && p_line.front() == '[' && p_line.back() == ']' &&
+			p_line.find('=') == std::string::npos;
+}
+
+/// A list goes on until a line ends with ].
+void read_list(Layout &r_layout, Entry &r_entry, const fs::path &p_path) {
+	while (r_entry.value.back() != ']') {
+		const bool is_over = r_entry.end_line == r_layout.lines.size();
+		const std::string more = is_over ? std::string() : trim(r_layout.lines[r_entry.end_line]);
+		if (is_over || is_heading(more)) {
+			fail(p_path, ":", r_entry.first_line + 1, ": the list of ", r_entry.key,
+					" has no end. Add a ].");
+		}
+		r_entry.value += more;
+		++r_entry.end_line;
+	}
+}
+
+Layout read_layout(const std::string &p_text, const fs::path &p_path) {
+	Layout layout;
+	std::stringstream stream(p_text);
+	for (std::string line; std::getline(stream, line);) {
+		layout.lines.push_back(line);
+	}
+	std::string section;
+	for (size_t number = 0; number < layout.lines.size(); ++number) {
+		const std::string line = trim(layout.lines[number]);
+		if (line.empty() || line[0] == ';' || line[0] == '#') {
+			continue;
+		}
+		if (is_heading(line)) {
+			section = line.substr(1, line.size() - 2);
+			layout.sections.emplace(section, number);
+			continue;
+		}
+		const size_t equals = line.find('=');
+		if (equals == std::string::npos) {
+			fail(p_path, ":", number + 1, ": \"", line,
+					"\" is no section, comment or key=value. Mend the line.");
+		}
+		Entry entry{ section, trim(line.substr(0, equals)), trim(line.substr(equals + 1)), number,
+			number + 1 };
+		if (entry.is_list()) {
+			read_list(layout, entry, p_path);
+		}
+		number = entry.end_line - 1;
+		layout.entries.push_back(std::move(entry));
+	}
+	return layout;
+}
+
 } // namespace
 
 Project Project::load(const fs::path &p_path) {
-	const fs::path path = fs::is_directory(p_path) ? p_path / "project.cfg" : p_path;
-	if (!fs::exists(path)) {
+	std::error_code code;
+	const fs::path path = fs::is_directory(p_path, code) ? p_path / "project.cfg" : p_path;
+	if (!fs::exists(path, code)) {
 		fail("Project ", p_path, " has no project.cfg. Name a project's folder or a .gltf file.");
 	}
 	return parse(load_text_file(path, MAX_PROJECT_BYTES), path);
@@ -52,49 +122,24 @@ Project Project::load(const fs::path &p_path) {
 Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 	Project project;
 	project.folder = fs::absolute(p_path).parent_path();
-	std::stringstream stream(p_text);
-	std::string section;
-	int line_number = 0;
-	for (std::string line; std::getline(stream, line);) {
-		++line_number;
-		line = trim(line);
-		if (line.empty() || line[0] == ';' || line[0] == '#') {
-			continue;
-		}
-		if (line.front() == '[' && line.back() == ']' && line.find('=') == std::string::npos) {
-			section = line.substr(1, line.size() - 2);
-			continue;
-		}
-		const size_t equals = line.find('=');
-		if (equals == std::string::npos) {
-			fail(p_path, ":", line_number, ": \"", line,
-					"\" is no section, comment or key=value. Mend the line.");
-		}
-		const std::string key = trim(line.substr(0, equals));
-		std::string value = trim(line.substr(equals + 1));
-		// A list may go on over several lines.
-		for (std::string more; !value.empty() && value.front() == '[' && value.back() != ']';) {
-			if (!std::getline(stream, more)) {
-				fail(p_path, ":", line_number, ": the list of ", key, " has no end. Add a ].");
-			}
-			++line_number;
-			value = trim(value + trim(more));
-		}
-		const bool is_list = !value.empty() && value.front() == '[';
+	for (const Entry &entry : read_layout(p_text, p_path).entries) {
+		const std::string &section = entry.section;
+		const std::string &key = entry.key;
 		if (section == "project" && key == "name") {
-			project.name = unquote(value);
+			project.name = unquote(entry.value);
 		} else if (section == "project" && key == "start_scene") {
-			project.start_scene = project.folder / unquote(value);
-		} else if (section == "project" && key == "scenes" && is_list) {
-			for (const std::string &scene : parse_list(value)) {
+			project.start_scene = project.folder / unquote(entry.value);
+		} else if (section == "project" && key == "scenes" && entry.is_list()) {
+			for (const std::string &scene : parse_list(entry.value)) {
 				const fs::path scene_path = project.folder / scene;
-				const bool is_there = fs::exists(scene_path);
+				std::error_code code; // a name that no file can have is missing too
+				const bool is_there = fs::exists(scene_path, code);
 				(is_there ? project.scenes : project.missing_scenes).push_back(scene_path);
 			}
-		} else if (section == "modules" && key == "disabled" && is_list) {
-			project.disabled_modules = parse_list(value);
+		} else if (section == "modules" && key == "disabled" && entry.is_list()) {
+			project.disabled_modules = parse_list(entry.value);
 		} else if (section == "defaults") {
-			project.defaults[key] = unquote(value);
+			project.defaults[key] = unquote(entry.value);
 		}
 	}
 	return project;
@@ -102,53 +147,44 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 
 void Project::save_disabled_modules() const {
 	const fs::path path = folder / "project.cfg";
-	if (!fs::exists(path)) {
+	std::error_code code;
+	if (!fs::exists(path, code)) {
 		return;
 	}
-	save_file_atomically(path,
-			std::string_view(replace_disabled_modules(
-					load_text_file(path, MAX_PROJECT_BYTES), disabled_modules)));
+	const std::string before = load_text_file(path, MAX_PROJECT_BYTES);
+	save_file_atomically(
+			path, std::string_view(replace_disabled_modules(before, disabled_modules, path)));
 }
 
-std::string Project::replace_disabled_modules(
-		const std::string &p_text, const std::vector<std::string> &p_modules) {
+std::string Project::replace_disabled_modules(const std::string &p_text,
+		const std::vector<std::string> &p_modules, const fs::path &p_path) {
 	std::string list;
 	for (const std::string &module : p_modules) {
 		list += (list.empty() ? "\"" : ", \"") + module + "\"";
 	}
 	const std::string wanted = "disabled=[" + list + "]\n";
-	std::stringstream stream(p_text);
+	const Layout layout = read_layout(p_text, p_path);
+	const auto heading = layout.sections.find("modules");
 	std::string lines;
-	std::string section;
-	bool is_written = false;
-	for (std::string line; std::getline(stream, line);) {
-		const std::string words = trim(line);
-		if (words.size() > 1 && words.front() == '[' && words.back() == ']' &&
-				words.find('=') == std::string::npos) {
-			section = words.substr(1, words.size() - 2);
-			lines += line + "\n" + (section == "modules" && !is_written ? wanted : std::string());
-			is_written |= section == "modules";
-			continue;
+	auto entry = layout.entries.begin();
+	for (size_t number = 0; number < layout.lines.size(); ++number) {
+		for (; entry != layout.entries.end() && entry->end_line <= number; ++entry) {
 		}
-		const size_t equals = words.find('=');
-		if (section == "modules" && equals != std::string::npos &&
-				trim(words.substr(0, equals)) == "disabled") {
-			std::string list_end = trim(words.substr(equals + 1));
-			const bool is_list = !list_end.empty() && list_end.front() == '[';
-			while (is_list && list_end.back() != ']' && std::getline(stream, line)) {
-				list_end += trim(line); // the rest of the list that is replaced
-			}
-			continue;
+		const bool is_replaced = entry != layout.entries.end() && entry->first_line <= number &&
+				entry->section == "modules" && entry->key == "disabled";
+		lines += is_replaced ? "" : layout.lines[number] + "\n";
+		if (heading != layout.sections.end() && heading->second == number) {
+			lines += wanted;
 		}
-		lines += line + "\n";
 	}
-	return is_written ? lines : lines + "\n[modules]\n" + wanted;
+	return heading != layout.sections.end() ? lines : lines + "\n[modules]\n" + wanted;
 }
 
 fs::path Project::find_folder(const fs::path &p_scene_path) {
 	const fs::path scene_folder = fs::absolute(p_scene_path).parent_path();
 	for (fs::path folder = scene_folder; !folder.empty(); folder = folder.parent_path()) {
-		if (fs::exists(folder / "project.cfg")) {
+		std::error_code code;
+		if (fs::exists(folder / "project.cfg", code)) {
 			return folder;
 		}
 		if (folder == folder.root_path()) {

@@ -27,9 +27,10 @@ public:
 	/// Writes disabled_modules into project.cfg and leaves all else in it as it is. Without a
 	/// project.cfg nothing is stored.
 	void save_disabled_modules() const;
-	/// The text of a project.cfg with that list of disabled modules, all else as it was.
-	static std::string replace_disabled_modules(
-			const std::string &p_text, const std::vector<std::string> &p_modules);
+	/// The text of a project.cfg with that list of disabled modules, all else as it was. p_path:
+	/// for the Error that malformed text is.
+	static std::string replace_disabled_modules(const std::string &p_text,
+			const std::vector<std::string> &p_modules, const std::filesystem::path &p_path);
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
 	static std::filesystem::path find_folder(const std::filesystem::path &p_scene_path);
 };

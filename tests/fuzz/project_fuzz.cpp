@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		const Project project = Project::parse(before, path);
 		for (const std::vector<std::string> &names :
 				{ std::vector<std::string>{}, { "one" }, { "one", "two" } }) {
-			const std::string after = Project::replace_disabled_modules(before, names);
+			const std::string after = Project::replace_disabled_modules(before, names, path);
 			const Project again = Project::parse(after, path);
 			GNOMON_ASSERT(again.disabled_modules == names, "the list became another: ", after);
 			GNOMON_ASSERT(again.name == project.name && again.defaults == project.defaults &&
