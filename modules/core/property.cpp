@@ -13,6 +13,9 @@ namespace gnomon {
 
 namespace {
 
+/// Whole numbers beyond it have neighbours that a double, which numbers are read as, cannot tell.
+constexpr double MAX_WHOLE = 9007199254740991.0; // 2^53 - 1
+
 std::vector<std::string> split(const std::string &p_text) {
 	std::vector<std::string> parts;
 	std::stringstream stream(p_text);
@@ -124,7 +127,8 @@ std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_va
 			if (!number || !std::isfinite(*number)) {
 				return refuse(p_info, p_value);
 			}
-			if (p_info.type == PropertyType::INT && std::floor(*number) != *number) {
+			if (p_info.type == PropertyType::INT &&
+					(std::floor(*number) != *number || std::abs(*number) > MAX_WHOLE)) {
 				return refuse(p_info, p_value);
 			}
 			if (!p_info.special.empty() && *number == *parse_number(p_info.special)) {
@@ -218,7 +222,9 @@ std::string describe_range(const PropertyInfo &p_info) {
 		}
 		return words;
 	}
-	words = p_info.type == PropertyType::INT ? "a whole number" : "a finite number";
+	words = p_info.type == PropertyType::INT
+			? text("a whole number of at most ", static_cast<int64_t>(MAX_WHOLE), " either way")
+			: "a finite number";
 	if (parts.size() >= 2) {
 		words = parts[0] + ".." + parts[1];
 	}

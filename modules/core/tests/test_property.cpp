@@ -91,3 +91,15 @@ TEST_CASE("[Property] a property that is declared anew stays at its place") {
 	CHECK(get_choices(*list.find("first")) == std::vector<std::string>{ "", "a", "b" });
 	CHECK(std::get<std::string>(list.find("first")->default_value).empty());
 }
+
+TEST_CASE("[Property] whole numbers that a double cannot tell apart are refused") {
+	const PropertyInfo count = { "count", PropertyType::INT, 0, "", "Count." };
+	CHECK(std::get<int64_t>(parse_property(count, "9007199254740991", "x")) == 9007199254740991);
+	CHECK(std::get<int64_t>(parse_property(count, "-12e3", "x")) == -12000);
+	for (const char *text : { "9007199254740992", "-7e300", "9223372036854775807" }) {
+		CAPTURE(text);
+		CHECK_THROWS_WITH_AS(parse_property(count, text, "x"),
+				doctest::Contains("at most 9007199254740991"), Error);
+	}
+	CHECK_FALSE(check_property(count, std::numeric_limits<int64_t>::max()).empty());
+}
