@@ -41,6 +41,9 @@ std::vector<uint8_t> build_truth_entry(uint64_t p_key, const Truth &p_truth) {
 std::optional<Truth> parse_truth_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
 	EntryHeader header;
+	if (p_pixel_count > p_bytes.size()) {
+		return std::nullopt; // also keeps the sizes below from wrapping around
+	}
 	const size_t value_bytes = p_pixel_count * sizeof(float);
 	const size_t color_bytes = p_is_colored ? p_pixel_count * sizeof(glm::vec3) : 0;
 	if (p_bytes.size() != sizeof(header) + value_bytes + color_bytes) {
