@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/error_report/exr_header.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -23,7 +24,6 @@ constexpr const char *RECEIVER_CHANNEL = "receiver";
 /// Deflate packs at most 1032 to 1 and a pixel has at least 4 bytes (two half floats): a header
 /// that promises more than this for the bytes that follow is a lie, found before memory is taken.
 constexpr uint64_t MAX_PIXELS_PER_BYTE = 512;
-constexpr uint8_t DEEP_OR_MULTI_PART = 0x18; // of the second byte of version and flags
 constexpr uint64_t FILE_LIMIT_BYTES = uint64_t(1) << 32;
 
 class MemoryOutput : public Imf::OStream {
@@ -43,16 +43,21 @@ private:
 	size_t position = 0;
 };
 
+/// Bytes whose beginning is replaced.
 class MemoryInput : public Imf::IStream {
 public:
-	explicit MemoryInput(std::span<const uint8_t> p_bytes) :
-			Imf::IStream("memory"), bytes(p_bytes) {}
+	MemoryInput(std::span<const uint8_t> p_bytes, std::vector<uint8_t> p_header) :
+			Imf::IStream("memory"), bytes(p_bytes), header(std::move(p_header)) {}
 	bool read(char r_data[], int p_count) override {
 		const size_t count = static_cast<size_t>(std::max(p_count, 0));
 		if (position > bytes.size() || count > bytes.size() - position) {
 			throw std::runtime_error("the file is cut short");
 		}
 		std::memcpy(r_data, bytes.data() + position, count);
+		if (position < header.size()) {
+			const size_t replaced = std::min<size_t>(count, header.size() - position);
+			std::memcpy(r_data, header.data() + position, replaced);
+		}
 		position += count;
 		return position < bytes.size();
 	}
@@ -62,6 +67,7 @@ public:
 
 private:
 	std::span<const uint8_t> bytes;
+	std::vector<uint8_t> header;
 	uint64_t position = 0;
 };
 
@@ -98,39 +104,8 @@ void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
 	}
 }
 
-/// OpenEXR believes the length of a header's attribute and takes up to 2 GiB before it reads.
-/// Layout: magic, version and flags, then name, type, length and bytes of each attribute, then a
-/// zero.
-void check_header_lengths(std::span<const uint8_t> p_bytes, const std::string &p_name) {
-	size_t position = 8;
-	if (p_bytes.size() > position && (p_bytes[5] & DEEP_OR_MULTI_PART) != 0) {
-		fail("Mask ", p_name, ": has several parts or deep pixels; a mask has one flat part.");
-	}
-	const auto skip_text = [&] {
-		while (position < p_bytes.size() && p_bytes[position] != 0) {
-			++position;
-		}
-		++position;
-	};
-	while (position < p_bytes.size() && p_bytes[position] != 0) {
-		skip_text();
-		skip_text();
-		uint64_t length = 0;
-		for (size_t i = 0; i < 4 && position + i < p_bytes.size(); ++i) {
-			length |= static_cast<uint64_t>(p_bytes[position + i]) << (8 * i);
-		}
-		position += 4 + length;
-	}
-	if (position >= p_bytes.size()) {
-		fail("Mask ", p_name,
-				": not an OpenEXR file, or damaged, or cut short: its header goes beyond its ",
-				p_bytes.size(), " bytes. Write it again.");
-	}
-}
-
 MaskImage decode(std::span<const uint8_t> p_bytes, const std::string &p_name) {
-	check_header_lengths(p_bytes, p_name);
-	MemoryInput stream(p_bytes);
+	MemoryInput stream(p_bytes, make_safe_exr_header(p_bytes, p_name));
 	Imf::InputFile file(stream, 0); // no threads of OpenEXR's own
 	check_channel(file.header().channels(), VISIBILITY_CHANNEL, p_name);
 	check_channel(file.header().channels(), RECEIVER_CHANNEL, p_name);

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -171,5 +172,35 @@ TEST_CASE("[MaskImage] damaged files give an image of their size or an error, no
 			CHECK(image.visibility.size() == image.get_pixel_count());
 		} catch (const Error &) {
 		}
+	}
+}
+
+TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whatever they hold") {
+	const MaskImage image = make_image(5, 3);
+	std::vector<uint8_t> bytes = encode_mask_exr(image, "whole");
+	// Behind the header stands where the only block begins, 8 bytes further.
+	size_t table = 8;
+	uint64_t block = 0;
+	while (block != table + sizeof(block)) {
+		++table;
+		REQUIRE(table + sizeof(block) < bytes.size());
+		std::memcpy(&block, bytes.data() + table, sizeof(block));
+	}
+	// OpenEXR refuses the sizes of this preview, or takes memory for them.
+	const std::string preview("x\0preview\0\x08\0\0\0\xff\xff\xff\x7f\xff\xff\0\0", 22);
+	block += preview.size();
+	std::memcpy(bytes.data() + table, &block, sizeof(block));
+	bytes.insert(bytes.begin() + 8, preview.begin(), preview.end());
+	CHECK(decode_mask_exr(bytes, "with preview").visibility == image.visibility);
+}
+
+TEST_CASE("[MaskImage] a list of channels that is not as long as it says is refused") {
+	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
+	const size_t length = 8 + 9 + 7; // behind the names "channels" and "chlist"
+	for (const int change : { -18, -1, 1 }) {
+		std::vector<uint8_t> changed = bytes;
+		changed[length] = static_cast<uint8_t>(changed[length] + change);
+		CHECK_THROWS_WITH_AS(decode_mask_exr(changed, "list"),
+				doctest::Contains("not as long as it says"), Error);
 	}
 }
