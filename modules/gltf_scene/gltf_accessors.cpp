@@ -12,7 +12,7 @@ namespace gnomon {
 namespace {
 
 // Reading the same vertices again and again costs a hostile file nothing; it ends here.
-const uint64_t MAX_DECODED_COUNT = 16 * GLTF_MAX_INDEX_COUNT;
+const uint64_t MAX_DECODED_COUNT = 4 * GLTF_MAX_INDEX_COUNT;
 // Zeros need no bytes in the file, so that nothing else bounds them.
 const uint64_t MAX_ZERO_COUNT = uint64_t(1) << 22;
 const char NEXT_STEP[] = "Export the file again.";

@@ -70,6 +70,10 @@ std::string describe_json(const Json &p_value) {
 	if (p_value.is_object()) {
 		return "an object";
 	}
+	if (p_value.is_string() && p_value.get_ref<const std::string &>().size() > MAX_VALUE_LENGTH) {
+		// Cut first: a value that many nodes share is described again and again.
+		return describe_json(p_value.get_ref<const std::string &>().substr(0, MAX_VALUE_LENGTH));
+	}
 	std::string words = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
 	if (words.size() > MAX_VALUE_LENGTH) {
 		words.resize(MAX_VALUE_LENGTH);

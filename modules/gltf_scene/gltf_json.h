@@ -19,9 +19,12 @@ using Json = nlohmann::ordered_json;
 const uint64_t GLTF_MAX_FILE_BYTES = uint64_t(1) << 30;
 const uint64_t GLTF_MAX_BUFFER_BYTES = uint64_t(1) << 31; // all buffers of a file together
 const uint64_t GLTF_MAX_NODE_COUNT = 1000000;
-const uint64_t GLTF_MAX_NODE_DEPTH = 1000;				  // the tree is walked recursively
-const uint64_t GLTF_MAX_VERTEX_COUNT = uint64_t(1) << 25; // of all meshes; 0.8 GB
-const uint64_t GLTF_MAX_INDEX_COUNT = uint64_t(1) << 27;  // of all meshes; 0.5 GB
+const uint64_t GLTF_MAX_NODE_DEPTH = 1000;				   // the tree is walked recursively
+const uint64_t GLTF_MAX_VERTEX_COUNT = uint64_t(1) << 25;  // of all meshes; 0.8 GB
+const uint64_t GLTF_MAX_INDEX_COUNT = uint64_t(1) << 27;   // of all meshes; 0.5 GB
+const uint64_t GLTF_MAX_SURFACE_COUNT = uint64_t(1) << 22; // of all nodes; 0.3 GB
+/// What all nodes' lights hold in their extras, a value or 64 bytes of text counted as one.
+const uint64_t GLTF_MAX_LIGHT_VALUE_COUNT = uint64_t(1) << 20;
 const uint64_t GLTF_MAX_JSON_DEPTH = 256;			 // copying and writing a value is recursive
 const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; looked up one by one
 const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed

@@ -5,6 +5,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
@@ -32,35 +33,48 @@ std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, uint64_t p
 	return triangles;
 }
 
-/// Drops vertices that no triangle uses: many primitives may share one large array.
-void keep_used_vertices(std::vector<glm::vec3> &r_positions, std::vector<glm::vec3> &r_normals,
-		std::vector<uint32_t> &r_indices) {
-	if (r_indices.size() >= r_positions.size()) {
-		return;
+/// A table of all vertices is faster than sorting, unless few are used.
+const size_t TABLE_VERTICES_PER_INDEX = 16;
+
+/// The vertices that triangles use, in their order, and the triangles with the numbers that these
+/// have then. Many primitives may share one large array: the work follows the indices alone.
+std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint32_t> &r_indices) {
+	std::vector<uint32_t> used;
+	if (r_indices.size() * TABLE_VERTICES_PER_INDEX < p_vertex_count) {
+		used = r_indices;
+		std::sort(used.begin(), used.end());
+		used.erase(std::unique(used.begin(), used.end()), used.end());
+		for (uint32_t &index : r_indices) {
+			const auto place = std::lower_bound(used.begin(), used.end(), index);
+			index = static_cast<uint32_t>(place - used.begin());
+		}
+		return used;
 	}
 	const uint32_t UNUSED = UINT32_MAX;
-	std::vector<uint32_t> new_index(r_positions.size(), UNUSED);
+	std::vector<uint32_t> new_index(p_vertex_count, UNUSED);
 	for (const uint32_t index : r_indices) {
 		new_index[index] = 0;
 	}
-	uint32_t used_count = 0;
-	for (size_t old = 0; old < new_index.size(); ++old) {
-		if (new_index[old] == UNUSED) {
-			continue;
+	for (uint32_t old = 0; old < new_index.size(); ++old) {
+		if (new_index[old] != UNUSED) {
+			new_index[old] = static_cast<uint32_t>(used.size());
+			used.push_back(old);
 		}
-		r_positions[used_count] = r_positions[old];
-		if (!r_normals.empty()) {
-			r_normals[used_count] = r_normals[old];
-		}
-		new_index[old] = used_count++;
 	}
-	r_positions.resize(used_count);
-	r_positions.shrink_to_fit();
-	r_normals.resize(r_normals.empty() ? 0 : used_count);
-	r_normals.shrink_to_fit();
 	for (uint32_t &index : r_indices) {
 		index = new_index[index];
 	}
+	return used;
+}
+
+std::vector<glm::vec3> gather(
+		const std::vector<glm::vec3> &p_vectors, const std::vector<uint32_t> &p_places) {
+	std::vector<glm::vec3> gathered;
+	gathered.reserve(p_places.size());
+	for (const uint32_t place : p_places) {
+		gathered.push_back(p_vectors[place]);
+	}
+	return gathered;
 }
 
 } // namespace
@@ -74,7 +88,7 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 	}
 	const GltfObject mesh = root.get_element("meshes", p_index);
 	const size_t primitive_count = mesh.get_count("primitives");
-	std::string name = mesh.get_text("name");
+	std::string name = to_one_line(mesh.get_text("name")); // cut: each primitive keeps it
 	if (name.empty()) {
 		name = text("Mesh ", p_index);
 	}
@@ -89,6 +103,22 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 		}
 	}
 	return meshes.emplace(p_index, std::move(surfaces)).first->second;
+}
+
+void GltfMeshes::check_finite(const GltfObject &p_attributes, size_t p_accessor_index,
+		const std::vector<glm::vec3> &p_positions, const std::string &p_name) {
+	if (!finite_accessors.insert(p_accessor_index).second) {
+		return;
+	}
+	for (size_t index = 0; index < p_positions.size(); ++index) {
+		const glm::vec3 &position = p_positions[index];
+		if (!std::isfinite(position.x) || !std::isfinite(position.y) ||
+				!std::isfinite(position.z)) {
+			p_attributes.fail_at("POSITION",
+					text("of mesh \"", p_name, "\": vertex ", index,
+							" is not finite. Correct it or export the file again."));
+		}
+	}
 }
 
 std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
@@ -112,30 +142,23 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 		messages.warn("positions", p_primitive.get_path(), "has no POSITION; it is left out.");
 		return nullptr;
 	}
-	std::vector<glm::vec3> positions = *accessors.read_vectors(*positions_index);
-	for (size_t index = 0; index < positions.size(); ++index) {
-		const glm::vec3 &position = positions[index];
-		if (!std::isfinite(position.x) || !std::isfinite(position.y) ||
-				!std::isfinite(position.z)) {
-			attributes.fail_at("POSITION",
-					text("of mesh \"", p_name, "\": vertex ", index,
-							" is not finite. Correct it or export the file again."));
-		}
-	}
-	std::vector<glm::vec3> normals;
+	// Shared, not copied: a file of some kilobytes may have a thousand primitives of one array.
+	const auto all_positions = accessors.read_vectors(*positions_index);
+	check_finite(attributes, *positions_index, *all_positions, p_name);
+	std::shared_ptr<const std::vector<glm::vec3>> all_normals;
 	if (const std::optional<size_t> index = attributes.find_index("NORMAL", accessor_count)) {
-		normals = *accessors.read_vectors(*index);
-		if (normals.size() != positions.size()) {
+		all_normals = accessors.read_vectors(*index);
+		if (all_normals->size() != all_positions->size()) {
 			attributes.fail_at("NORMAL",
-					text("has ", normals.size(), " elements, must be ", positions.size(),
+					text("has ", all_normals->size(), " elements, must be ", all_positions->size(),
 							", one per POSITION. Export the file again."));
 		}
 	}
 	std::vector<uint32_t> indices;
 	if (const std::optional<size_t> index = p_primitive.find_index("indices", accessor_count)) {
-		indices = accessors.read_indices(*index, positions.size());
+		indices = accessors.read_indices(*index, all_positions->size());
 	} else {
-		for (uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
+		for (uint32_t vertex = 0; vertex < all_positions->size(); ++vertex) {
 			indices.push_back(vertex);
 		}
 	}
@@ -143,7 +166,16 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 	if (indices.empty()) {
 		return nullptr;
 	}
-	keep_used_vertices(positions, normals, indices);
+	std::vector<glm::vec3> positions;
+	std::vector<glm::vec3> normals;
+	if (indices.size() >= all_positions->size()) {
+		positions = *all_positions;
+		normals = all_normals ? *all_normals : normals;
+	} else {
+		const std::vector<uint32_t> used = find_used_vertices(all_positions->size(), indices);
+		positions = gather(*all_positions, used);
+		normals = all_normals ? gather(*all_normals, used) : normals;
+	}
 	vertex_count += positions.size();
 	index_count += indices.size();
 	if (vertex_count > GLTF_MAX_VERTEX_COUNT || index_count > GLTF_MAX_INDEX_COUNT) {

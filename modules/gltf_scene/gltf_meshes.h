@@ -5,6 +5,8 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -28,6 +30,9 @@ public:
 
 private:
 	std::shared_ptr<const Mesh> load_primitive(const GltfObject &p_primitive, std::string p_name);
+	/// Fails on a position that is not finite. An accessor is looked through once.
+	void check_finite(const GltfObject &p_attributes, size_t p_accessor_index,
+			const std::vector<glm::vec3> &p_positions, const std::string &p_name);
 	std::shared_ptr<const Material> load_material(const GltfObject &p_primitive);
 
 	GltfObject root;
@@ -36,7 +41,8 @@ private:
 	std::map<size_t, std::shared_ptr<const Material>> materials;
 	std::map<const Mesh *, size_t> primitive_indices;
 	std::shared_ptr<const Material> default_material = std::make_shared<const Material>();
-	uint64_t vertex_count = 0; // of all meshes so far, as are the indices
+	std::set<size_t> finite_accessors; // whose positions were looked through
+	uint64_t vertex_count = 0;		   // of all meshes so far, as are the indices
 	uint64_t index_count = 0;
 };
 

@@ -70,6 +70,8 @@ private:
 	GltfAccessors accessors;
 	GltfMeshes meshes;
 	UniqueNames names;
+	uint64_t surface_count = 0; // of all nodes so far, as are the values of lights
+	uint64_t light_value_count = 0;
 };
 
 void GltfReader::read(Scene &r_scene) {
@@ -180,7 +182,14 @@ Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_
 std::unique_ptr<Node3D> GltfReader::read_mesh_node(const GltfObject &p_node) {
 	auto instance = std::make_unique<MeshInstance3D>();
 	const size_t mesh_index = p_node.require_index("mesh", root.get_count("meshes"));
-	instance->surfaces = meshes.load_mesh(mesh_index);
+	const std::vector<MeshInstance3D::Surface> &surfaces = meshes.load_mesh(mesh_index);
+	surface_count += surfaces.size();
+	if (surface_count > GLTF_MAX_SURFACE_COUNT) {
+		p_node.fail_at("mesh",
+				text("makes ", surface_count, " primitives in all nodes, must be at most ",
+						GLTF_MAX_SURFACE_COUNT, ". Split the scene."));
+	}
+	instance->surfaces = surfaces;
 	if (!instance->surfaces.empty()) {
 		const auto key = GltfDocument::make_key(instance->surfaces);
 		if (document.mesh_indices.emplace(key, mesh_index).second) {
@@ -229,6 +238,15 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 	auto light = std::make_unique<Light3D>();
 	if (!read_light(places, options, *light)) {
 		return nullptr;
+	}
+	for (const auto &[name, value] : light->properties) {
+		const std::string *words = std::get_if<std::string>(&value);
+		light_value_count += 1 + (name.size() + (words ? words->size() : 0)) / 64;
+	}
+	if (light_value_count > GLTF_MAX_LIGHT_VALUE_COUNT) {
+		places.light.fail_at("extras",
+				text("make more than ", GLTF_MAX_LIGHT_VALUE_COUNT,
+						" values in all nodes with lights. Shorten them, or split the scene."));
 	}
 	r_name = to_one_line(places.light.get_text("name"));
 	r_name = r_name.empty() ? text("Light ", light_index) : r_name;

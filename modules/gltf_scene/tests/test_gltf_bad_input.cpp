@@ -286,3 +286,48 @@ TEST_CASE("[GltfBadInput] damaged bytes are refused or load, and never crash") {
 	}
 	CHECK(loaded_count > 100); // else nothing behind the parser was reached
 }
+
+TEST_CASE("[GltfBadInput] a thousand primitives of one large array are read by what they use") {
+	const GltfTestFolder folder;
+	Json json = make_triangle(folder);
+	json["accessors"][0] = { { "componentType", GLTF_TEST_FLOAT }, { "type", "VEC3" },
+		{ "count", 1 << 22 } };
+	const Json primitive = json["meshes"][0]["primitives"][0];
+	for (int i = 1; i < 1000; ++i) {
+		json["meshes"][0]["primitives"].push_back(primitive);
+	}
+	const auto scene = folder.load(json); // each once copied all 4 million vertices: minutes
+	const auto meshes = scene->find_nodes<MeshInstance3D>();
+	REQUIRE(meshes.size() == 1);
+	REQUIRE(meshes[0]->surfaces.size() == 1000);
+	CHECK(meshes[0]->surfaces[999].mesh->positions_node.size() == 3);
+}
+
+TEST_CASE("[GltfBadInput] shared definitions that would fill the memory are refused") {
+	const GltfTestFolder folder;
+	Json json = make_triangle(folder);
+	const Json primitive = json["meshes"][0]["primitives"][0];
+	for (int i = 1; i < 5000; ++i) {
+		json["meshes"][0]["primitives"].push_back(primitive);
+	}
+	json.erase("scenes");
+	json.erase("scene");
+	json["nodes"] = Json::array();
+	for (int i = 0; i < 900; ++i) {
+		json["nodes"].push_back({ { "mesh", 0 } });
+	}
+	CHECK(get_load_error(folder, json).find("primitives in all nodes") != std::string::npos);
+
+	Json lamps = make_lamp();
+	Json &light = lamps["extensions"]["KHR_lights_punctual"]["lights"][0];
+	for (int i = 0; i < 4000; ++i) {
+		light["extras"]["other_" + std::to_string(i)] = i;
+	}
+	const Json node = lamps["nodes"][0];
+	lamps.erase("scenes");
+	lamps.erase("scene");
+	for (int i = 1; i < 300; ++i) {
+		lamps["nodes"].push_back(node);
+	}
+	CHECK(get_load_error(folder, lamps).find("values in all nodes") != std::string::npos);
+}
