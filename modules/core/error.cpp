@@ -2,8 +2,16 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 
 namespace gnomon {
+
+std::string describe_failure(const std::exception &p_failure) {
+	if (dynamic_cast<const std::bad_alloc *>(&p_failure) != nullptr) {
+		return "Out of memory. Close other programs, or use a smaller scene or picture.";
+	}
+	return p_failure.what();
+}
 
 void abort_with_message(
 		const char *p_file, int p_line, const char *p_condition, const std::string &p_message) {

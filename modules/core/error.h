@@ -20,6 +20,15 @@ public:
 	using Error::Error;
 };
 
+/// The device works no more: each later call to it fails too, so there is no use in going on.
+class DeviceLost : public Error {
+public:
+	using Error::Error;
+};
+
+/// What a caught exception says. Of memory that ran out, which says nothing itself, what to do.
+std::string describe_failure(const std::exception &p_failure);
+
 /// Throws Error with the arguments joined by text().
 template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_arguments) {
 	throw Error(text(p_arguments...));

@@ -4,9 +4,6 @@
 #include "modules/core/log.h"
 
 #define XXH_INLINE_ALL
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -23,21 +20,6 @@ namespace {
 
 const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
 const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
-
-void write_all(int p_file, std::span<const uint8_t> p_bytes, const fs::path &p_path) {
-	size_t written = 0;
-	while (written < p_bytes.size()) {
-		const ssize_t count = ::write(p_file, p_bytes.data() + written, p_bytes.size() - written);
-		if (count < 0 && errno == EINTR) {
-			continue;
-		}
-		if (count <= 0) {
-			fail("Cannot write ", p_path, ": ", std::strerror(errno),
-					". Free some space or choose ", "another place.");
-		}
-		written += static_cast<size_t>(count);
-	}
-}
 
 /// What names a user's folder: two variables, a folder below the home, one below the temporary.
 struct UserFolder {
@@ -96,38 +78,6 @@ std::vector<uint8_t> load_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 std::string load_text_file(const fs::path &p_path, uint64_t p_limit_bytes) {
 	const std::vector<uint8_t> bytes = load_file(p_path, p_limit_bytes);
 	return std::string(bytes.begin(), bytes.end());
-}
-
-void save_file_atomically(const fs::path &p_path, std::span<const uint8_t> p_bytes) {
-	const fs::path folder = p_path.has_parent_path() ? p_path.parent_path() : fs::path(".");
-	std::string temporary = (folder / ("." + p_path.filename().string() + ".XXXXXX")).string();
-	const int file = ::mkstemp(temporary.data());
-	if (file < 0) {
-		fail("Cannot write ", p_path, ": ", std::strerror(errno),
-				". The folder must exist and be writable.");
-	}
-	try {
-		write_all(file, p_bytes, p_path);
-		::fchmod(file, 0644);
-		if (::fsync(file) != 0) {
-			fail("Cannot write ", p_path, ": ", std::strerror(errno), ".");
-		}
-	} catch (...) {
-		::close(file);
-		::unlink(temporary.c_str());
-		throw;
-	}
-	::close(file);
-	if (::rename(temporary.c_str(), p_path.c_str()) != 0) {
-		const std::string reason = std::strerror(errno);
-		::unlink(temporary.c_str());
-		fail("Cannot write ", p_path, ": ", reason, ". Choose another place.");
-	}
-}
-
-void save_file_atomically(const fs::path &p_path, std::string_view p_text) {
-	save_file_atomically(
-			p_path, std::span(reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size()));
 }
 
 bool is_inside_folder(const fs::path &p_path, const fs::path &p_folder) {

@@ -52,17 +52,18 @@ bool GltfSideFiles::is_taken(const std::string &p_name, const std::vector<uint8_
 }
 
 std::string GltfSideFiles::add(const std::string &p_wanted_name, std::vector<uint8_t> p_bytes) {
-	const fs::path wanted(p_wanted_name);
 	std::string name = p_wanted_name;
-	for (int number = 2; is_taken(name, p_bytes); ++number) {
-		name = text(wanted.stem().string(), "_", number, wanted.extension().string());
+	for (size_t number = 2; is_taken(name, p_bytes); ++number) {
+		name = number_name(p_wanted_name, number);
 	}
 	files[name] = std::move(p_bytes);
 	return name;
 }
 
-void GltfSideFiles::replace(const std::string &p_name, std::vector<uint8_t> p_bytes) {
-	files[p_name] = std::move(p_bytes);
+std::string GltfSideFiles::number_name(const std::string &p_name, size_t p_number) {
+	const fs::path path(p_name);
+	return p_number < 2 ? p_name
+						: text(path.stem().string(), "_", p_number, path.extension().string());
 }
 
 void GltfSideFiles::save() const {

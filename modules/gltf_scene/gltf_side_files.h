@@ -18,8 +18,9 @@ public:
 	/// Notes a file to write and returns the name it gets: the wanted one, or where another file
 	/// has that name already, one with a number.
 	std::string add(const std::string &p_wanted_name, std::vector<uint8_t> p_bytes);
-	/// As add, but replaces what has the name.
-	void replace(const std::string &p_name, std::vector<uint8_t> p_bytes);
+	/// The names that add tries: "desk.bin", "desk_2.bin", and so on.
+	static std::string number_name(const std::string &p_name, size_t p_number);
+	bool contains(const std::string &p_name) const { return files.count(p_name) > 0; }
 	void save() const;
 
 private:

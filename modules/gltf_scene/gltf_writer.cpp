@@ -49,9 +49,36 @@ NewBuffer choose_buffer(const GltfContainer &p_container, GltfForm p_form) {
 	return chosen;
 }
 
+/// The buffer that an earlier save of a generated scene put beside the file; empty: none.
+fs::path find_own_buffer(const fs::path &p_path) {
+	const size_t MOST_NAMES = 100;
+	std::error_code code;
+	if (!fs::is_regular_file(p_path, code)) {
+		return {};
+	}
+	try {
+		const Json json = Json::parse(load_text_file(p_path, GLTF_MAX_FILE_BYTES));
+		if (json.at("asset").at("generator") != make_empty_document()["asset"]["generator"]) {
+			return {};
+		}
+		const Json &uri = json.at("buffers").at(0).at("uri");
+		for (size_t number = 1; number < MOST_NAMES; ++number) {
+			const std::string name =
+					GltfSideFiles::number_name(p_path.stem().string() + ".bin", number);
+			if (uri == encode_uri(name)) {
+				return fs::absolute(p_path).parent_path() / name;
+			}
+		}
+	} catch (const Json::exception &) {
+		// Not one of ours.
+	} catch (const Error &) {
+		// Nor one that can be read.
+	}
+	return {};
+}
+
 void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
-		const fs::path &p_path, bool p_is_generated, GltfContainer &r_container,
-		GltfSideFiles &r_files) {
+		const fs::path &p_path, GltfContainer &r_container, GltfSideFiles &r_files) {
 	if (p_bytes.empty()) {
 		return;
 	}
@@ -68,13 +95,8 @@ void store_bytes(const NewBuffer &p_buffer, const std::vector<uint8_t> &p_bytes,
 		chunk.insert(chunk.end(), p_bytes.begin(), p_bytes.end());
 		return;
 	}
-	std::string name = p_path.stem().string() + ".bin";
-	if (p_is_generated) {
-		r_files.replace(name, p_bytes); // the one that a save before this one left
-	} else {
-		name = r_files.add(name, p_bytes);
-	}
-	buffer["uri"] = encode_uri(name);
+	// Another name than that of the file there now: until the scene is saved, both are needed.
+	buffer["uri"] = encode_uri(r_files.add(p_path.stem().string() + ".bin", p_bytes));
 }
 
 std::set<const Material *> find_materials(const Scene &p_scene) {
@@ -106,18 +128,23 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 		GltfMeshWriter meshes(
 				container.json, buffer.index, buffer.first_byte, document, find_materials(p_scene));
 		GltfNodeWriter(document, container.json, meshes).write(p_scene);
-		store_bytes(buffer, meshes.get_bytes(), p_path, !document, container, files);
+		store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
 	} catch (const Json::exception &error) {
 		// What reading had no need to look at may be of another kind than the format says.
 		fail(messages.describe("JSON",
 				text("cannot be changed as the file it came from is not valid: ", error.what(),
 						". Export that file again.")));
 	}
+	const fs::path before = document ? fs::path() : find_own_buffer(p_path);
 	files.save();
 	if (form == GltfForm::BINARY) {
 		save_file_atomically(p_path, build_glb(container, messages));
 	} else {
 		save_file_atomically(p_path, build_gltf_text(container.json));
+	}
+	if (!before.empty() && !files.contains(before.filename().string())) {
+		std::error_code code;
+		fs::remove(before, code); // no longer needed
 	}
 }
 

@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/module_registry.h"
+#include "modules/core/tests/killed_process.h"
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/editor/editor_document.h"
 #include "modules/scene/node_properties.h"
@@ -103,6 +104,36 @@ TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
 	document.save();
 	CHECK_FALSE(document.has_recovery());
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
+}
+
+TEST_CASE("[EditorDocument] killed at any step of saving, what was kept aside or saved is there") {
+	const EditedProject project;
+	const std::string before = load_text_file(project.scene);
+	const size_t ASIDE_STEP_COUNT = 4; // made, written, synced, renamed
+	size_t step_count = 0;
+	const auto edit = [&] {
+		EditorDocument document(project.path);
+		document.set_property(find_light(document), "light_size", 0.75);
+		document.save_aside();
+		document.save();
+	};
+	const size_t kill_count = kill_at_each_save_step(edit, [&] {
+		++step_count;
+		EditorDocument document(project.path);
+		CHECK(document.get_failure().empty());
+		const bool is_saved = get_size(document) == 0.75;
+		CHECK(document.has_recovery() == (step_count >= ASIDE_STEP_COUNT && step_count <= 8));
+		if (document.has_recovery()) {
+			document.recover();
+			CHECK(get_size(document) == 0.75);
+			document.discard_recovery();
+		} else {
+			CHECK(is_saved == (step_count > 8));
+		}
+		save_file_atomically(project.scene, before);
+		remove_left_over_files(project.path);
+	});
+	CHECK(kill_count == 2 * ASIDE_STEP_COUNT);
 }
 
 TEST_CASE("[EditorDocument] what an earlier program kept aside stays until it is answered for") {

@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
+#include "modules/core/tests/killed_process.h"
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/error_report/record_store.h"
 
@@ -26,6 +27,25 @@ void damage_file(const fs::path &p_path, size_t p_place) {
 }
 
 } // namespace
+
+TEST_CASE("[ErrorReport] killed at any step of saving a record, it is there whole or not at all") {
+	TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const LogSink before = set_log_sink([](LogLevel, const std::string &p_line) { FAIL(p_line); });
+	size_t found_count = 0;
+	const size_t kill_count = kill_at_each_save_step([&] { store.save(NAME, CONTENT, IMAGE); },
+			[&] {
+				const std::optional<Json> found = store.load(NAME);
+				CHECK((!found || *found == CONTENT));
+				found_count += found.has_value();
+				store.remove(NAME);
+				remove_left_over_files(folder.path);
+				CHECK(fs::is_empty(folder.path));
+			});
+	CHECK(kill_count == 8); // the picture and the record: made, written, synced, renamed
+	CHECK(found_count == 2);
+	set_log_sink(before);
+}
 
 TEST_CASE("[ErrorReport] a record is read back as it was saved") {
 	TemporaryFolder folder;

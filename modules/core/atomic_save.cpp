@@ -1,0 +1,161 @@
+#include "modules/core/atomic_save.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <set>
+
+namespace gnomon {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const size_t CHUNK_BYTES = size_t(1) << 20; // written at once
+const size_t LONGEST_SHARE_OF_NAME = 128;	// of the target's, so that a name of 255 bytes works
+const int LOCK_ATTEMPT_COUNT = 8;
+
+std::function<void()> step_hook;
+
+void end_step() {
+	if (step_hook) {
+		step_hook();
+	}
+}
+
+/// False: another process writes the file, or the file system knows no locks.
+bool lock(int p_file) {
+	return ::flock(p_file, LOCK_EX | LOCK_NB) == 0;
+}
+
+/// A file beside the target that is written, then renamed. Vanishes unless it was.
+class UnfinishedFile {
+public:
+	explicit UnfinishedFile(const fs::path &p_target) : target(p_target) {
+		const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+		remove_once(folder);
+		const std::string share = target.filename().string().substr(0, LONGEST_SHARE_OF_NAME);
+		for (int attempt = 0; attempt < LOCK_ATTEMPT_COUNT; ++attempt) {
+			path = (folder / ("." + share + ".XXXXXX")).string() +
+					std::string(UNFINISHED_FILE_ENDING);
+			file = ::mkostemps(
+					path.data(), static_cast<int>(UNFINISHED_FILE_ENDING.size()), O_CLOEXEC);
+			if (file < 0) {
+				fail("Cannot write ", target, ": ", std::strerror(errno),
+						". The folder must exist and be writable.");
+			}
+			// Before the lock was taken, another process may have thought it left over.
+			struct stat status = {};
+			lock(file);
+			if (::fstat(file, &status) == 0 && status.st_nlink > 0) {
+				return;
+			}
+			::close(file);
+		}
+		fail("Cannot write ", target, ": another program removes the files beside it. End that ",
+				"program, or choose another place.");
+	}
+	~UnfinishedFile() {
+		if (!is_renamed) {
+			::unlink(path.c_str());
+		}
+		::close(file); // and only now the lock goes
+	}
+	UnfinishedFile(const UnfinishedFile &) = delete;
+	UnfinishedFile &operator=(const UnfinishedFile &) = delete;
+
+	void write(std::span<const uint8_t> p_bytes) {
+		size_t written = 0;
+		while (written < p_bytes.size()) {
+			const size_t wanted = std::min(CHUNK_BYTES, p_bytes.size() - written);
+			const ssize_t count = ::write(file, p_bytes.data() + written, wanted);
+			if (count < 0 && errno == EINTR) {
+				continue;
+			}
+			if (count <= 0) {
+				fail("Cannot write ", target, ": ", std::strerror(errno),
+						". Free some space or choose another place.");
+			}
+			written += static_cast<size_t>(count);
+			end_step();
+		}
+	}
+
+	void finish() {
+		::fchmod(file, 0644);
+		if (::fsync(file) != 0) {
+			fail("Cannot write ", target, ": ", std::strerror(errno),
+					". Free some space or choose another place.");
+		}
+		end_step();
+		if (::rename(path.c_str(), target.c_str()) != 0) {
+			fail("Cannot write ", target, ": ", std::strerror(errno), ". Choose another place.");
+		}
+		is_renamed = true;
+		end_step();
+	}
+
+private:
+	/// Leftovers are of earlier processes: looking once for each folder is enough.
+	static void remove_once(const fs::path &p_folder) {
+		static std::mutex mutex;
+		static std::set<fs::path> seen;
+		const std::lock_guard lock_guard(mutex);
+		if (seen.insert(fs::absolute(p_folder)).second) {
+			remove_left_over_files(p_folder);
+		}
+	}
+
+	const fs::path &target;
+	std::string path;
+	int file = -1;
+	bool is_renamed = false;
+};
+
+} // namespace
+
+void remove_left_over_files(const fs::path &p_folder) {
+	std::error_code code;
+	for (fs::directory_iterator entry(p_folder, code), end; !code && entry != end;
+			entry.increment(code)) {
+		const std::string name = entry->path().filename().string();
+		if (!name.starts_with('.') || !name.ends_with(UNFINISHED_FILE_ENDING)) {
+			continue;
+		}
+		const int file = ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+		if (file >= 0) {
+			if (lock(file)) {
+				::unlink(entry->path().c_str());
+			}
+			::close(file);
+		}
+	}
+}
+
+std::function<void()> set_save_step_hook(std::function<void()> p_hook) {
+	return std::exchange(step_hook, std::move(p_hook));
+}
+
+void save_file_atomically(const fs::path &p_path, std::span<const uint8_t> p_bytes) {
+	UnfinishedFile file(p_path);
+	end_step();
+	file.write(p_bytes);
+	file.finish();
+}
+
+void save_file_atomically(const fs::path &p_path, std::string_view p_text) {
+	save_file_atomically(
+			p_path, std::span(reinterpret_cast<const uint8_t *>(p_text.data()), p_text.size()));
+}
+
+} // namespace gnomon

@@ -1,0 +1,138 @@
+#include "modules/core/atomic_save.h"
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/core/log.h"
+#include "modules/core/tests/killed_process.h"
+#include "modules/core/tests/temporary_folder.h"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <fstream>
+#include <random>
+
+using namespace gnomon;
+namespace fs = std::filesystem;
+
+namespace {
+
+const size_t LARGE_BYTES = (5u << 20) / 2; // written in three parts
+
+std::string make_content(char p_letter, size_t p_bytes = LARGE_BYTES) {
+	return std::string(p_bytes, p_letter);
+}
+
+} // namespace
+
+TEST_CASE("[AtomicSave] killed at any step, the old file or the new one is there whole") {
+	const TemporaryFolder folder;
+	const fs::path file = folder.path / "scene.gltf";
+	const std::string before = make_content('a');
+	const std::string after = make_content('b', 2 * LARGE_BYTES);
+	save_file_atomically(file, before);
+	size_t new_count = 0;
+	const size_t kill_count = kill_at_each_save_step([&] { save_file_atomically(file, after); },
+			[&] {
+				const std::string found = load_text_file(file);
+				CHECK((found == before || found == after));
+				new_count += found == after;
+				CHECK(count_unfinished_files(folder.path) <= 1);
+				remove_left_over_files(folder.path);
+				CHECK(count_unfinished_files(folder.path) == 0);
+				save_file_atomically(file, before);
+			});
+	CHECK(kill_count == 8); // made, five parts, synced, renamed
+	CHECK(new_count == 2);	// killed after the last step, and not at all
+}
+
+TEST_CASE("[AtomicSave] what killed processes left is removed by the next one that saves there") {
+	const TemporaryFolder folder;
+	const fs::path file = folder.path / "a";
+	const auto save = [&] { save_file_atomically(file, "text"); };
+	for (int repeat = 0; repeat < 5; ++repeat) {
+		const pid_t child = start_process(
+				[] { set_save_step_hook([] { ::kill(::getpid(), SIGKILL); }); }, save);
+		CHECK(wait_for_kill(child));
+		CHECK(count_unfinished_files(folder.path) == 1);
+	}
+	CHECK_FALSE(wait_for_kill(start_process([] {}, save)));
+	CHECK(count_unfinished_files(folder.path) == 0);
+	CHECK(load_text_file(file) == "text");
+}
+
+TEST_CASE("[AtomicSave] a file that a living process writes, and those of others, stay") {
+	const TemporaryFolder folder;
+	const std::string ending(UNFINISHED_FILE_ENDING);
+	const fs::path left_over = folder.path / (".a.abcdef" + ending);
+	const fs::path written = folder.path / (".b.abcdef" + ending);
+	const fs::path other = folder.path / ".scene.backup";
+	for (const fs::path &path : { left_over, written, other }) {
+		std::ofstream(path) << "x";
+	}
+	const int file = ::open(written.c_str(), O_RDWR);
+	REQUIRE(::flock(file, LOCK_EX) == 0);
+	remove_left_over_files(folder.path);
+	CHECK_FALSE(fs::exists(left_over));
+	CHECK(fs::exists(written));
+	CHECK(fs::exists(other));
+	::close(file);
+	remove_left_over_files(folder.path);
+	CHECK_FALSE(fs::exists(written));
+	remove_left_over_files(folder.path / "missing"); // nothing to do is no failure
+}
+
+TEST_CASE("[AtomicSave] a process that is killed at a random time while it saves loses nothing") {
+	const TemporaryFolder folder;
+	const fs::path file = folder.path / "a";
+	const std::string first = make_content('a');
+	const std::string second = make_content('b', 3 * LARGE_BYTES);
+	std::ofstream(file) << first; // each process shall be the first of its kind that saves here
+	std::mt19937 random(20100901);
+	std::uniform_int_distribution<int> choose_us(0, 30000);
+	const int kill_count = get_kill_count(10);
+	for (int index = 0; index < kill_count; ++index) {
+		CAPTURE(index);
+		kill_after(std::chrono::microseconds(choose_us(random)), [&] {
+			for (bool is_first = true;; is_first = !is_first) {
+				save_file_atomically(file, is_first ? second : first);
+			}
+		});
+		const std::string found = load_text_file(file);
+		CHECK((found == first || found == second));
+		CHECK(count_unfinished_files(folder.path) <= 1); // each has removed that of the one before
+	}
+}
+
+TEST_CASE("[AtomicSave] killed while it writes a cache entry, the next start has it whole or not") {
+	const TemporaryCache cache;
+	const std::vector<uint8_t> before(3000, 1);
+	const std::vector<uint8_t> after(LARGE_BYTES, 2);
+	const LogSink sink = set_log_sink([](LogLevel, const std::string &p_line) { FAIL(p_line); });
+	SUBCASE("there was none") {
+		const size_t kill_count = kill_at_each_save_step([&] { save_cache_entry("entry", after); },
+				[&] {
+					const std::vector<uint8_t> found = load_cache_entry("entry");
+					CHECK((found.empty() || found == after));
+					fs::remove(cache.path / "entry");
+				});
+		CHECK(kill_count == 6);
+	}
+	SUBCASE("there was another") {
+		save_cache_entry("entry", before);
+		kill_at_each_save_step([&] { save_cache_entry("entry", after); },
+				[&] {
+					const std::vector<uint8_t> found = load_cache_entry("entry");
+					CHECK((found == before || found == after));
+				});
+	}
+	set_log_sink(sink);
+}
+
+TEST_CASE("[AtomicSave] a name of 255 bytes can be saved, one of 256 is refused") {
+	const TemporaryFolder folder;
+	save_file_atomically(folder.path / std::string(255, 'n'), "x");
+	CHECK(load_text_file(folder.path / std::string(255, 'n')) == "x");
+	CHECK_THROWS_AS(save_file_atomically(folder.path / std::string(256, 'n'), "x"), Error);
+	CHECK(count_unfinished_files(folder.path) == 0);
+}
