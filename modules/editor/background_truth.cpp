@@ -30,7 +30,7 @@ void BackgroundTruth::start(
 			run(make, p_sample_count);
 		} catch (const std::exception &error) {
 			const std::lock_guard lock(mutex);
-			failure = error.what();
+			failure = describe_failure(error);
 		}
 		is_busy = false;
 	});

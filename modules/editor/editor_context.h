@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/error.h"
 #include "modules/editor/background_truth.h"
 #include "modules/editor/editor_document.h"
 #include "modules/editor/orbit_camera.h"
@@ -151,7 +152,7 @@ struct EditorContext {
 		try {
 			p_action();
 		} catch (const std::exception &failure) {
-			complain(failure.what());
+			complain(describe_failure(failure));
 		}
 	}
 };

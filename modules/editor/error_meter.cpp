@@ -71,7 +71,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 			r_context.viewport.needs_picture |= r_context.viewport.debug_view == "error";
 		}
 	} catch (const std::exception &error) {
-		refuse(state, error.what());
+		refuse(state, describe_failure(error));
 	}
 	r_context.viewport.needs_picture |=
 			std::exchange(is_error_stale, false) && r_context.viewport.debug_view == "error";

@@ -48,7 +48,7 @@ void PictureMaker::update(EditorContext &r_context) {
 			divisor = std::max(divisor - 1, LEAST_DIVISOR);
 		}
 	} catch (const std::exception &error) {
-		r_context.complain(error.what());
+		r_context.complain(describe_failure(error));
 		is_coarse = false;
 	}
 }
@@ -84,7 +84,7 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 		draw_compared(r_context, request);
 	} catch (const std::exception &failure) {
 		compared_picture.reset(); // it would show something else than the one beside it
-		r_context.complain(failure.what());
+		r_context.complain(describe_failure(failure));
 	}
 	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 	if (!r_context.shown.debug_views.empty()) {

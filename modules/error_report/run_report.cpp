@@ -12,7 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <new>
 #include <optional>
 #include <set>
 
@@ -52,10 +51,11 @@ template <typename Work> std::optional<std::string> find_failure(Work p_work) {
 	try {
 		p_work();
 		return std::nullopt;
-	} catch (const std::bad_alloc &) {
-		return "Out of memory. Close other programs, or use a smaller --size.";
+	} catch (const DeviceLost &error) {
+		// All that is left would fail too; it is not marked, so that a resume measures it.
+		throw DeviceLost(text(error.what(), " What was measured is kept: go on with --resume."));
 	} catch (const std::exception &error) {
-		return error.what();
+		return describe_failure(error);
 	}
 }
 

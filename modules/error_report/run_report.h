@@ -20,7 +20,7 @@ struct RunOptions {
 };
 
 /// Measures what the plan asks for and keeps each result in the store at once. A truth or cell that
-/// fails is marked and the rest goes on. Shows its progress.
+/// fails is marked and the rest goes on; a lost device ends it with DeviceLost. Shows its progress.
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
 		const RunOptions &p_options);
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <new>
+#include <cstdlib>
 
 namespace {
 
@@ -56,11 +56,13 @@ int main(int p_argument_count, char **p_arguments) {
 	} catch (const UsageError &error) {
 		log_error(error.what());
 		result = 2;
-	} catch (const std::bad_alloc &) {
-		log_error("Out of memory. Close other programs, or use a smaller scene or --size.");
 	} catch (const std::exception &error) {
-		log_error(error.what());
+		log_error(describe_failure(error));
 	}
 	ModuleRegistry::uninitialize();
+	if (RenderingDevice::has_hung()) {
+		std::fflush(nullptr);
+		std::_Exit(result); // the driver's own threads would be waited for
+	}
 	return result;
 }

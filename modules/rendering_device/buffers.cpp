@@ -73,7 +73,7 @@ BufferResource RenderingDevice::Impl::make_buffer(const BufferDesc &p_desc) {
 					"vkCreateBufferView");
 			set_name(VK_OBJECT_TYPE_BUFFER_VIEW, buffer.texel_view, p_desc.name);
 		}
-	} catch (const Error &) {
+	} catch (...) {
 		destroy(buffer);
 		throw;
 	}
@@ -101,7 +101,7 @@ BufferRID RenderingDevice::create_buffer_with_data(
 	const BufferRID buffer = impl->buffers.add(impl->make_buffer(p_desc));
 	try {
 		impl->add_buffer_upload(buffer, p_bytes);
-	} catch (const Error &) {
+	} catch (...) {
 		free(buffer);
 		throw;
 	}

@@ -230,7 +230,7 @@ std::vector<DeviceInfo> RenderingDevice::list_devices() {
 		for (const PhysicalDevice &device : find_physical_devices(instance.get(), false)) {
 			infos.push_back(device.info);
 		}
-	} catch (const Error &) {
+	} catch (...) {
 		// Without Vulkan there are none; create() says what to install.
 	}
 	return infos;

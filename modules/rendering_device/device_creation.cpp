@@ -89,6 +89,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	physical = choose_device(
 			find_physical_devices(instance->get(), p_options.needs_surface), p_options.device);
 
+	read_environment();
 	VkPhysicalDeviceMaintenance4Properties maintenance4 = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES
 	};
@@ -173,7 +174,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 		end_conditional_rendering = reinterpret_cast<PFN_vkCmdEndConditionalRenderingEXT>(
 				vkGetDeviceProcAddr(device, "vkCmdEndConditionalRenderingEXT"));
 	}
-	allocator.initialize(physical.handle, device, has_budget, p_options.memory_budget_bytes);
+	allocator.initialize(physical.handle, device, has_budget, options.memory_budget_bytes);
 	recording.device = this;
 	create_slots();
 	load_pipeline_cache();
@@ -184,7 +185,11 @@ void RenderingDevice::Impl::shutdown() {
 		return; // creation failed before there was one
 	}
 	GNOMON_ASSERT(!swapchain, "The swapchain must end before its device.");
-	vkDeviceWaitIdle(device); // also after a loss, where it returns at once
+	if (!has_ended()) {
+		log_error("The device is left as it is, since it does not answer.");
+		instance->abandon();
+		return;
+	}
 	for (const std::string &name : list_live_resources()) {
 		log_error("Leaked ", name, ". Free it before the device ends.");
 	}

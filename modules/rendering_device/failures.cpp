@@ -33,7 +33,7 @@ void RenderingDevice::Impl::check(VkResult p_result, const char *p_call) {
 
 void RenderingDevice::Impl::fail_if_lost() const {
 	if (!lost_text.empty()) {
-		throw Error(lost_text);
+		throw DeviceLost(lost_text);
 	}
 }
 
@@ -45,7 +45,7 @@ void RenderingDevice::Impl::fail_as_lost(const std::string &p_span_name) {
 		lost_text += "Restart the program; if it happens again, lower the sizes this pass works "
 					 "with, update the driver, or choose another device with --device.";
 	}
-	throw Error(lost_text);
+	throw DeviceLost(lost_text);
 }
 
 std::string RenderingDevice::Impl::find_last_span_begun() const {
@@ -55,16 +55,8 @@ std::string RenderingDevice::Impl::find_last_span_begun() const {
 		std::swap(ordered[0], ordered[1]);
 	}
 	for (const SubmissionSlot *slot : ordered) {
-		if (!slot->breadcrumbs.memory.block) {
-			continue;
-		}
-		const auto *words = reinterpret_cast<const uint32_t *>(
-				slot->breadcrumbs.memory.block->mapped + slot->breadcrumbs.memory.offset_bytes);
-		const size_t count = std::min<size_t>(slot->span_names.size(), MAX_BREADCRUMBS);
-		for (size_t index = count; index-- > 0;) {
-			if (words[index] == static_cast<uint32_t>(slot->number)) {
-				return slot->span_names[index];
-			}
+		if (const size_t begun_count = count_begun_spans(*slot); begun_count > 0) {
+			return slot->span_names[begun_count - 1];
 		}
 	}
 	for (const SubmissionSlot *slot : ordered) {

@@ -134,7 +134,7 @@ PipelineResource RenderingDevice::Impl::make_pipeline(const ComputePipelineDesc 
 		check(vkCreateComputePipelines(
 					  device, pipeline_cache, 1, &info, nullptr, &pipeline.pipeline),
 				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
-	} catch (const Error &) {
+	} catch (...) {
 		destroy(pipeline);
 		throw;
 	}

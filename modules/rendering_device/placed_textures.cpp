@@ -75,7 +75,7 @@ TextureRID RenderingDevice::create_placed_texture(
 	try {
 		impl->check(vkBindImageMemory(impl->device, texture.image, block.memory, offset),
 				"vkBindImageMemory");
-	} catch (const Error &) {
+	} catch (...) {
 		impl->destroy(texture);
 		throw;
 	}

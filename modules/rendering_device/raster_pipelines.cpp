@@ -259,7 +259,7 @@ PipelineResource RenderingDevice::Impl::make_pipeline(const RasterPipelineDesc &
 	try {
 		create_layout(pipeline, stages.get_reflected());
 		pipeline.pipeline = create_raster_pipeline(p_desc, pipeline.layout, stages.get_infos());
-	} catch (const Error &) {
+	} catch (...) {
 		destroy(pipeline);
 		throw;
 	}

@@ -19,9 +19,13 @@ class Swapchain;
 struct DeviceOptions {
 	std::string
 			device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
-	bool validation = false;		  // validation and synchronization layers
-	uint64_t memory_budget_bytes = 0; // 0 = what the device reports, at most 90 % of its heap
-	bool needs_surface = false;		  // a window will be shown
+	bool validation = false; // validation and synchronization layers
+	/// 0 = $GNOMON_MEMORY_BUDGET_MIB, else what the device reports, at most 90 % of its heap.
+	uint64_t memory_budget_bytes = 0;
+	/// A wait in which no submission ends and no pass begins for so long is an Error. 0 = waits for
+	/// ever. Absent = $GNOMON_DEVICE_TIMEOUT_S, else 60 s, of a CPU 600 s.
+	std::optional<double> wait_limit_s;
+	bool needs_surface = false;					  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
 	/// For tests: pretend that the device lacks these.
 	struct Without {
@@ -71,6 +75,9 @@ struct MemoryUse {
 	uint64_t peak_bytes = 0; // highest used_bytes since the device began
 };
 
+/// What tests can let happen to a submission; $GNOMON_INJECT_FAULT likewise, "device_lost@12".
+enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
+
 /// Time of one span between two timestamps of a finished submission.
 struct GpuSpan {
 	std::string name;
@@ -79,7 +86,8 @@ struct GpuSpan {
 
 /// The Vulkan device and everything that lives on it. One thread uses it. Every failure is an
 /// Error that names the object, the value, the limit and the next step; after a lost device every
-/// call fails with the text of the first report, which names the last pass that had begun.
+/// call fails with the text of the first report, which names the last pass that had begun. Those
+/// are DeviceLost, and so is a device that makes no progress, see DeviceOptions::wait_limit_s.
 ///
 /// Resources are handles. free() may be called while the GPU still uses the resource: it is
 /// destroyed when the submission that was recorded last has finished. What is still alive when the
@@ -166,8 +174,13 @@ public:
 	/// is ignored with a log line and replaced.
 	void save_pipeline_cache();
 
-	/// Test hook: the next submission reports a lost device.
-	void inject_device_lost();
+	/// Test hook: the next submission fails so, once.
+	void inject_fault(Fault p_fault);
+	/// Test hook: lets the submission go on that an injected Fault::HANG holds.
+	void release_injected_hang();
+	/// A device of this process hangs and could not be ended: what belongs to it stays, and the
+	/// program must be left with std::_Exit, since the driver waits for it too.
+	static bool has_hung();
 
 	struct Impl; // defined in rendering_device_impl.h, which includes Vulkan
 	Impl &get_impl() { return *impl; }

@@ -109,6 +109,11 @@ struct SubmissionSlot {
 	BufferResource breadcrumbs; // word i: the submission in which span i began last
 };
 
+struct InjectedFault {
+	Fault fault = Fault::NONE;
+	uint64_t submission_number = 0; // that it happens to
+};
+
 /// State of the recording between begin_commands and submit_commands.
 struct CommandList::Impl {
 	RenderingDevice::Impl *device = nullptr;
@@ -173,7 +178,10 @@ struct RenderingDevice::Impl {
 	std::vector<GpuSpan> gpu_spans;
 	Swapchain::Impl *swapchain = nullptr;
 
-	bool is_loss_injected = false;
+	InjectedFault injected_fault;
+	VkSemaphore never = VK_NULL_HANDLE; // that an injected hang waits for
+	double wait_limit_s = 0;			// 0: none
+	bool is_hung = false;  // lost because it made no progress; may still use everything
 	std::string lost_text; // empty while the device works
 
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
@@ -187,6 +195,9 @@ struct RenderingDevice::Impl {
 	void initialize(const DeviceOptions &p_options);
 	void shutdown();
 	std::vector<std::string> list_live_resources();
+
+	// device_environment.cpp
+	void read_environment();
 
 	// failures.cpp
 	/// Throws unless the call succeeded; a lost device is reported with the pass it happened in.
@@ -231,11 +242,21 @@ struct RenderingDevice::Impl {
 	void create_slots();
 	void destroy_slots();
 	uint64_t get_finished_number();
-	void wait_for(uint64_t p_submission_number);
 	/// Destroys what finished submissions no longer use and reads their timestamps.
 	void collect();
 	template <typename Resource> void defer_free(Resource &&p_resource);
 	void submit();
+	/// Throws what a test wants this submission to fail with; true: it is to hang.
+	bool meet_fault(const SubmissionSlot &p_slot);
+
+	// device_waits.cpp
+	/// Without progress for wait_limit_s: DeviceLost.
+	void wait_for(uint64_t p_submission_number);
+	VkResult wait_at_most(uint64_t p_submission_number, double p_seconds);
+	size_t count_begun_spans(const SubmissionSlot &p_slot) const;
+	[[noreturn]] void fail_as_hung(uint64_t p_finished_number);
+	/// Waits until the device does nothing any more. False: it hangs, and nothing may be destroyed.
+	bool has_ended();
 
 	// gpu_spans.cpp
 	void begin_span(const std::string &p_name);

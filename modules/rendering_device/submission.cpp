@@ -3,7 +3,8 @@
 #include "modules/rendering_device/swapchain_impl.h"
 
 #include <algorithm>
-#include <limits>
+#include <new>
+#include <utility>
 
 namespace gnomon {
 
@@ -38,6 +39,8 @@ void RenderingDevice::Impl::create_slots() {
 		.pNext = &timeline_info };
 	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &timeline), "vkCreateSemaphore");
 	set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "finished submissions");
+	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &never), "vkCreateSemaphore");
+	set_name(VK_OBJECT_TYPE_SEMAPHORE, never, "injected hang");
 	for (uint32_t index = 0; index < SLOT_COUNT; ++index) {
 		SubmissionSlot &slot = slots[index];
 		const VkCommandPoolCreateInfo pool_info = {
@@ -77,21 +80,13 @@ void RenderingDevice::Impl::destroy_slots() {
 		destroy(slot.breadcrumbs);
 	}
 	vkDestroySemaphore(device, timeline, nullptr);
+	vkDestroySemaphore(device, never, nullptr);
 }
 
 uint64_t RenderingDevice::Impl::get_finished_number() {
 	uint64_t finished = 0;
 	check(vkGetSemaphoreCounterValue(device, timeline, &finished), "vkGetSemaphoreCounterValue");
 	return finished;
-}
-
-void RenderingDevice::Impl::wait_for(uint64_t p_submission_number) {
-	const VkSemaphoreWaitInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
-		.semaphoreCount = 1,
-		.pSemaphores = &timeline,
-		.pValues = &p_submission_number };
-	check(vkWaitSemaphores(device, &info, std::numeric_limits<uint64_t>::max()),
-			"vkWaitSemaphores");
 }
 
 void RenderingDevice::Impl::collect() {
@@ -174,14 +169,26 @@ void RenderingDevice::submit_commands(SubmitMode p_mode) {
 	}
 }
 
+bool RenderingDevice::Impl::meet_fault(const SubmissionSlot &p_slot) {
+	if (injected_fault.submission_number != p_slot.number) {
+		return false;
+	}
+	const Fault fault = std::exchange(injected_fault, {}).fault;
+	if (fault == Fault::DEVICE_LOST) {
+		fail_as_lost(p_slot.span_names.empty() ? "" : p_slot.span_names.back());
+	}
+	if (fault == Fault::OUT_OF_MEMORY) {
+		throw std::bad_alloc();
+	}
+	return fault == Fault::HANG;
+}
+
 void RenderingDevice::Impl::submit() {
 	SubmissionSlot &slot = get_recording_slot();
 	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 	recording.is_recording = false;
 	check(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
-	if (is_loss_injected) {
-		fail_as_lost(slot.span_names.empty() ? "" : slot.span_names.back());
-	}
+	const bool is_to_hang = meet_fault(slot);
 	VkCommandBufferSubmitInfo command_infos[2] = {};
 	uint32_t command_count = 0;
 	const auto add_commands = [&](VkCommandBuffer p_commands) {
@@ -198,9 +205,20 @@ void RenderingDevice::Impl::submit() {
 
 	const bool is_waiting = swapchain && swapchain->must_wait();
 	const bool is_presenting = swapchain && swapchain->must_present();
-	const VkSemaphoreSubmitInfo wait = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-		.semaphore = is_waiting ? swapchain->get_acquisition() : VK_NULL_HANDLE,
-		.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	VkSemaphoreSubmitInfo waits[2] = {};
+	uint32_t wait_count = 0;
+	const auto add_wait = [&](VkSemaphore p_semaphore, uint64_t p_value) {
+		waits[wait_count++] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+			.semaphore = p_semaphore,
+			.value = p_value,
+			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	};
+	if (is_waiting) {
+		add_wait(swapchain->get_acquisition(), 0);
+	}
+	if (is_to_hang) {
+		add_wait(never, 1);
+	}
 	VkSemaphoreSubmitInfo signals[2] = {
 		{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
 				.semaphore = timeline,
@@ -213,8 +231,8 @@ void RenderingDevice::Impl::submit() {
 			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
 	}
 	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-		.waitSemaphoreInfoCount = is_waiting ? 1u : 0u,
-		.pWaitSemaphoreInfos = &wait,
+		.waitSemaphoreInfoCount = wait_count,
+		.pWaitSemaphoreInfos = waits,
 		.commandBufferInfoCount = command_count,
 		.pCommandBufferInfos = command_infos,
 		.signalSemaphoreInfoCount = is_presenting ? 2u : 1u,
@@ -244,12 +262,6 @@ void RenderingDevice::abandon_commands() {
 	impl->get_recording_slot().span_names.clear();
 }
 
-void RenderingDevice::wait_idle() {
-	impl->fail_if_lost();
-	impl->check(vkDeviceWaitIdle(impl->device), "vkDeviceWaitIdle");
-	impl->collect();
-}
-
 uint64_t RenderingDevice::get_submission_number() const {
 	return impl->submitted_number + (impl->recording.is_recording ? 1 : 0);
 }
@@ -257,10 +269,6 @@ uint64_t RenderingDevice::get_submission_number() const {
 bool RenderingDevice::is_submission_finished(uint64_t p_number) {
 	impl->fail_if_lost();
 	return p_number <= impl->get_finished_number();
-}
-
-void RenderingDevice::inject_device_lost() {
-	impl->is_loss_injected = true;
 }
 
 const std::vector<GpuSpan> &RenderingDevice::get_gpu_spans() const {

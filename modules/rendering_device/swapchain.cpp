@@ -13,6 +13,8 @@ namespace {
 constexpr VkImageUsageFlags IMAGE_USAGE =
 		VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
+constexpr uint64_t ACQUIRE_NS = 2'000'000'000;
+
 } // namespace
 
 Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_surface) :
@@ -39,7 +41,7 @@ Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_su
 	try {
 		impl->choose_format();
 		impl->create_semaphores();
-	} catch (const Error &) {
+	} catch (...) {
 		for (VkSemaphore semaphore : impl->acquisitions) {
 			vkDestroySemaphore(device.device, semaphore, nullptr);
 		}
@@ -51,14 +53,16 @@ Swapchain::Swapchain(RenderingDevice &p_device, const CreateSurface &p_create_su
 
 Swapchain::~Swapchain() {
 	RenderingDevice::Impl &device = impl->device;
-	vkDeviceWaitIdle(device.device);
+	device.swapchain = nullptr;
+	if (!device.has_ended()) {
+		return; // all of it may still be in use
+	}
 	impl->destroy_images();
 	vkDestroySwapchainKHR(device.device, impl->swapchain, nullptr);
 	for (VkSemaphore semaphore : impl->acquisitions) {
 		vkDestroySemaphore(device.device, semaphore, nullptr);
 	}
 	vkDestroySurfaceKHR(device.instance->get(), impl->surface, nullptr);
-	device.swapchain = nullptr;
 }
 
 glm::uvec2 Swapchain::get_size_px() const {
@@ -103,7 +107,8 @@ void Swapchain::Impl::destroy_images() {
 }
 
 bool Swapchain::Impl::recreate(glm::uvec2 p_window_size_px) {
-	device.check(vkDeviceWaitIdle(device.device), "vkDeviceWaitIdle");
+	device.wait_for(device.submitted_number);
+	device.check(vkDeviceWaitIdle(device.device), "vkDeviceWaitIdle"); // for what is presented
 	VkSurfaceCapabilitiesKHR capabilities = {};
 	device.check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
 						 device.physical.handle, surface, &capabilities),
@@ -199,9 +204,11 @@ std::optional<TextureRID> Swapchain::acquire(glm::uvec2 p_window_size_px) {
 		}
 		const size_t next = (impl->acquisition_index + 1) % Impl::ACQUISITION_COUNT;
 		uint32_t index = 0;
-		const VkResult result = vkAcquireNextImageKHR(device.device, impl->swapchain,
-				std::numeric_limits<uint64_t>::max(), impl->acquisitions[next], VK_NULL_HANDLE,
-				&index);
+		const VkResult result = vkAcquireNextImageKHR(device.device, impl->swapchain, ACQUIRE_NS,
+				impl->acquisitions[next], VK_NULL_HANDLE, &index);
+		if (result == VK_TIMEOUT || result == VK_NOT_READY) {
+			return std::nullopt; // some window systems take no pictures of a hidden window
+		}
 		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
 			impl->is_out_of_date = true;
 			continue;

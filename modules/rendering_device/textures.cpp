@@ -119,7 +119,7 @@ TextureRID RenderingDevice::create_texture(const TextureDesc &p_desc) {
 		impl->check(vkBindImageMemory(impl->device, texture.image, texture.memory.block->memory,
 							texture.memory.offset_bytes),
 				"vkBindImageMemory");
-	} catch (const Error &) {
+	} catch (...) {
 		impl->destroy(texture);
 		throw;
 	}
@@ -138,7 +138,7 @@ TextureRID RenderingDevice::create_texture_with_data(
 	const TextureRID texture = create_texture(p_desc);
 	try {
 		impl->add_texture_upload(texture, p_bytes);
-	} catch (const Error &) {
+	} catch (...) {
 		free(texture);
 		throw;
 	}

@@ -145,6 +145,9 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 }
 
 VulkanInstance::~VulkanInstance() {
+	if (is_abandoned) {
+		return;
+	}
 	if (messenger) {
 		const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
 				vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));

@@ -21,12 +21,15 @@ public:
 	VulkanInstance &operator=(const VulkanInstance &) = delete;
 
 	VkInstance get() const { return instance; }
+	/// It is not destroyed, since a device that cannot be ended belongs to it.
+	void abandon() { is_abandoned = true; }
 	bool has_debug_utils() const { return is_debug_utils_enabled; }
 
 private:
 	VkInstance instance = VK_NULL_HANDLE;
 	VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
 	bool is_debug_utils_enabled = false;
+	bool is_abandoned = false;
 };
 
 /// A physical device, usable or not.

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <mutex>
 #include <thread>
 
 namespace gnomon {
@@ -272,6 +274,8 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 		thread_count = std::max(1u, std::thread::hardware_concurrency());
 	}
 	thread_count = std::min(thread_count, std::max(1u, job.get_tile_count()));
+	std::exception_ptr failure; // of a thread, which may not throw itself: memory may run out
+	std::mutex failure_mutex;
 	{
 		std::vector<std::jthread> threads;
 		struct StopOnExit {
@@ -280,10 +284,21 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 			~StopOnExit() { job.is_stopped = job.is_stopped || is_armed; }
 		} stop{ job };
 		for (uint32_t i = 1; i < thread_count; ++i) {
-			threads.emplace_back([&job] { trace_tiles(job, nullptr); });
+			threads.emplace_back([&] {
+				try {
+					trace_tiles(job, nullptr);
+				} catch (...) {
+					const std::lock_guard lock(failure_mutex);
+					failure = std::current_exception();
+					job.is_stopped = true;
+				}
+			});
 		}
 		trace_tiles(job, options.progress); // when progress throws, `stop` ends the others first
 		stop.is_armed = false;
+	}
+	if (failure) {
+		std::rethrow_exception(failure);
 	}
 	result.ray_count = job.ray_count;
 	result.is_complete = job.done_tile_count == job.get_tile_count();

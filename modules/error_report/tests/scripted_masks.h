@@ -5,6 +5,7 @@
 #include "modules/error_report/scaling_scenes.h"
 
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ public:
 	std::map<std::string, float> errors = { { "hard", 0.25f }, { "soft", 0.125f } };
 	std::string failing_technique;
 	bool fails_truth = false;
+	bool runs_out_of_memory = false;	// what fails, fails so
+	size_t lose_after_count = SIZE_MAX; // calls of measure, before the device is lost
 	size_t kill_after_count = SIZE_MAX; // calls of measure
 	std::string device = "scripted";
 	std::vector<std::string> warnings; // that drawing gives
@@ -48,8 +51,14 @@ public:
 		if (measure_count == kill_after_count) {
 			throw Killed();
 		}
+		if (measure_count == lose_after_count) {
+			throw DeviceLost("The device was lost. Restart it.");
+		}
 		++measure_count;
 		asked.push_back(p_question.scene->lights.front().properties);
+		if (p_technique == failing_technique && runs_out_of_memory) {
+			throw std::bad_alloc();
+		}
 		if (p_technique == failing_technique) {
 			fail("the device is sad");
 		}

@@ -158,6 +158,36 @@ TEST_CASE("[ErrorReport] a cell that fails is marked, the rest goes on, a resume
 			[](const ReportCell &p_cell) { return p_cell.message.empty(); }));
 }
 
+TEST_CASE("[ErrorReport] a cell without enough memory says what to do, and the rest goes on") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(1);
+	ScriptedMasks masks;
+	masks.failing_technique = "hard"; // of each configuration the first
+	masks.runs_out_of_memory = true;
+	const Report report = run(plan, masks, folder.path);
+	CHECK(report.count(ReportStatus::FAILED) == 3);
+	CHECK(report.count(ReportStatus::OK) == 3 + 4);
+	CHECK(report.cells[0].message.starts_with("Out of memory. Close other programs"));
+}
+
+TEST_CASE("[ErrorReport] a lost device ends the run, and a resume measures all that is left") {
+	TemporaryFolder folder;
+	QuietLog quiet;
+	const ReportPlan plan = make_scripted_plan(2);
+	TemporaryFolder whole_folder;
+	ScriptedMasks whole_masks;
+	const std::string whole = to_text(run(plan, whole_masks, whole_folder.path));
+	ScriptedMasks masks;
+	masks.lose_after_count = 5;
+	CHECK_THROWS_WITH_AS(run(plan, masks, folder.path),
+			"The device was lost. Restart it. What was measured is kept: go on with --resume.",
+			DeviceLost);
+	ScriptedMasks rest;
+	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
+	CHECK(rest.measure_count == plan.report.cells.size() - 5);
+}
+
 TEST_CASE("[ErrorReport] cells of a truth that failed say so") {
 	TemporaryFolder folder;
 	QuietLog quiet;

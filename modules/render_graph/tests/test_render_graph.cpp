@@ -204,7 +204,7 @@ TEST_CASE("[GPU][RenderGraph] an error in a pass ends the frame, and the next fr
 
 TEST_CASE("[GPU][RenderGraph] a lost device is reported with the last pass that began") {
 	GraphFixture fixture;
-	fixture.device->inject_device_lost();
+	fixture.device->inject_fault(Fault::DEVICE_LOST);
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGTexture texture = graph.create_texture(make_desc("texture"));
 	add_fill(graph, texture, 4.0f);

@@ -72,7 +72,7 @@ TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every ca
 	CommandList &commands = device.begin_commands();
 	record_span(commands, "G-buffer", buffer.get());
 	record_span(commands, "Lamp: resolve", buffer.get());
-	device.inject_device_lost();
+	device.inject_fault(Fault::DEVICE_LOST);
 	const std::string error = catch_error([&] { device.submit_commands(SubmitMode::WAIT); });
 	CHECK(contains(error, "pass 'Lamp: resolve'"));
 	CHECK(catch_error([&] { device.begin_commands(); }) == error);

@@ -1,0 +1,78 @@
+// What environment variables say of a device.
+
+#include "modules/core/error.h"
+#include "modules/rendering_device/rendering_device_impl.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+
+namespace gnomon {
+
+namespace {
+
+constexpr double MAX_WAIT_S = 86400;
+constexpr double GPU_WAIT_S = 60;  // drivers reset a device that hangs after 2 to 10 s
+constexpr double CPU_WAIT_S = 600; // software draws the same pass a hundred times slower
+constexpr double MAX_BUDGET_MIB = 1 << 24;
+
+/// Nothing where the variable is absent or empty.
+std::optional<double> read_number(
+		const char *p_name, double p_greatest, const char *p_unit, const char *p_zero) {
+	const char *value = std::getenv(p_name);
+	if (value == nullptr || *value == 0) {
+		return std::nullopt;
+	}
+	const std::string_view written(value);
+	double number = 0;
+	const auto result = std::from_chars(written.begin(), written.end(), number);
+	if (result.ec != std::errc() || result.ptr != written.end() || !(number >= 0) ||
+			number > p_greatest) {
+		fail(p_name, " is \"", written, "\", must be 0..", p_greatest, " ", p_unit,
+				" (0 = ", p_zero, "). Change it, or unset it.");
+	}
+	return number;
+}
+
+InjectedFault read_fault() {
+	const char *value = std::getenv("GNOMON_INJECT_FAULT");
+	if (value == nullptr || *value == 0) {
+		return {};
+	}
+	static const std::pair<std::string_view, Fault> KINDS[] = {
+		{ "device_lost", Fault::DEVICE_LOST },
+		{ "out_of_memory", Fault::OUT_OF_MEMORY },
+		{ "hang", Fault::HANG },
+	};
+	const std::string_view written(value);
+	const size_t at = std::min(written.find('@'), written.size());
+	const char *end = written.data() + written.size();
+	for (const auto &[name, fault] : KINDS) {
+		uint64_t number = 0;
+		if (name == written.substr(0, at) && at < written.size()) {
+			const auto result = std::from_chars(written.data() + at + 1, end, number);
+			if (result.ec == std::errc() && result.ptr == end && number > 0) {
+				return { fault, number };
+			}
+		}
+	}
+	fail("GNOMON_INJECT_FAULT is \"", written, "\", must be device_lost@N, out_of_memory@N or ",
+			"hang@N, N the number of a submission from 1. It is for tests: unset it.");
+}
+
+} // namespace
+
+void RenderingDevice::Impl::read_environment() {
+	const auto budget_mib = read_number(
+			"GNOMON_MEMORY_BUDGET_MIB", MAX_BUDGET_MIB, "MiB", "what the device reports");
+	if (options.memory_budget_bytes == 0 && budget_mib) {
+		options.memory_budget_bytes = static_cast<uint64_t>(*budget_mib * (1 << 20));
+	}
+	const auto wait_s =
+			read_number("GNOMON_DEVICE_TIMEOUT_S", MAX_WAIT_S, "seconds", "wait for ever");
+	wait_limit_s = options.wait_limit_s.value_or(
+			wait_s.value_or(physical.info.type == "CPU" ? CPU_WAIT_S : GPU_WAIT_S));
+	injected_fault = read_fault();
+}
+
+} // namespace gnomon

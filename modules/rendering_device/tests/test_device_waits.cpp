@@ -1,0 +1,162 @@
+#include "modules/rendering_device/tests/device_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+using namespace gnomon;
+using SubmitMode = RenderingDevice::SubmitMode;
+
+namespace {
+
+const uint64_t TARGET_BYTES = 64 * sizeof(float);
+const uint32_t ROUND_COUNT = 10000; // of each invocation
+const uint32_t MOST_GROUPS = 1u << 16;
+
+OwnedBuffer make_target(RenderingDevice &r_device) {
+	return OwnedBuffer(r_device,
+			r_device.create_buffer({ .name = "target",
+					.size_bytes = TARGET_BYTES,
+					.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET }));
+}
+
+void record_work(RenderingDevice &r_device, CommandList &r_commands, const std::string &p_name,
+		BufferRID p_target, uint32_t p_group_count) {
+	const Barrier barrier = { .buffer = p_target,
+		.before = Access::SHADER_WRITE_COMPUTE,
+		.after = Access::SHADER_WRITE_COMPUTE };
+	r_commands.begin_span(p_name);
+	r_commands.barriers({ &barrier, 1 });
+	r_commands.bind_pipeline(r_device.get_compute_pipeline(
+			{ .name = "slow", .shader = "rendering_device/test_slow.comp" }));
+	r_commands.bind_resources({ { 0, p_target } });
+	r_commands.push_constants(ROUND_COUNT);
+	r_commands.dispatch({ p_group_count, 1, 1 });
+	r_commands.end_span();
+}
+
+double compute_seconds_since(std::chrono::steady_clock::time_point p_start) {
+	return std::chrono::duration<double>(std::chrono::steady_clock::now() - p_start).count();
+}
+
+/// An environment variable that is unset again.
+struct Variable {
+	const char *name;
+	Variable(const char *p_name, const char *p_value) : name(p_name) { ::setenv(name, p_value, 1); }
+	~Variable() { ::unsetenv(name); }
+	Variable(const Variable &) = delete;
+	Variable &operator=(const Variable &) = delete;
+};
+
+} // namespace
+
+TEST_CASE("[GPU][RenderingDevice] a pass that takes longer than the limit is named, and the device "
+		  "given up") {
+	DeviceFixture fixture({ .wait_limit_s = 0.25 });
+	RenderingDevice &device = *fixture.device;
+	const OwnedBuffer target = make_target(device);
+	std::string error;
+	for (uint32_t groups = 1; error.empty() && groups < MOST_GROUPS; groups *= 4) {
+		CommandList &commands = device.begin_commands();
+		record_work(device, commands, "G-buffer", target.get(), 1);
+		record_work(device, commands, "Lamp: resolve", target.get(), groups);
+		record_work(device, commands, "tone map", target.get(), 1);
+		error = catch_error([&] { device.submit_commands(SubmitMode::WAIT); });
+	}
+	CHECK(contains(error, "no progress for 0.25 s, in pass 'Lamp: resolve'"));
+	CHECK(contains(error, "GNOMON_DEVICE_TIMEOUT_S"));
+	CHECK_THROWS_AS(device.begin_commands(), DeviceLost);
+	CHECK(catch_error([&] { device.wait_idle(); }) == error);
+}
+
+TEST_CASE("[GPU][RenderingDevice] passes that take longer than the limit together are waited for") {
+	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	RenderingDevice &device = *fixture.device;
+	const OwnedBuffer target = make_target(device);
+	const auto run = [&](uint32_t p_pass_count, uint32_t p_group_count) {
+		CommandList &commands = device.begin_commands();
+		for (uint32_t index = 0; index < p_pass_count; ++index) {
+			record_work(device, commands, text("pass ", index), target.get(), p_group_count);
+		}
+		const auto start = std::chrono::steady_clock::now();
+		device.submit_commands(SubmitMode::WAIT);
+		return compute_seconds_since(start);
+	};
+	uint32_t groups = 1;
+	while (run(1, groups) < 0.04 && groups < MOST_GROUPS) {
+		groups *= 2;
+	}
+	CHECK(run(40, groups) > 1.0);
+}
+
+TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its first pass") {
+	DeviceFixture fixture({ .wait_limit_s = 0.1 });
+	RenderingDevice &device = *fixture.device;
+	OwnedBuffer target = make_target(device);
+	record_work(device, device.begin_commands(), "shown before", target.get(), 1);
+	device.submit_commands(SubmitMode::WAIT);
+	record_work(device, device.begin_commands(), "G-buffer", target.get(), 1);
+	device.inject_fault(Fault::HANG);
+	const auto start = std::chrono::steady_clock::now();
+	device.submit_commands(SubmitMode::QUEUE); // the next one that waits notices it
+	const std::string error = catch_error([&] { device.wait_idle(); });
+	CHECK(contains(error, "before pass 'G-buffer' began"));
+	CHECK(compute_seconds_since(start) >= 0.1);
+	device.release_injected_hang();
+	target.reset();
+	fixture.device.reset();
+	CHECK_FALSE(RenderingDevice::has_hung());
+}
+
+TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is told once, then the "
+		  "device works on") {
+	DeviceFixture fixture;
+	RenderingDevice &device = *fixture.device;
+	const OwnedBuffer target = make_target(device);
+	for (int repeat = 0; repeat < 3; ++repeat) {
+		device.inject_fault(Fault::OUT_OF_MEMORY);
+		record_work(device, device.begin_commands(), "pass", target.get(), 1);
+		CHECK_THROWS_AS(device.submit_commands(SubmitMode::WAIT), std::bad_alloc);
+		record_work(device, device.begin_commands(), "pass", target.get(), 1);
+		device.submit_commands(SubmitMode::WAIT);
+	}
+	CHECK(device.get_live_resources() == std::vector<std::string>{ "buffer 'target'" });
+}
+
+TEST_CASE("[GPU][RenderingDevice] environment variables set limits, and bad ones are refused") {
+	SUBCASE("the memory budget") {
+		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+		DeviceFixture fixture;
+		CHECK(fixture.device->get_memory_use().budget_bytes == 3 << 20);
+		const std::string error = catch_error([&] {
+			fixture.device->create_buffer(
+					{ .name = "large", .size_bytes = 4 << 20, .usage = BufferUsage::STORAGE });
+		});
+		CHECK(contains(error, "Out of device memory: buffer 'large' needs 4096 KiB"));
+	}
+	SUBCASE("what is chosen in the program comes first") {
+		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+		DeviceFixture fixture({ .memory_budget_bytes = 5 << 20 });
+		CHECK(fixture.device->get_memory_use().budget_bytes == 5 << 20);
+	}
+	SUBCASE("a device that is lost at its second submission") {
+		const Variable variable("GNOMON_INJECT_FAULT", "device_lost@2");
+		DeviceFixture fixture;
+		fixture.device->begin_commands();
+		fixture.device->submit_commands(SubmitMode::WAIT);
+		fixture.device->begin_commands();
+		CHECK_THROWS_AS(fixture.device->submit_commands(SubmitMode::WAIT), DeviceLost);
+	}
+	for (const char *name : { "GNOMON_MEMORY_BUDGET_MIB", "GNOMON_DEVICE_TIMEOUT_S" }) {
+		for (const char *value : { "-1", "many", "1e99", "nan", "5 s" }) {
+			const Variable variable(name, value);
+			const std::string error = catch_error([] { RenderingDevice::create({}); });
+			CHECK(contains(error, text(name, " is \"", value, "\", must be 0..")));
+		}
+	}
+	for (const char *value : { "hang", "hang@", "hang@0", "hang@x", "fire@3", "@3" }) {
+		const Variable variable("GNOMON_INJECT_FAULT", value);
+		const std::string error = catch_error([] { RenderingDevice::create({}); });
+		CHECK(contains(error, text("GNOMON_INJECT_FAULT is \"", value, "\"")));
+	}
+}
