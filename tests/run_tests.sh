@@ -2,18 +2,20 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes blender"
+PARTS="layers scenes build docs engine command_line demo removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills blender"
 
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
-               large meshes (installs npm, which downloads them), fuzzing (installs clang)
+               large meshes (installs npm, which downloads them), fuzzing (installs clang), 10,000 frames
+               of scenes that change at random, programs that are killed 200 times
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
                demo removal template sanitized fuzz_replay; with --full also sanitized_all threads
-               tables editor_repeats large_meshes fuzz; only when named: blender (installs Blender, 160 MB)
+               tables editor_repeats large_meshes fuzz soak kills; only when named: blender (installs
+               Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
@@ -198,7 +200,8 @@ if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
-        tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py
+        tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py \
+        tests/command_line/test_device_failures.py tests/command_line/test_kills.py
 fi
 # Not without being asked for: the package is large.
 if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
@@ -243,6 +246,14 @@ if [ "$is_full" = yes ]; then
     fi
     if is_wanted large_meshes; then
         run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py
+    fi
+    if is_wanted soak; then
+        run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
+    fi
+    if is_wanted kills; then
+        GNOMON_KILL_COUNT=200 run_part "kills, engine" bin/gnomon_tests '--test-case=*killed at a random time*'
+        GNOMON_KILL_COUNT=200 run_part kills python3 tests/run_unittest.py tests/command_line/test_kills.py \
+            tests/command_line/test_device_failures.py
     fi
     # Windows, mice and other processes: what passes once may fail the next time.
     if is_wanted editor_repeats; then

@@ -247,6 +247,10 @@ void Swapchain::Impl::present() {
 		.swapchainCount = 1,
 		.pSwapchains = &swapchain,
 		.pImageIndices = &index };
+	if (device.physical.info.type == "CPU") {
+		// Presenting waits for the picture there, and without a limit.
+		device.wait_for(device.submitted_number);
+	}
 	const VkResult result = vkQueuePresentKHR(device.queue, &info);
 	if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
 		is_out_of_date = true;

@@ -1,0 +1,126 @@
+"""Devices that are lost, hang or have no memory left: one message, exit code 1, and nothing is lost."""
+
+import json
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, run  # noqa: E402
+from display_case import TIMEOUT_S  # noqa: E402
+from editor_case import EditorCase  # noqa: E402
+from report_case import ReportCase, load_report  # noqa: E402
+
+FAULTS = {
+    "device_lost@1": ("The device was lost", "Restart the program"),
+    "out_of_memory@1": ("Out of memory", "smaller scene or picture"),
+    "hang@1": ("no progress for 0.5 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
+}
+LIMIT = {"GNOMON_DEVICE_TIMEOUT_S": "0.5"}
+LOST_AFTER = 450  # submissions of the editor, one a frame: time enough to change something
+
+
+class FailingDevices(CommandLineTest):
+    def test_run_and_visibility_end_with_the_reason_and_what_to_do(self):
+        out = self.path("mask.exr")
+        for command in (
+            ("run", CONTACT_BOX, "--headless", *SMALL),
+            ("visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", out, *SMALL),
+        ):
+            for fault, words in FAULTS.items():
+                if fault == "hang@1" and command[0] == "run":
+                    continue  # it takes seconds, and waits in the same place
+                with self.subTest(command=command[0], fault=fault):
+                    result = run(*command, GNOMON_INJECT_FAULT=fault, **LIMIT)
+                    self.assertEqual(result.returncode, 1, result.stderr)
+                    for word in words:
+                        self.assertIn(word, result.stderr)
+                    self.assertFalse(os.path.exists(out))
+            with self.subTest(command=command[0], fault="no device memory"):
+                self.assert_refused(run(*command, GNOMON_MEMORY_BUDGET_MIB="0.05"), "Out of device memory", "Lower the")
+
+    def test_bad_limits_are_named(self):
+        for variable in ("GNOMON_MEMORY_BUDGET_MIB", "GNOMON_DEVICE_TIMEOUT_S", "GNOMON_INJECT_FAULT"):
+            self.assert_refused(run("run", CONTACT_BOX, "--headless", *SMALL, **{variable: "soon"}), variable, "soon")
+
+
+class FailingReports(ReportCase):
+    def measure(self, name, *arguments, **environment):
+        """Three cells at least, measured by some fifty submissions each."""
+        techniques = ("--techniques", self.report_techniques())
+        return self.report(name, "--scenes", "sphere", "--sizes", "0.4", *techniques, *arguments, **environment)
+
+    def test_a_report_goes_on_after_a_cell_that_had_no_memory_and_a_resume_measures_it(self):
+        result = self.measure("report", GNOMON_INJECT_FAULT="out_of_memory@10")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("Out of memory", result.stderr)
+        cells = load_report(self.path("report"))["cells"]
+        self.assertEqual([cell["status"] for cell in cells], ["failed"] + ["ok"] * (len(cells) - 1))
+        resumed = self.measure("report", "--resume")
+        self.assertIn("1 are left", resumed.stderr)
+        self.assertTrue(all(cell["status"] == "ok" for cell in self.load_done("report", resumed)["cells"]))
+
+    def test_cells_that_do_not_fit_into_the_device_are_named_in_the_report(self):
+        arguments = ("--scenes", "sphere", "--sizes", "0.4", "--techniques", self.get_fallback())
+        result = self.report("report", *arguments, GNOMON_MEMORY_BUDGET_MIB="2")
+        self.assertEqual(result.returncode, 1)
+        (cell,) = load_report(self.path("report"))["cells"]
+        self.assertEqual(cell["status"], "failed")
+        self.assertIn("Out of device memory", cell["message"])
+
+    def check_lost(self, fault):
+        result = self.measure("report", GNOMON_INJECT_FAULT=fault, **LIMIT)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("go on with --resume", result.stderr)
+        self.assertFalse(os.path.exists(self.path("report/report.json")))
+        resumed = self.measure("report", "--resume")
+        self.assertNotIn(" 0 cells are there", resumed.stderr)
+        self.assertNotIn(" 0 are left", resumed.stderr)
+        self.assertTrue(all(cell["status"] == "ok" for cell in self.load_done("report", resumed)["cells"]))
+
+    def test_a_report_whose_device_is_lost_ends_and_goes_on_with_resume(self):
+        self.check_lost("device_lost@250")
+
+    @unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full")
+    def test_a_report_whose_device_hangs_ends_and_goes_on_with_resume(self):
+        self.check_lost("hang@250")
+
+
+class FailingEditor(EditorCase):
+    def fail_with(self, fault, *words):
+        os.makedirs(self.path("config"), exist_ok=True)
+        with open(os.path.join(self.path("config"), "editor.json"), "w", encoding="utf-8") as file:
+            json.dump({"autosave_s": 3600}, file)  # so that it is the failure that saves
+        recovery = os.path.join(self.project, "scenes", ".three_lights.recovery.gltf")
+        os.environ.update({"GNOMON_INJECT_FAULT": "%s@%d" % (fault, LOST_AFTER), **LIMIT})
+        try:
+            self.open_editor()
+        finally:
+            for name in ("GNOMON_INJECT_FAULT", *LIMIT):
+                del os.environ[name]
+        self.select_light()
+        self.drag("property light_size", 3)
+        self.wait_for(lambda state: state["is_changed"])
+        self.assertFalse(os.path.exists(recovery))
+        _, errors = self.process.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(self.process.returncode, 1, errors)
+        for word in words:
+            self.assertIn(word, errors)
+        self.assertTrue(os.path.exists(recovery))
+        self.open_editor()
+        self.click("button Recover")
+        self.wait_for(lambda state: state["is_changed"])
+        self.press("key", "ctrl+s")
+        self.wait_for(lambda state: not state["is_changed"])
+        self.finish()
+
+    def test_changes_are_kept_aside_when_the_device_is_lost(self):
+        self.fail_with("device_lost", "The device was lost", "Restart the program")
+
+    @unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full")
+    def test_changes_are_kept_aside_when_the_device_hangs(self):
+        self.fail_with("hang", "no progress for 0.5 s")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,158 @@
+"""Programs that are killed while they write, at random times and as soon as a file appears: nothing is lost or left.
+
+A few times each, the editor not at all; GNOMON_KILL_COUNT says how often, as tests/run_tests.sh --full does.
+"""
+
+import glob
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from check_report_page import check_page  # noqa: E402
+from command_line_case import GNOMON, SCENES, find_technique, run  # noqa: E402
+from editor_case import EditorCase, load  # noqa: E402
+from report_case import PROJECT, QUICK, ReportCase, drop_times, load_report  # noqa: E402
+
+SEED = 20100901
+TIMEOUT_S = 180
+LONGEST_DELAY_S = 1.5  # about as long as the programs run
+REPORT = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *QUICK)
+UNFINISHED = ".*.gnomon_part"  # see modules/core/atomic_save.h
+
+
+def get_kill_count(default, divisor=1):
+    value = os.environ.get("GNOMON_KILL_COUNT")
+    return max(int(value) // divisor, 1) if value else default
+
+
+def list_unfinished(folder):
+    return glob.glob(os.path.join(folder, "**", UNFINISHED), recursive=True)
+
+
+def kill_sometime(process, folders, chance):
+    """Every other time as soon as, or shortly after, a file is begun in one of the folders; else at a random time.
+
+    True: it was killed; False: it had ended before.
+    """
+    delay_s = chance.uniform(0, LONGEST_DELAY_S)
+    waits_for_file = chance.random() < 0.5
+    skipped_count = chance.randrange(4)  # files that it may begin first
+    seen = {path for folder in folders for path in list_unfinished(folder)}
+    end = time.monotonic() + (TIMEOUT_S if waits_for_file else delay_s)
+    while process.poll() is None and time.monotonic() < end:
+        begun = {path for folder in folders for path in list_unfinished(folder)} - seen if waits_for_file else set()
+        seen |= begun
+        skipped_count -= len(begun)
+        if skipped_count < 0:
+            time.sleep(chance.choice((0, 0, 0.001)))
+            break
+        if not waits_for_file:
+            time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    return process.wait(TIMEOUT_S) == -signal.SIGKILL
+
+
+class KilledReports(ReportCase):
+    def test_a_report_that_is_killed_again_and_again_ends_as_one_that_was_not(self):
+        chance = random.Random(SEED)
+        techniques = ("--techniques", self.report_techniques())
+        whole = self.load_done("whole", run("report", PROJECT, "--out", self.path("whole"), *REPORT, *techniques))
+        cache = self.path("cache")
+        killed_count = left_count = done_count = 0
+        for index in range(get_kill_count(3)):
+            out = self.path("report_%d" % done_count)
+            arguments = ["report", PROJECT, "--out", out, *REPORT, *techniques, "--resume"]
+            environment = {**os.environ, "GNOMON_CACHE_DIR": cache}
+            with self.subTest(kill=index, seed=SEED):
+                process = subprocess.Popen(
+                    [GNOMON, *arguments], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+                )
+                was_killed = kill_sometime(process, (out, cache), chance)
+                errors = process.stderr.read()
+                process.stderr.close()
+                self.assertNotIn("damaged", errors)
+                self.assertNotIn("ERROR", errors)
+                killed_count += was_killed
+                left_count += len(list_unfinished(out))
+                self.assertLessEqual(len(list_unfinished(out)), 3, "one for each folder at most")
+                if not was_killed:  # it was done before: from the beginning, elsewhere
+                    self.assert_same(out, whole)
+                    done_count += 1
+        result = run("report", PROJECT, "--out", self.path("report_%d" % done_count), *REPORT, *techniques, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("damaged", result.stderr)
+        self.assert_same(self.path("report_%d" % done_count), whole)
+        self.assertEqual(check_page(self.path("report_%d/index.html" % done_count)), [])
+        self.assertGreater(killed_count, 0)
+        print("killed %d times, %d unfinished files, %d reports ended before" % (killed_count, left_count, done_count))
+
+    def assert_same(self, out, whole):
+        report = load_report(out)
+        self.assertEqual(drop_times(report)["configurations"], drop_times(whole)["configurations"])
+        self.assertEqual(drop_times(report)["cells"], drop_times(whole)["cells"])
+        self.assertEqual(list_unfinished(out), [])
+
+    def test_a_cache_whose_writers_are_killed_is_whole_and_stays_small(self):
+        chance = random.Random(SEED + 1)
+        environment = {**os.environ, "GNOMON_CACHE_DIR": self.path("cache")}
+        for index in range(get_kill_count(4)):
+            command = self.trace(16 + index)
+            with self.subTest(kill=index, seed=SEED):
+                process = subprocess.Popen(
+                    [GNOMON, *command], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+                )
+                kill_sometime(process, (self.path("cache"),), chance)
+                errors = process.stderr.read()
+                process.stderr.close()
+                self.assertNotIn("damaged", errors)
+                self.assertNotIn("ERROR", errors)
+                self.assertLessEqual(len(list_unfinished(self.path("cache"))), 1)
+        result = run(*self.trace(15), GNOMON_CACHE_DIR=self.path("cache"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("damaged", result.stderr)
+        self.assertEqual(list_unfinished(self.path("cache")), [])
+
+    def trace(self, sample_count):
+        """A truth that no other command asks for."""
+        reference = find_technique("is_reference")
+        settings = ("--set", "%s_samples=%d" % (reference, sample_count))
+        scene = os.path.join(SCENES, "sphere.gltf")
+        return ["visibility", scene, "--technique", reference, "--size", "128x128", "--out", self.path("m.exr"), *settings]
+
+
+@unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full; test_editor_document.cpp kills after each step")
+class KilledEditor(EditorCase):
+    def test_an_editor_that_is_killed_while_it_saves_leaves_the_scene_before_or_after(self):
+        chance = random.Random(SEED + 2)
+        folder = os.path.dirname(self.scene)
+        sizes = [self.get_size()]
+        for index in range(get_kill_count(1, 20)):
+            with self.subTest(kill=index, seed=SEED):
+                self.open_editor()
+                if "button Discard" in self.get_state()["items"]:
+                    self.click("button Discard")
+                self.select_light()
+                self.drag("property light_size", 1)
+                self.wait_for(lambda state: state["is_changed"])
+                self.press("key", "ctrl+s")
+                kill_sometime(self.process, (folder,), chance)
+                self.process.communicate()
+                self.assertGreaterEqual(self.get_size(), sizes[-1])
+                sizes.append(self.get_size())
+                self.assertLessEqual(len(list_unfinished(folder)), 1)
+        self.open_editor()
+        self.press("key", "ctrl+q")
+        self.process.communicate(timeout=TIMEOUT_S)
+        self.assertEqual(self.process.returncode, 0)
+
+    def get_size(self):
+        return self.find_light(load(self.scene))["extras"]["light_size"]
+
+
+if __name__ == "__main__":
+    unittest.main()

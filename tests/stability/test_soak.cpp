@@ -1,0 +1,241 @@
+// Frames of scenes that change at random, again and again: nothing grows, nothing breaks. 150
+// frames; GNOMON_SOAK_FRAMES and GNOMON_SOAK_SEED say otherwise, see run_soak.py.
+//
+// Each block of frames is drawn three times: all of it, then twice its masks alone. Only what the
+// process grows by the third time is a leak of ours: Mesa's software driver compiles shaders for
+// each new use and keeps them, and the one of the lighting pass for each light of each frame.
+
+#include "modules/core/error.h"
+#include "modules/core/module_registry.h"
+#include "modules/rendering_device/tests/device_fixture.h"
+
+#include "tests/stability/random_scene.h"
+
+#include <doctest/doctest.h>
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <iterator>
+
+using namespace gnomon;
+
+namespace {
+
+const uint32_t FRAMES_PER_SCENE = 25;
+const uint32_t MOST_BLOCK_FRAMES = 500; // before they are repeated
+const uint32_t CLOSING_FRAME_COUNT = 4; // the pool of transients knows the last three
+const double FRAME_LIMIT_S = 60;
+const uint64_t MIB = 1 << 20;
+const uint32_t REPEAT_COUNT = 3;
+const uint64_t MOST_GROWTH_BYTES = 12 * MIB; // of the process, the third time
+
+uint32_t get_number(const char *p_variable, uint32_t p_default) {
+	const char *value = std::getenv(p_variable);
+	if (value == nullptr) {
+		return p_default;
+	}
+	uint32_t number = 0;
+	const char *end = value + std::strlen(value);
+	const auto result = std::from_chars(value, end, number);
+	REQUIRE_MESSAGE((result.ec == std::errc() && result.ptr == end && number > 0), p_variable,
+			" is \"", value, "\", must be a whole number from 1");
+	return number;
+}
+
+uint64_t read_resident_bytes() {
+	::malloc_trim(0);
+	unsigned long long total = 0;
+	unsigned long long resident = 0;
+	FILE *file = std::fopen("/proc/self/statm", "r");
+	REQUIRE(file != nullptr);
+	const int count = std::fscanf(file, "%llu %llu", &total, &resident);
+	std::fclose(file);
+	REQUIRE(count == 2);
+	return resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// What is left behind a scene that was closed.
+struct Rest {
+	uint64_t used_bytes = 0;
+	std::vector<std::string> resources; // sorted
+};
+
+/// What there is more and less of than before; empty: all is as it was.
+std::string describe_difference(const Rest &p_before, const Rest &p_now) {
+	std::string difference;
+	const auto add = [&](const char *p_what, const Rest &p_first, const Rest &p_second) {
+		std::vector<std::string> names;
+		std::set_difference(p_first.resources.begin(), p_first.resources.end(),
+				p_second.resources.begin(), p_second.resources.end(), std::back_inserter(names));
+		for (const std::string &name : names) {
+			difference += text(p_what, " ", name, "; ");
+		}
+	};
+	add("more:", p_now, p_before);
+	add("less:", p_before, p_now);
+	if (p_before.used_bytes != p_now.used_bytes) {
+		difference += text(p_now.used_bytes, " bytes, before ", p_before.used_bytes);
+	}
+	return difference;
+}
+
+class Soak {
+public:
+	explicit Soak(uint32_t p_seed) : seed(p_seed), random(p_seed) {
+		DeviceOptions options;
+		options.validation = true;
+		options.wait_limit_s = FRAME_LIMIT_S;
+		device = RenderingDevice::create(options);
+		bare = measure();
+		renderer = std::make_unique<Renderer>(*device);
+		closed = close();
+	}
+	~Soak() {
+		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+			if (!module.is_enabled) {
+				ModuleRegistry::set_enabled(module.name, true);
+			}
+		}
+	}
+
+	void run(uint32_t p_frame_count) {
+		const uint32_t different_count = std::max(p_frame_count / REPEAT_COUNT, 1u);
+		const uint32_t block_count = (different_count + MOST_BLOCK_FRAMES - 1) / MOST_BLOCK_FRAMES;
+		for (uint32_t block = 0; block < block_count; ++block) {
+			CAPTURE(block);
+			const uint32_t begin = different_count * block / block_count;
+			const uint32_t end = different_count * (block + 1) / block_count;
+			run_block(seed + block, end - begin, Pictures::DRAWN);
+			run_block(seed + block, end - begin, Pictures::LEFT_OUT);
+			const uint64_t before = read_resident_bytes();
+			run_block(seed + block, end - begin, Pictures::LEFT_OUT);
+			const uint64_t after = read_resident_bytes();
+			CHECK(after <= before + MOST_GROWTH_BYTES);
+			if (tells) {
+				std::printf("block %u: %llu MiB resident, then %llu; %u pipelines\n", block,
+						static_cast<unsigned long long>(before / MIB),
+						static_cast<unsigned long long>(after / MIB), device->get_pipeline_count());
+			}
+		}
+		renderer.reset();
+		CHECK(describe_difference(bare, measure()) == "");
+	}
+
+private:
+	void run_block(uint32_t p_seed, uint32_t p_frame_count, Pictures p_pictures) {
+		random = Random(p_seed);
+		for (uint32_t frame = 0; frame < p_frame_count; ++frame) {
+			CAPTURE(p_seed);
+			CAPTURE(frame);
+			if (frame % FRAMES_PER_SCENE == 0) {
+				close_scene();
+				scene = std::make_unique<RandomScene>(random);
+			}
+			if (random.chance(0.1)) {
+				switch_module();
+			}
+			scene->change();
+			draw(p_pictures);
+			CHECK(RenderingDevice::get_validation_message_count() == message_count);
+			if (tells) {
+				std::printf("frame %u\n", frame); // the runner waits for it
+				std::fflush(stdout);
+			}
+		}
+		close_scene();
+	}
+
+	void close_scene() {
+		scene.reset();
+		CHECK(describe_difference(closed, close()) == "");
+	}
+
+	Rest measure() {
+		device->wait_idle();
+		return { device->get_memory_use().used_bytes, device->get_live_resources() };
+	}
+
+	/// Draws nothing until nothing is left of the scene before, all modules being on.
+	Rest close() {
+		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+			if (!module.is_enabled) {
+				ModuleRegistry::set_enabled(module.name, true);
+			}
+		}
+		for (uint32_t index = 0; index < CLOSING_FRAME_COUNT; ++index) {
+			RenderRequest request;
+			request.scene = empty.snap();
+			request.size_px = glm::uvec2(16 + index); // another shape each time
+			renderer->render(request);
+		}
+		return measure();
+	}
+
+	void switch_module() {
+		std::vector<std::string> names;
+		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
+			if (module.can_disable) {
+				names.push_back(module.name);
+			}
+		}
+		if (!names.empty()) {
+			const std::string &name = names[random.choose(names.size())];
+			ModuleRegistry::set_enabled(name, !ModuleRegistry::is_enabled(name));
+		}
+	}
+
+	void draw(Pictures p_pictures) {
+		const RenderRequest request = scene->make_request(p_pictures);
+		CAPTURE(request.size_px.x);
+		CAPTURE(request.size_px.y);
+		CAPTURE(request.mask_light);
+		CAPTURE(request.technique_override);
+		const bool runs_out = random.chance(0.02);
+		if (runs_out) {
+			device->inject_fault(Fault::OUT_OF_MEMORY);
+			CHECK_THROWS_AS(renderer->render(request), std::bad_alloc);
+			return;
+		}
+		const RenderResult result = renderer->render(request);
+		if (request.wants_mask) {
+			CHECK(is_valid_mask(result));
+			for (const glm::vec3 &color : result.colors) {
+				if (!(glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f))) &&
+							glm::all(glm::lessThanEqual(color, glm::vec3(1.0f))))) {
+					FAIL_CHECK("a mask's colour is ", color.x, ", ", color.y, ", ", color.z);
+					break;
+				}
+			}
+		}
+		if (request.wants_image) {
+			// What was no number is black in it, behind a lit sky as well.
+			CHECK(result.image.size() == size_t(4) * request.size_px.x * request.size_px.y);
+		}
+	}
+
+	const bool tells = std::getenv("GNOMON_SOAK_FRAMES") != nullptr;
+	const uint32_t seed;
+	Random random;
+	CaughtLog log; // fallbacks and the reference tell what they do
+	TemporaryCache cache;
+	EmptyScene empty;
+	std::unique_ptr<RenderingDevice> device;
+	std::unique_ptr<Renderer> renderer;
+	std::unique_ptr<RandomScene> scene;
+	Rest bare; // of the device alone
+	Rest closed;
+	const unsigned message_count = RenderingDevice::get_validation_message_count();
+};
+
+} // namespace
+
+TEST_CASE(
+		"[GPU][Soak] scenes that change at random leave nothing behind and no mask out of range") {
+	const uint32_t seed = get_number("GNOMON_SOAK_SEED", 20100901);
+	CAPTURE(seed);
+	Soak soak(seed);
+	soak.run(get_number("GNOMON_SOAK_FRAMES", 150));
+}
