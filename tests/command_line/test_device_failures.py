@@ -14,9 +14,9 @@ from report_case import ReportCase, load_report  # noqa: E402
 FAULTS = {
     "device_lost@1": ("The device was lost", "Restart the program"),
     "out_of_memory@1": ("Out of memory", "smaller scene or picture"),
-    "hang@1": ("no progress for 0.5 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
+    "hang@1": ("no progress for 3 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
 }
-LIMIT = {"GNOMON_DEVICE_TIMEOUT_S": "0.5"}
+LIMIT = {"GNOMON_DEVICE_TIMEOUT_S": "3"}  # longer than any pass of these tests on a busy machine
 LOST_AFTER = 450  # submissions of the editor, one a frame: time enough to change something
 
 
@@ -45,10 +45,10 @@ class FailingDevices(CommandLineTest):
 
 
 class FailingReports(ReportCase):
-    def measure(self, name, *arguments, **environment):
-        """Three cells at least, measured by some fifty submissions each."""
+    def measure(self, name, *arguments, scenes="sphere", **environment):
+        """Two or three cells for each scene, some seventy submissions each."""
         techniques = ("--techniques", self.report_techniques())
-        return self.report(name, "--scenes", "sphere", "--sizes", "0.4", *techniques, *arguments, **environment)
+        return self.report(name, "--scenes", scenes, "--sizes", "0.4", *techniques, *arguments, **environment)
 
     def test_a_report_goes_on_after_a_cell_that_had_no_memory_and_a_resume_measures_it(self):
         result = self.measure("report", GNOMON_INJECT_FAULT="out_of_memory@10")
@@ -69,11 +69,12 @@ class FailingReports(ReportCase):
         self.assertIn("Out of device memory", cell["message"])
 
     def check_lost(self, fault):
-        result = self.measure("report", GNOMON_INJECT_FAULT=fault, **LIMIT)
+        scenes = "contact_box,sphere"
+        result = self.measure("report", scenes=scenes, GNOMON_INJECT_FAULT=fault, **LIMIT)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("go on with --resume", result.stderr)
         self.assertFalse(os.path.exists(self.path("report/report.json")))
-        resumed = self.measure("report", "--resume")
+        resumed = self.measure("report", "--resume", scenes=scenes)
         self.assertNotIn(" 0 cells are there", resumed.stderr)
         self.assertNotIn(" 0 are left", resumed.stderr)
         self.assertTrue(all(cell["status"] == "ok" for cell in self.load_done("report", resumed)["cells"]))
@@ -119,7 +120,7 @@ class FailingEditor(EditorCase):
 
     @unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full")
     def test_changes_are_kept_aside_when_the_device_hangs(self):
-        self.fail_with("hang", "no progress for 0.5 s")
+        self.fail_with("hang", "no progress for 3 s")
 
 
 if __name__ == "__main__":
