@@ -98,5 +98,9 @@ MeshTopology build_topology(const Mesh &p_mesh);
 /// As build_topology, kept as long as the mesh lives. A mesh with id 0 (not from make_mesh) is
 /// built anew each time. Callable from any thread; one mesh is built only once.
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
+/// Frees what get_topology keeps of meshes that are gone. From any thread.
+void drop_unused_topologies();
+/// How many get_topology keeps.
+size_t get_kept_topology_count();
 
 } // namespace gnomon

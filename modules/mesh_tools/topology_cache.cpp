@@ -16,6 +16,11 @@ struct CacheEntry {
 std::mutex cache_mutex;
 std::map<uint64_t, std::shared_ptr<CacheEntry>> cache; // by mesh id, which is never used twice
 
+/// With the lock held.
+void erase_expired() {
+	std::erase_if(cache, [](const auto &p_item) { return p_item.second->mesh.expired(); });
+}
+
 } // namespace
 
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh) {
@@ -30,7 +35,7 @@ std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mes
 			slot = std::make_shared<CacheEntry>();
 			slot->mesh = p_mesh;
 			// A new mesh is the rare moment to drop those that are gone.
-			std::erase_if(cache, [](const auto &p_item) { return p_item.second->mesh.expired(); });
+			erase_expired();
 		}
 		entry = slot;
 	}
@@ -39,6 +44,16 @@ std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mes
 		entry->topology = std::make_shared<const MeshTopology>(build_topology(*p_mesh));
 	});
 	return entry->topology;
+}
+
+void drop_unused_topologies() {
+	const std::lock_guard<std::mutex> lock(cache_mutex);
+	erase_expired();
+}
+
+size_t get_kept_topology_count() {
+	const std::lock_guard<std::mutex> lock(cache_mutex);
+	return cache.size();
 }
 
 } // namespace gnomon

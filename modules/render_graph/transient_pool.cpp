@@ -9,6 +9,8 @@ namespace {
 
 // A frame shape per debug view and per set of left-out passes; more would only hold memory.
 constexpr size_t MAX_KEPT_ENTRIES = 3;
+// A shape that is not used in so many frames will not come again soon.
+constexpr uint64_t KEPT_FRAMES = 60;
 
 bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
@@ -97,6 +99,9 @@ std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_reque
 
 const TransientPlacement &TransientPool::place(const std::vector<TransientRequest> &p_requests) {
 	++use_count;
+	std::erase_if(entries, [&](const std::unique_ptr<Entry> &p_entry) {
+		return use_count - p_entry->last_use > KEPT_FRAMES;
+	});
 	for (const std::unique_ptr<Entry> &entry : entries) {
 		if (entry->requests == p_requests) {
 			entry->last_use = use_count;

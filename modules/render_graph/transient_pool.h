@@ -47,7 +47,7 @@ std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_reque
 		std::vector<std::vector<uint32_t>> &r_predecessors);
 
 /// Keeps the transient resources of the last few frame shapes, so that a frame like an earlier one
-/// allocates nothing.
+/// allocates nothing. What many frames did not use is freed.
 class TransientPool {
 public:
 	explicit TransientPool(RenderingDevice &p_device) : device(p_device) {}

@@ -5,13 +5,17 @@
 
 namespace gnomon {
 
-void KeptDepthMap::plan(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan) {
+void KeptDepthMap::plan(
+		const ShadowTechnique::Inputs &p_inputs, KeptViews::Reads p_reads, TechniquePlan &r_plan) {
 	const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
 		p_inputs.views[0].size_px, static_cast<uint32_t>(p_inputs.views.size()),
 		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED };
 	frame_map = {};
+	views.begin(p_inputs, p_reads);
+	if (views.is_all_empty()) {
+		map.reset(); // nobody reads it
+	}
 	has_content = bool(map) && map_desc == desc;
-	views.begin(p_inputs);
 	views.plan(p_inputs, r_plan, has_content);
 	if (!has_content && !views.is_all_empty()) {
 		map.reset(); // before the new one takes memory

@@ -11,8 +11,10 @@ namespace gnomon {
 class KeptDepthMap {
 public:
 	/// Decides which views are drawn and leaves the others out of the plan: those without casters,
-	/// and those whose layer is still right. There must be a view, and all have one size.
-	void plan(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
+	/// those without receivers, and those whose layer is still right. There must be a view, and all
+	/// have one size.
+	void plan(const ShadowTechnique::Inputs &p_inputs, KeptViews::Reads p_reads,
+			TechniquePlan &r_plan);
 	/// Draws one view; only for views that were not left out.
 	void add_view(
 			RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
@@ -21,9 +23,9 @@ public:
 	/// For debug views; empty before import().
 	RGTexture get_imported() const { return frame_map; }
 
-	/// Bit i: view i has no casters, and its layer holds nothing.
+	/// Bit i: view i has no casters or no receivers; its layer must not be read.
 	uint32_t get_empty_views() const { return views.get_empty_views(); }
-	/// No view has a caster: everything is lit.
+	/// No view has casters and receivers: everything is lit.
 	bool is_all_empty() const { return views.is_all_empty(); }
 
 private:

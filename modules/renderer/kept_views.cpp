@@ -4,13 +4,18 @@
 
 namespace gnomon {
 
-void KeptViews::begin(const ShadowTechnique::Inputs &p_inputs) {
+void KeptViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) {
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	GNOMON_ASSERT(view_count > 0 && view_count <= 32, view_count, " light views");
 	empty_views = 0;
+	unseen_views = 0;
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
 			empty_views |= 1u << index;
+		} else if (p_inputs.may_leave_out && p_reads == Reads::OWN_VIEW &&
+				!p_inputs.casters[index].has_receivers) {
+			empty_views |= 1u << index;
+			unseen_views |= 1u << index;
 		}
 	}
 	is_empty = empty_views == ~0u >> (32 - view_count);
@@ -25,7 +30,10 @@ void KeptViews::plan(
 	wanted_views.clear();
 	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
 	for (uint32_t index = 0; index < view_count; ++index) {
-		if ((empty_views & (1u << index)) != 0) {
+		if ((unseen_views & (1u << index)) != 0) {
+			// What was drawn stays right for when the camera turns back.
+			r_plan.leave_out_light_view(index, "the camera sees no receiver in it");
+		} else if ((empty_views & (1u << index)) != 0) {
 			drawn_hashes[index] = 0;
 			r_plan.leave_out_light_view(index, "no casters");
 		} else if (may_keep && drawn_hashes[index] == p_inputs.casters[index].content_hash) {

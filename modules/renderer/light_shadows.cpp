@@ -15,6 +15,9 @@ namespace gnomon {
 
 namespace {
 
+// A light that turns away and comes back soon finds its maps; one that stays away holds no memory.
+constexpr uint64_t KEPT_FRAMES = 60;
+
 CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, bool p_may_cull) {
 	CasterList casters;
 	// Field by field: the struct has padding.
@@ -94,6 +97,7 @@ LightShadows::Slot &LightShadows::get_slot(
 		slot.technique = p_info.make();
 		slot.technique_id = p_info.id;
 	}
+	slot.last_frame = frame;
 	return slot;
 }
 
@@ -115,9 +119,10 @@ void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 			filters.push_back(info.make());
 		}
 	}
+	++frame;
 	std::erase_if(slots, [&](const auto &p_slot) {
-		return std::none_of(p_scene.lights.begin(), p_scene.lights.end(),
-				[&](const LightSnapshot &p_light) { return p_light.name == p_slot.first.first; });
+		return frame - p_slot.second.last_frame > KEPT_FRAMES ||
+				p_scene.find_light(p_slot.first.first) == nullptr;
 	});
 }
 
@@ -157,12 +162,13 @@ RGTexture LightShadows::add_technique(const Work &p_work, ShadowTechnique &r_tec
 	std::vector<CasterList> casters;
 	for (const LightView &view : views) {
 		casters.push_back(cull_casters(p_scene, view, request.may_leave_out));
+		casters.back().has_receivers = may_view_hold_any(view, request.lit_receivers);
 	}
 	const ShadowTechnique::Inputs inputs = { device, meshes, p_scene, request.light,
 		p_work.properties, views, casters, request.size_px, request.gbuffer.depth,
 		request.gbuffer.geometric_normal, request.gbuffer.shading_normal, request.gbuffer.material,
 		request.receivers, request.frame, request.light_constants, request.may_leave_out,
-		request.may_keep, wants_debug_views };
+		request.may_keep, wants_debug_views, request.lit_receivers.list };
 	r_technique.plan(inputs, plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
 		if (plan.is_light_view_left_out(index)) {
@@ -250,7 +256,7 @@ RGTexture LightShadows::add_passes(RenderGraph &r_graph, const Request &p_reques
 		{}, p_request.size_px, p_request.gbuffer.depth, p_request.gbuffer.geometric_normal,
 		p_request.gbuffer.shading_normal, p_request.gbuffer.material, p_request.receivers,
 		p_request.frame, p_request.light_constants, p_request.may_leave_out, p_request.may_keep,
-		p_request.wants_debug_views };
+		p_request.wants_debug_views, p_request.lit_receivers.list };
 	TechniquePlan plan(r_plan);
 	mask = add_filters(r_graph, inputs, choice.info->is_reference, mask, plan);
 	if (p_request.wants_debug_views) {

@@ -39,12 +39,14 @@ public:
 		bool may_leave_out = true;
 		bool may_keep = true;
 		bool wants_debug_views = false;
+		VisibleReceivers lit_receivers = {}; // of the light
 	};
 	/// Records everything between the G-buffer and the lighting of one light. Returns its mask.
 	/// r_debug_views: gets those that there are, when the request wants them.
 	RGTexture add_passes(RenderGraph &r_graph, const Request &p_request, FramePlan &r_plan,
 			std::vector<ShadowTechnique::DebugView> &r_debug_views);
-	/// Drops techniques of lights that are gone, and all when a registry changed. Once a frame.
+	/// Drops techniques of lights that are gone or were not asked for in many frames, and all when
+	/// a registry changed. Once a frame.
 	void collect_garbage(const SceneSnapshot &p_scene);
 	/// Of the light's mask of the last frame; see ShadowTechnique.
 	float get_standard_error(const std::string &p_light_name) const;
@@ -58,6 +60,7 @@ private:
 		LightLimits limits;
 		/// Of the last frame, where casters are translucent: other than the frame's own.
 		std::shared_ptr<const SceneSnapshot> scene;
+		uint64_t last_frame = 0; // in which it was asked for
 	};
 	/// Of a light: 0, and 1 + i for its group i of translucent casters.
 	using SlotKey = std::pair<std::string, size_t>;
@@ -81,6 +84,7 @@ private:
 	std::map<SlotKey, Slot> slots;
 	std::vector<std::unique_ptr<MaskFilter>> filters; // in the registry's order
 	std::set<std::string> warned;
+	uint64_t frame = 0;
 	uint64_t technique_revision = 0;
 	uint64_t filter_revision = 0;
 };

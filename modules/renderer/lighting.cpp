@@ -27,16 +27,6 @@ shader::LightConstants compute_light_constants(
 	return constants;
 }
 
-bool may_light_view(const LightSnapshot &p_light, const LightView &p_camera_view) {
-	if (p_light.type == LightType::DIRECTIONAL || p_light.range_m <= 0.0f) {
-		return true;
-	}
-	Bounds reach;
-	reach.add(p_light.position_world - glm::dvec3(p_light.range_m));
-	reach.add(p_light.position_world + glm::dvec3(p_light.range_m));
-	return p_camera_view.may_see(reach);
-}
-
 RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px) {
 	const PipelineRID pipeline =

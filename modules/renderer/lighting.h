@@ -11,9 +11,6 @@ namespace gnomon {
 shader::LightConstants compute_light_constants(
 		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
 
-/// False when the light's range ends before everything the camera sees.
-bool may_light_view(const LightSnapshot &p_light, const LightView &p_camera_view);
-
 /// R8_UNORM: 1 where the light can reach (TECHNIQUES, section 0: receiver pixels).
 RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
 		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px);

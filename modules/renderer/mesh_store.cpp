@@ -39,9 +39,11 @@ const GpuTopology &MeshStore::get_topology(const std::shared_ptr<const Mesh> &p_
 
 void MeshStore::collect_garbage() {
 	const auto is_gone = [](const auto &p_entry) { return p_entry.second.mesh.expired(); };
-	std::erase_if(meshes, is_gone);
-	std::erase_if(topologies, is_gone);
-	std::erase_if(derived, is_gone);
+	const size_t gone_count = std::erase_if(meshes, is_gone) + std::erase_if(topologies, is_gone) +
+			std::erase_if(derived, is_gone);
+	if (gone_count > 0) {
+		drop_unused_topologies();
+	}
 }
 
 std::vector<VertexAttribute> get_position_attributes() {

@@ -30,6 +30,14 @@ bool has_debug_light(const RenderRequest &p_request) {
 	return light != nullptr && light->casts_shadow;
 }
 
+/// Why a light that reaches no receiver changes nothing.
+std::string describe_unlit(const LightSnapshot &p_light) {
+	return text("the camera sees no surface",
+			p_light.type == LightType::SPOT			  ? " in its cone and range"
+					: p_light.type == LightType::OMNI ? " in its range"
+													  : "");
+}
+
 } // namespace
 
 struct Renderer::Frame {
@@ -38,6 +46,7 @@ struct Renderer::Frame {
 	RenderGraph graph;
 	RGBuffer constants;
 	GBuffer gbuffer;
+	VisibleReceivers receivers;							 // of any light
 	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is asked for
 	bool has_asked_for_debug_view = false;
 	std::vector<uint8_t> mask_bytes;
@@ -46,6 +55,12 @@ struct Renderer::Frame {
 	std::vector<uint8_t> normal_bytes;
 	std::vector<uint8_t> material_bytes;
 	Format mask_format = Format::R16_SFLOAT;
+
+	/// The light whose intermediate images are shown: nothing of it is left out.
+	bool asks_for_debug_view(const LightSnapshot &p_light) const {
+		return !request.debug_view.empty() && !has_asked_for_debug_view && p_light.casts_shadow &&
+				(p_light.name == request.debug_light || !has_debug_light(request));
+	}
 };
 
 std::vector<PassTiming> RenderResult::find_light_passes(const std::string &p_light) const {
@@ -100,17 +115,20 @@ RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTe
 			graph, device, r_frame.gbuffer, r_frame.constants, r_light_constants, request.size_px);
 	plan.run("receivers");
 	RGTexture mask;
+	const bool asks = r_frame.asks_for_debug_view(p_light);
+	const VisibleReceivers lit = find_lit_receivers(p_light, r_frame.receivers);
 	if (!p_light.casts_shadow) {
 		plan.leave_out("shadow", "shadow_enabled is false");
 		mask = add_constant_mask(graph, request.size_px, 1.0f);
+	} else if (request.may_leave_out && lit.list.empty() && !asks) {
+		plan.leave_out("shadow", describe_unlit(p_light));
+		mask = add_constant_mask(graph, request.size_px, 1.0f);
 	} else {
-		const bool asks = !request.debug_view.empty() && !r_frame.has_asked_for_debug_view &&
-				(p_light.name == request.debug_light || !has_debug_light(request));
 		r_frame.has_asked_for_debug_view |= asks;
 		mask = shadows.add_passes(graph,
 				{ *request.scene, p_light, r_frame.gbuffer, r_receivers, r_frame.constants,
 						r_light_constants, request.size_px, request.technique_override,
-						request.may_leave_out, request.may_keep, asks },
+						request.may_leave_out, request.may_keep, asks, lit },
 				plan, r_frame.debug_views);
 		if (asks && request.truth) {
 			r_frame.debug_views.push_back(add_error_view(
@@ -151,17 +169,17 @@ void Renderer::add_picture(Frame &r_frame) {
 	RenderGraph &graph = r_frame.graph;
 	const RenderRequest &request = r_frame.request;
 	FramePlan &plan = r_frame.result.plan;
-	const LightView camera_view = make_camera_view(request.scene->camera, request.size_px);
 	const RGTexture radiance =
 			add_ambient_pass(graph, device, r_frame.gbuffer, r_frame.constants, request.size_px);
 	plan.run("ambient");
 	for (const LightSnapshot &light : request.scene->lights) {
 		plan.set_light(light.name);
-		if (request.may_leave_out && !may_light_view(light, camera_view)) {
-			plan.leave_out("light", "its range ends before all that the camera sees");
+		const bool may_leave_out = request.may_leave_out && !r_frame.asks_for_debug_view(light);
+		if (may_leave_out && find_lit_receivers(light, r_frame.receivers).list.empty()) {
+			plan.leave_out("light", describe_unlit(light));
 			continue;
 		}
-		if (request.may_leave_out && (light.intensity <= 0.0f || light.color == glm::vec3(0.0f))) {
+		if (may_leave_out && (light.intensity <= 0.0f || light.color == glm::vec3(0.0f))) {
 			plan.leave_out("light", "its intensity is 0");
 			continue;
 		}
@@ -251,10 +269,13 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	const SceneSnapshot &scene = *p_request.scene;
 	RenderResult result;
 	shadows.collect_garbage(scene);
-	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, false, {}, {}, {},
-		{}, {}, Format::R16_SFLOAT };
+	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, {}, false, {}, {},
+		{}, {}, {}, Format::R16_SFLOAT };
+	frame.receivers =
+			find_visible_receivers(scene, make_camera_view(scene.camera, p_request.size_px));
 	frame.constants = frame.graph.upload_constants(
 			"frame constants", compute_frame_constants(scene, p_request.size_px));
+	const CommandCounts counts_before = device.get_command_counts();
 	try {
 		uint32_t drawn_count = 0;
 		frame.gbuffer = add_gbuffer_pass(frame.graph, device, meshes, scene, p_request.size_px,
@@ -282,6 +303,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	for (const PassTiming &timing : result.timings) {
 		result.gpu_ms += timing.gpu_ms;
 	}
+	result.commands = device.get_command_counts() - counts_before;
 	result.wall_ms = frame.graph.get_wall_ms();
 	result.dot = frame.graph.to_dot();
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();

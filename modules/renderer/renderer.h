@@ -67,6 +67,7 @@ struct RenderResult {
 	std::vector<float> receiver;		  // 1 or 0
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
+	CommandCounts commands;				  // draws and dispatches of the frame
 	std::string dot;					  // the frame's graph for Graphviz
 	uint64_t unaliased_bytes = 0;		  // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;

@@ -4,6 +4,7 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/renderer/frame_plan.h"
 #include "modules/renderer/light_view.h"
+#include "modules/renderer/visible_receivers.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <limits>
@@ -22,6 +23,9 @@ struct CasterList {
 	std::vector<uint32_t> instances; // indices into SceneSnapshot::instances
 	/// Changes when the view, a caster or a caster's place changes: equal hashes, equal map.
 	uint64_t content_hash = 0;
+	/// False: no receiver that the camera sees lies in the view, so that only filters that look
+	/// across into other views can read its map.
+	bool has_receivers = true;
 };
 
 /// What a technique decides before any pass is recorded. Names the light in the frame's plan.
@@ -89,6 +93,8 @@ public:
 		bool may_keep = true;
 		/// True while one of the technique's debug views is shown.
 		bool wants_debug_views = false;
+		/// What the camera sees of the instances that the light may reach: all receivers are there.
+		std::span<const VisibleReceiver> lit_receivers;
 	};
 	/// An intermediate image of the last resolve().
 	struct DebugView {

@@ -146,6 +146,7 @@ void CommandList::dispatch(glm::uvec3 p_group_count) {
 			"pipeline '", impl.pipeline->name, "': ", p_group_count.x, " x ", p_group_count.y,
 			" x ", p_group_count.z, " groups, at most ", limits[0], " x ", limits[1], " x ",
 			limits[2]);
+	++impl.device->command_counts.dispatches;
 	vkCmdDispatch(impl.commands, p_group_count.x, p_group_count.y, p_group_count.z);
 }
 
@@ -157,6 +158,7 @@ void CommandList::dispatch_items(glm::uvec3 p_item_count) {
 
 void CommandList::dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
 	impl.prepare_dispatch("dispatch_indirect");
+	++impl.device->command_counts.dispatches;
 	vkCmdDispatchIndirect(
 			impl.commands, impl.device->buffers.get(p_arguments).buffer, p_offset_bytes);
 }

@@ -219,6 +219,7 @@ void CommandList::Impl::prepare_draw(const char *p_call) const {
 
 void CommandList::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
 	impl.prepare_draw("draw");
+	++impl.device->command_counts.draws;
 	vkCmdDraw(impl.commands, p_vertex_count, p_instance_count, 0, 0);
 }
 
@@ -226,11 +227,13 @@ void CommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
 	impl.prepare_draw("draw_indexed");
 	GNOMON_ASSERT(impl.is_index_buffer_bound, "pipeline '", impl.pipeline->name,
 			"': draw_indexed before bind_index_buffer");
+	++impl.device->command_counts.draws;
 	vkCmdDrawIndexed(impl.commands, p_index_count, 1, p_first_index, 0, 0);
 }
 
 void CommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
 	impl.prepare_draw("draw_indirect");
+	++impl.device->command_counts.draws;
 	vkCmdDrawIndirect(
 			impl.commands, impl.device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
 }

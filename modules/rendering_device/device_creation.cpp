@@ -241,6 +241,10 @@ const DeviceFeatures &RenderingDevice::get_features() const {
 	return impl->features;
 }
 
+CommandCounts RenderingDevice::get_command_counts() const {
+	return impl->command_counts;
+}
+
 MemoryUse RenderingDevice::get_memory_use() const {
 	return impl->allocator.get_use();
 }

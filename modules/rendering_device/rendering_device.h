@@ -78,6 +78,15 @@ struct MemoryUse {
 /// What tests can let happen to a submission; $GNOMON_INJECT_FAULT likewise, "device_lost@12".
 enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
 
+/// Commands recorded since the device began; those under a condition count too.
+struct CommandCounts {
+	uint64_t draws = 0;
+	uint64_t dispatches = 0;
+	CommandCounts operator-(const CommandCounts &p_earlier) const {
+		return { draws - p_earlier.draws, dispatches - p_earlier.dispatches };
+	}
+};
+
 /// Time of one span between two timestamps of a finished submission.
 struct GpuSpan {
 	std::string name;
@@ -109,6 +118,7 @@ public:
 	const DeviceInfo &get_info() const;
 	const DeviceFeatures &get_features() const;
 	MemoryUse get_memory_use() const;
+	CommandCounts get_command_counts() const;
 	/// Names of the resources that are alive, "texture 'albedo'", sorted; for the leak tests.
 	std::vector<std::string> get_live_resources() const;
 

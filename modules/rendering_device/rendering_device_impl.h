@@ -172,6 +172,7 @@ struct RenderingDevice::Impl {
 
 	VkSemaphore timeline = VK_NULL_HANDLE; // counts finished submissions
 	uint64_t submitted_number = 0;
+	CommandCounts command_counts;
 	SubmissionSlot slots[SLOT_COUNT];
 	CommandList::Impl recording;
 	CommandList command_list{ recording };

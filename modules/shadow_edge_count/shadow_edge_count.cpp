@@ -52,19 +52,21 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const SceneS
 void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	debug_picture = {};
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
-	views.begin(p_inputs);
+	views.begin(p_inputs, KeptViews::Reads::ACROSS_VIEWS);
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
-	if (views.is_all_empty()) {
+	const auto forget = [&] {
 		views.plan(p_inputs, r_plan, false);
 		buffers.reset();
 		found.clear();
-		return;
+	};
+	if (views.is_all_empty()) {
+		return forget();
 	}
 	uint32_t most_edges = 0;
 	uint32_t edge_count = 0;
 	uint64_t fragment_bound = 0;
 	std::vector<CountCasters> casters;
-	empty_views = views.get_empty_views();
+	empty_views = 0;
 	for (uint32_t view = 0; view < view_count; ++view) {
 		casters.push_back(build_count_casters(p_inputs, view));
 		most_edges = std::max(most_edges, casters.back().edge_count);
@@ -76,6 +78,18 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
 			most_edges, fragment_bound, settings.layer_count);
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
+	const CountCapacities &capacities = buffers.get_capacities();
+	const bool may_lack_room = most_edges > capacities.records_per_view ||
+			(settings.layer_count == 0 && fragment_bound > capacities.fragments_per_view);
+	may_be_over = edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
+	if (!may_be_over) {
+		// Only filters read beyond the view of a receiver.
+		views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
+		if (views.is_all_empty()) {
+			return forget();
+		}
+	}
+	empty_views |= views.get_empty_views();
 	if (!has_content || found.size() != view_count) {
 		found.assign(view_count, {});
 	}
@@ -85,10 +99,6 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	drawn_disc_radius = settings.disc_radius;
 	drawn_layer_count = settings.layer_count;
 	plan_edges(p_inputs, casters, r_plan);
-	const CountCapacities &capacities = buffers.get_capacities();
-	const bool may_lack_room = most_edges > capacities.records_per_view ||
-			(settings.layer_count == 0 && fragment_bound > capacities.fragments_per_view);
-	may_be_over = edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
 	if (may_be_over) {
 		r_plan.run(text("filter where a block has more than ", settings.budget, " edges"));
 	} else {

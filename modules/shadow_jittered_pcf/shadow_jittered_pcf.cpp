@@ -43,7 +43,7 @@ void ShadowJitteredPcf::get_light_views(const LightSnapshot &p_light, const Scen
 }
 
 void ShadowJitteredPcf::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	maps.plan(p_inputs, r_plan);
+	maps.plan(p_inputs, KeptViews::Reads::ACROSS_VIEWS, r_plan);
 	const uint32_t ring_count =
 			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("jittered_pcf_rings")));
 	if (!maps.is_all_empty() && offset_ring_count != ring_count) {

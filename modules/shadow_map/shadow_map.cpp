@@ -37,7 +37,7 @@ void ShadowMap::get_light_views(const LightSnapshot &p_light, const SceneSnapsho
 }
 
 void ShadowMap::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	maps.plan(p_inputs, r_plan);
+	maps.plan(p_inputs, KeptViews::Reads::OWN_VIEW, r_plan);
 }
 
 void ShadowMap::at_light_view(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {

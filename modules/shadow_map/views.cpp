@@ -57,6 +57,9 @@ void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
 			is_empty[index] = true;
 			r_plan.leave_out_light_view(index, "no casters");
+		} else if (p_inputs.may_leave_out && !p_inputs.casters[index].has_receivers) {
+			is_empty[index] = true;
+			r_plan.leave_out_light_view(index, "the camera sees no receiver in it");
 		}
 	}
 	is_all_empty = std::all_of(is_empty.begin(), is_empty.end(), [](bool p_is) { return p_is; });

@@ -40,7 +40,7 @@ void ShadowPcss::get_light_views(const LightSnapshot &p_light, const SceneSnapsh
 }
 
 void ShadowPcss::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	maps.plan(p_inputs, r_plan);
+	maps.plan(p_inputs, KeptViews::Reads::ACROSS_VIEWS, r_plan);
 }
 
 void ShadowPcss::at_light_view(

@@ -65,7 +65,7 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 }
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	views.begin(p_inputs);
+	views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
 	bool has_content = false;
 	if (views.is_all_empty()) {
 		maps.reset();

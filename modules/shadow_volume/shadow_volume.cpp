@@ -46,6 +46,10 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	report(casters.z_fail_count, "volumes by z-fail");
 	report(casters.robust_count, "robust volumes");
 	report(casters.geometry_shader_count, "volumes made by a geometry shader");
+	if (casters.spared_caps_count > 0) {
+		r_plan.leave_out(text("caps of ", casters.spared_caps_count, " casters"),
+				"z-pass is safe: the camera's near plane is outside their volumes");
+	}
 	if (casters.unseen_count > 0) {
 		r_plan.leave_out(text("volumes of ", casters.unseen_count, " casters"),
 				"their shadows lie outside the picture");

@@ -115,8 +115,8 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		caster.is_mirrored = instance.is_mirrored();
 		caster.is_robust = p_settings.is_always_robust || topology.is_double_sided() ||
 				topology.signed_volume_m3 < 0 || is_light_within(instance, p_inputs.light);
-		caster.count = p_settings.count.value_or(
-				may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
+		caster.count = p_settings.count.value_or(!p_inputs.may_leave_out ||
+								may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
 						? VolumeCount::Z_FAIL
 						: VolumeCount::Z_PASS);
 		caster.has_far_cap = caster.count == VolumeCount::Z_FAIL;
@@ -137,6 +137,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 						: VolumeMaker::COMPUTE);
 		result.geometry_shader_count += caster.maker == VolumeMaker::GEOMETRY_SHADER ? 1 : 0;
 		result.z_fail_count += caster.has_far_cap ? 1 : 0;
+		result.spared_caps_count += !p_settings.count && !caster.has_far_cap ? 1 : 0;
 		result.robust_count += caster.is_robust ? 1 : 0;
 		result.group_count = caster.group + 1;
 		result.casters.push_back(caster);

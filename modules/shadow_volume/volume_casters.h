@@ -30,8 +30,9 @@ struct VolumeCasters {
 	uint32_t z_fail_count = 0;
 	uint32_t robust_count = 0;
 	uint32_t geometry_shader_count = 0;
-	uint32_t flat_count = 0;   // with a singular transform: they have no inside
-	uint32_t unseen_count = 0; // whose shadow lies outside the picture
+	uint32_t flat_count = 0;		// with a singular transform: they have no inside
+	uint32_t spared_caps_count = 0; // counted by z-pass, as it is safe
+	uint32_t unseen_count = 0;		// whose shadow lies outside the picture
 };
 
 /// Decides for every caster of p_instances (ascending) how it is drawn. A caster is robust when its

@@ -95,3 +95,16 @@ TEST_CASE("[GPU][Pcss] a caster behind the light changes nothing") {
 		CHECK(compute_mask_difference(with, without) < 1e-3);
 	}
 }
+
+TEST_CASE("[GPU][Pcss] views without receivers are drawn: taps reach across into them") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::OMNI);
+	scene.camera->parent_from_node = look_at({ 0, 1.2, 2.5 }, { 0, 0.2, 0 });
+	scene.camera->vertical_fov_rad = 0.1f;
+	const RenderResult result = fixture.render_mask(scene, "pcss");
+	for (const FramePlanEntry &entry : result.plan.get_entries()) {
+		CHECK(entry.reason.find("receiver") == std::string::npos);
+	}
+	CHECK(result.visibility ==
+			fixture.render_mask(scene, "pcss", glm::uvec2(64), false).visibility);
+}

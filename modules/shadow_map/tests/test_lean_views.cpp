@@ -1,0 +1,71 @@
+// Which views the maps of this module leave out, and which other maps may not.
+
+#include "modules/renderer/tests/render_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace gnomon;
+
+namespace {
+
+const char NO_RECEIVERS[] = "the camera sees no receiver in it";
+
+/// An omni light in a room of four walls, and a camera that looks at the one towards +x.
+SmallScene make_room() {
+	SmallScene scene(LightType::OMNI);
+	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 1, 0));
+	scene.box->surfaces.clear();
+	for (const double side : { -1.0, 1.0 }) {
+		add_mesh(scene.scene, "Wall x", make_box_mesh("x", { 0.1f, 2, 2 }), { 2 * side, 1, 0 });
+		add_mesh(scene.scene, "Wall z", make_box_mesh("z", { 2, 2, 0.1f }), { 0, 1, 2 * side });
+	}
+	add_mesh(scene.scene, "Caster", make_box_mesh("caster", glm::vec3(0.2f)), { 1, 1, 0 });
+	scene.camera->parent_from_node = look_at({ 0, 1.2, 0 }, { 1, 1.1, 0 });
+	scene.camera->vertical_fov_rad = 0.5f;
+	return scene;
+}
+
+size_t count_left_out(const RenderResult &p_result, const std::string &p_reason) {
+	const auto &entries = p_result.plan.get_entries();
+	return static_cast<size_t>(
+			std::count_if(entries.begin(), entries.end(), [&](const FramePlanEntry &p_entry) {
+				return !p_entry.runs && p_entry.reason == p_reason;
+			}));
+}
+
+} // namespace
+
+TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are left out") {
+	for (const std::string id : { "shadow_map", "views" }) {
+		CAPTURE(id);
+		RenderFixture fixture;
+		SmallScene scene = make_room();
+		scene.light->properties["light_size"] = 0.0; // one point
+		const RenderResult lean = fixture.render_mask(scene, id);
+		// Only the wall towards +x is seen: every other of the six views is not needed.
+		CHECK(count_left_out(lean, NO_RECEIVERS) == 5);
+		CHECK(count_left_out(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
+				0);
+		// From above and outside all walls and the ground are seen, but nothing above the light.
+		scene.camera->parent_from_node = look_at({ 0.5, 12, 0.5 }, { 0, 0, 0 });
+		scene.camera->vertical_fov_rad = 1.0f;
+		const RenderResult wide = fixture.render_mask(scene, id);
+		CHECK(count_left_out(wide, NO_RECEIVERS) + count_left_out(wide, "no casters") <= 1);
+	}
+}
+
+TEST_CASE("[GPU][ShadowMap] a map that was drawn is still there when the camera turns back") {
+	RenderFixture fixture;
+	SmallScene scene = make_room();
+	const auto look = [&](double p_x) {
+		scene.camera->parent_from_node = look_at({ 0, 1.2, 0 }, { p_x, 1.1, 0 });
+		return count_left_out(fixture.render_mask(scene, "shadow_map"),
+				"kept: neither the light nor a caster moved");
+	};
+	CHECK(look(1) == 0);
+	CHECK(look(-1) == 0); // another view
+	CHECK(look(1) == 1);
+	CHECK(look(-1) == 1);
+}
