@@ -8,3 +8,7 @@ def get_layer():
 
 def get_description():
     return "Errors, log, properties, module registry, files"
+
+
+def configure(env):
+    env.Append(LIBS=["stb"])  # PNG

@@ -28,4 +28,3 @@ def configure(env):
         env.Append(CCFLAGS=[("-isystem", folder)])
     flags["CPPPATH"] = []
     env.MergeFlags(flags)
-    env.Append(LIBS=["stb"])

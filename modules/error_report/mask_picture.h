@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/png.h"
 #include "modules/error_report/mask_image.h"
 
 #include "shared/heat_map_shared.h"
@@ -8,7 +9,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -22,14 +22,6 @@ void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image
 /// Errors as in compute_mask_metrics.
 void save_error_png(
 		const std::filesystem::path &p_path, const MaskImage &p_truth, const MaskImage &p_result);
-
-/// Any 8-bit picture of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels, rows from the top.
-void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
-		uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
-
-/// The bytes of such a file.
-std::vector<uint8_t> encode_png(
-		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
 
 /// The colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
 std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count);

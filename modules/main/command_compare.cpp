@@ -20,9 +20,7 @@ struct CompareOptions {
 	std::string heatmap;
 };
 
-} // namespace
-
-void add_compare_command(CLI::App &r_app) {
+void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	static CompareOptions options;
 	CLI::App *command = r_app.add_subcommand("compare", "How far a mask is from the truth");
 	command->add_option("truth", options.truth, "EXR of the exact mask")->required();
@@ -40,5 +38,9 @@ void add_compare_command(CLI::App &r_app) {
 		std::printf("%s\n", to_json(metrics).c_str());
 	});
 }
+
+const OptionalCommand command_compare(&add_compare_command);
+
+} // namespace
 
 } // namespace gnomon

@@ -169,8 +169,6 @@ void run_merge_command(const ReportArguments &p_arguments) {
 	finish_report(report, p_arguments.merge_out, p_arguments, old_report, MissingCells::REFUSED);
 }
 
-} // namespace
-
 void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	static ReportArguments arguments;
 	CLI::App *command = r_app.add_subcommand(
@@ -229,5 +227,9 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 		run_report_command(arguments, r_common);
 	});
 }
+
+const OptionalCommand command_report(&add_report_command);
+
+} // namespace
 
 } // namespace gnomon

@@ -3,9 +3,9 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
-#include "modules/error_report/mask_picture.h"
+#include "modules/core/png.h"
 #include "modules/main/commands.h"
-#include "modules/main/game_window.h"
+#include "modules/main/optional_parts.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,12 +30,6 @@ void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	}
 }
 
-std::shared_ptr<const TruthMask> load_truth() {
-	MaskImage image = load_mask_exr(truth_path);
-	return std::make_shared<TruthMask>(
-			image.size_px, std::move(image.visibility), std::move(image.receiver));
-}
-
 void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_common) {
 	const Camera3D &camera = choose_camera(r_scene, options.camera);
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
@@ -46,6 +40,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	request.technique_override = options.technique;
 	request.debug_view = options.debug_view;
 	request.truth = options.truth;
+	request.may_leave_out = !options.leaves_out_nothing;
 	RenderResult result;
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
 	for (uint32_t index = 0; index < frame_count; ++index) {
@@ -57,17 +52,24 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 		std::printf("%-40s %8.3f ms GPU\n", timing.name.c_str(), timing.gpu_ms);
 	}
 	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
+	if (!options.time.empty()) {
+		request.wants_image = false;
+		request.may_keep = options.is_still;
+		save_file_atomically(options.time,
+				OptionalParts::get().measure_frame_time(
+						renderer, request, [&] { return build_snapshot(r_scene, camera); }));
+	}
 }
 
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
-	for (const std::string &path : { options.capture, options.dot }) {
+	for (const std::string &path : { options.capture, options.dot, options.time }) {
 		if (!path.empty()) {
 			check_writable(path);
 		}
 	}
 	if (!truth_path.empty()) {
-		options.truth = load_truth();
+		options.truth = OptionalParts::get().load_truth(truth_path);
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene);
 	for (const std::string &setting : options.settings) {
@@ -79,8 +81,12 @@ void run(const CommonOptions &p_common) {
 	}
 	if (options.is_headless) {
 		run_headless(*scene, size_px, p_common);
+	} else if (OptionalParts::get().run_in_window == nullptr) {
+		fail("This build has no window, as it lacks the module desktop. Use --headless, or build ",
+				"with module_desktop_enabled=yes.");
 	} else {
-		const RenderResult result = run_in_window(*scene, size_px, options, p_common);
+		const RenderResult result =
+				OptionalParts::get().run_in_window(*scene, size_px, options, p_common);
 		save_capture(result, size_px);
 	}
 }
@@ -93,7 +99,8 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 			"mouse button fly, T changes the technique");
 	command->add_option("scene", options.scene, "A project's folder, or a .gltf or .glb file")
 			->required();
-	command->add_flag("--headless", options.is_headless, "Needs no display");
+	CLI::Option *headless =
+			command->add_flag("--headless", options.is_headless, "Needs no display");
 	command->add_option("--frames", options.frame_count, "Ends after so many; headless: 1")
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
@@ -102,8 +109,23 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");
-	command->add_option("--truth", truth_path,
-			"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
+	if (OptionalParts::get().load_truth != nullptr) {
+		command->add_option("--truth", truth_path,
+				"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
+	}
+	if (OptionalParts::get().measure_frame_time != nullptr) {
+		CLI::Option *time =
+				command->add_option("--time", options.time,
+							   "Writes the times of 20 frames after 5 to warm up as JSON")
+						->needs(headless);
+		command->add_flag("--still", options.is_still,
+					   "--time measures frames in which nothing moves, so that what is kept is "
+					   "used")
+				->needs(time);
+	}
+	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
+				   "Runs also what the picture does not need (for comparison)")
+			->needs(headless);
 	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
 			->take_all()
 			->allow_extra_args(false);

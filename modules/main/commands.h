@@ -38,9 +38,6 @@ public:
 
 // Each adds its command to the command line; when it is chosen, it runs inside CLI11's parse.
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
-void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);
-void add_compare_command(CLI::App &r_app);
-void add_report_command(CLI::App &r_app, CommonOptions &r_common);
 void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
 
 /// A whole number of digits alone; false for any other text.

@@ -1,9 +1,10 @@
 def get_dependencies():
-    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene", "error_report", "desktop"]
+    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene"]
 
 
 def get_optional_dependencies():
-    return ["editor"]  # without it there is no command `edit`
+    # Without them: no window; no visibility, compare and report; no edit. See SCsub.
+    return ["desktop", "error_report", "editor"]
 
 
 def get_layer():
@@ -20,7 +21,3 @@ def is_program():
 
 def can_disable():
     return False
-
-
-def configure(env):
-    env.Append(LIBS=["glfw"])

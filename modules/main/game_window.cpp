@@ -3,6 +3,7 @@
 #include "modules/core/log.h"
 #include "modules/desktop/window.h"
 #include "modules/main/fly_camera.h"
+#include "modules/main/optional_parts.h"
 #include "modules/main/overlay_text.h"
 #include "modules/renderer/shadow_registry.h"
 
@@ -185,5 +186,14 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	device->wait_idle();
 	return result;
 }
+
+namespace {
+
+[[maybe_unused]] const bool is_registered = [] {
+	OptionalParts::get().run_in_window = &run_in_window;
+	return true;
+}();
+
+} // namespace
 
 } // namespace gnomon

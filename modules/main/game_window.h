@@ -22,6 +22,9 @@ struct RunOptions {
 	std::vector<std::string> settings;
 	bool prints_plan = false;
 	std::string dot;
+	std::string time; // headless: where to write what a frame takes
+	bool is_still = false;
+	bool leaves_out_nothing = false;
 };
 
 /// Shows the scene in a window until it is closed or frame_count is reached. Returns the last

@@ -11,10 +11,30 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <new>
+#include <string>
+#include <utility>
 
 namespace {
 
 using namespace gnomon;
+
+/// Commands that some builds lack, and the module that they need.
+const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
+	{ "visibility", "error_report" }, { "compare", "error_report" }, { "report", "error_report" } };
+
+/// A command that this build lacks ends with the module's name, not with a riddle.
+void check_command(const CLI::App &p_app, const std::string &p_command) {
+	for (const auto &[command, module] : MODULES_OF_COMMANDS) {
+		const auto has_name = [&](const CLI::App *p_found) {
+			return p_found->get_name() == p_command;
+		};
+		if (p_command == command && p_app.get_subcommands(has_name).empty()) {
+			throw UsageError(text("`gnomon ", command, "` needs the module ", module,
+					", which this build lacks. Build with module_", module, "_enabled=yes."));
+		}
+	}
+}
 
 int run_program(int p_argument_count, char **p_arguments) {
 	CLI::App app("Gnomon: soft shadows that are measured against the exact ones.", "gnomon");
@@ -22,12 +42,12 @@ int run_program(int p_argument_count, char **p_arguments) {
 	app.set_version_flag("--version", std::string("gnomon ") + PROGRAM_VERSION);
 	CommonOptions common;
 	add_run_command(app, common);
-	add_visibility_command(app, common);
-	add_compare_command(app);
-	add_report_command(app, common);
 	add_list_commands(app, common);
 	for (const OptionalCommand::Add add : OptionalCommand::get_all()) {
 		add(app, common);
+	}
+	if (p_argument_count > 1) {
+		check_command(app, p_arguments[1]);
 	}
 	try {
 		app.parse(p_argument_count, p_arguments);

@@ -1,6 +1,7 @@
 #include "modules/main/measure.h"
 
 #include "modules/core/progress.h"
+#include "modules/error_report/mask_image.h"
 #include "modules/mesh_tools/topology.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,21 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the shadow
+
+constexpr uint32_t WARM_UP_COUNT = 5;
+constexpr uint32_t MEASURED_COUNT = 20;
+
+std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
+	MaskImage image = load_mask_exr(p_path);
+	return std::make_shared<TruthMask>(
+			image.size_px, std::move(image.visibility), std::move(image.receiver));
+}
+
+[[maybe_unused]] const bool is_registered = [] {
+	OptionalParts::get().load_truth = &load_truth;
+	OptionalParts::get().measure_frame_time = &measure_frame_time;
+	return true;
+}();
 
 /// The passes of the light, or of every light, without its name.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
@@ -66,8 +82,10 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 	return samples.compute();
 }
 
-std::string measure_mask_time(
-		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count) {
+namespace {
+
+std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
+		uint32_t p_count, const OptionalParts::SnapshotMaker &p_make_snapshot) {
 	Progress progress("Measuring");
 	const MaskTiming timing =
 			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
@@ -76,9 +94,16 @@ std::string measure_mask_time(
 	p_request.mode = RenderGraph::Mode::WAIT;
 	std::vector<double> gpu_ms;
 	std::vector<double> wall_ms;
+	std::vector<double> call_ms;
+	RenderResult result;
 	for (uint32_t index = 0; index < p_count; ++index) {
 		progress.update(0.5 + 0.5 * double(index) / p_count);
-		const RenderResult result = r_renderer.render(p_request);
+		const Clock::time_point start = Clock::now();
+		if (p_make_snapshot) {
+			p_request.scene = p_make_snapshot();
+		}
+		result = r_renderer.render(p_request);
+		call_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
 		gpu_ms.push_back(result.gpu_ms);
 		wall_ms.push_back(result.wall_ms);
 	}
@@ -96,8 +121,23 @@ std::string measure_mask_time(
 		{ "triangles", triangle_count }, { "edges", edge_count },
 		{ "passes", to_json(timing.passes) }, { "total", to_json(timing.total) },
 		{ "frame", to_json(compute_frame_cost(gpu_ms, wall_ms)) },
+		{ "call_ms", compute_percentile(call_ms, 0.5) }, { "pass_count", result.timings.size() },
+		{ "draws", result.commands.draws }, { "dispatches", result.commands.dispatches },
 		{ "bytes", r_renderer.get_device().get_memory_use().used_bytes } };
 	return json.dump(2) + "\n";
+}
+
+} // namespace
+
+std::string measure_mask_time(
+		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count) {
+	return measure_time(r_renderer, std::move(p_request), p_warm_up_count, p_count, {});
+}
+
+std::string measure_frame_time(Renderer &r_renderer, RenderRequest p_request,
+		const OptionalParts::SnapshotMaker &p_make_snapshot) {
+	return measure_time(
+			r_renderer, std::move(p_request), WARM_UP_COUNT, MEASURED_COUNT, p_make_snapshot);
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/error_report/mask_timing.h"
+#include "modules/main/optional_parts.h"
 #include "modules/renderer/renderer.h"
 
 #include <cstdint>
@@ -29,5 +30,10 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 /// (doc/command_line.md).
 std::string measure_mask_time(
 		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count);
+
+/// Likewise of a whole picture, all lights in it. p_make_snapshot: reads the tree of nodes, each
+/// frame anew, as a game does.
+std::string measure_frame_time(Renderer &r_renderer, RenderRequest p_request,
+		const OptionalParts::SnapshotMaker &p_make_snapshot);
 
 } // namespace gnomon
