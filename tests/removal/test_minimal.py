@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""The smallest game: a program that loads a scene and draws it headless, without editor, report and window.
+
+    test_minimal.py --plan           asks scons what it would build and from which files; compiles nothing
+    test_minimal.py [--jobs N]       builds it in a copy of the tree and runs it
+    test_minimal.py --write-sizes    builds it and writes the table of sizes in doc/getting_started.md
+
+Every other module is left out by module_<name>_enabled=no.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PAGE = os.path.join(ROOT, "doc", "getting_started.md")
+# What a game needs; its one technique is the registry's default.
+ENGINE = ("core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene", "main")
+ABSENT_COMMANDS = {"edit": "editor", "visibility": "error_report", "compare": "error_report", "report": "error_report"}
+PROGRAM = "bin/gnomon"
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "layers"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "removal"))
+sys.path.insert(0, os.path.join(ROOT, "modules"))
+import modules_builders  # noqa: E402
+import test_layers  # noqa: E402
+import test_removal  # noqa: E402
+
+
+def find_default_technique():
+    """The module of the technique with the highest default_rank, and its id."""
+    best = (0, "", "")
+    for module, (ids, _) in test_layers.Tree(ROOT).find_techniques().items():
+        with open(os.path.join(ROOT, "modules", module, "register_types.cpp"), encoding="utf-8") as file:
+            ranks = [int(rank) for rank in re.findall(r"default_rank\s*=\s*(\d+)", file.read())]
+        best = max(best, (max(ranks, default=0), module, min(ids, default="")))
+    if not best[1]:
+        raise SystemExit("ERROR: no technique has a default_rank; this test needs one.")
+    return best[1], best[2]
+
+
+def list_options(technique):
+    """scons options that leave out all but the engine and one technique."""
+    kept = ENGINE + (technique,)
+    names = [module.name for module in modules_builders.find_modules(os.path.join(ROOT, "modules"))]
+    return kept, ["module_%s_enabled=no" % name for name in names if name not in kept]
+
+
+def run(command, folder):
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=3600)
+
+
+class Results:
+    def __init__(self):
+        self.passed = 0
+        self.failed = 0
+
+    def check(self, is_good, what, output=""):
+        self.passed += bool(is_good)
+        self.failed += not is_good
+        if not is_good:
+            print("FAILED: minimal build: %s" % what)
+            print("\n".join("    " + line for line in output.splitlines()[-20:]), flush=True)
+        return is_good
+
+
+def check_plan(results):
+    """Which modules' files the program's dependency tree holds, headers included."""
+    module, _ = find_default_technique()
+    kept, options = list_options(module)
+    command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
+    planned = run(command + options, ROOT)
+    results.check(planned.returncode == 0, "scons plans it", planned.stdout + planned.stderr)
+
+    def find_modules(text):
+        return set(re.findall(r"(?<![\w/.])(?:build/\w+/)?modules/(\w+)/", text))
+
+    used = find_modules(planned.stdout)
+    results.check(used == set(kept), "it is made of %s; of them not wanted: %s" % (sorted(used), sorted(used - set(kept))))
+    # Canary: the whole program is made of more, and the same question sees it.
+    whole = find_modules(run(command, ROOT).stdout)
+    results.check(whole > set(kept) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
+
+
+def build(target, jobs, options):
+    return run(["scons", "-Q", "-j%d" % jobs, "compiledb=no", "tests=no", PROGRAM] + options, target)
+
+
+def get_stripped_size(program, folder):
+    stripped = os.path.join(folder, "stripped")
+    subprocess.run(["strip", "-o", stripped, program], check=True)
+    return os.path.getsize(stripped)
+
+
+def check_program(target, technique, results):
+    scene = os.path.join("demo_project", "scenes", "sphere.gltf")
+    picture = os.path.join(target, "picture.png")
+    words = ["run", scene, "--headless", "--size", "64x64", "--capture", picture, "--plan"]
+    drawn = run([PROGRAM] + words, target)
+    results.check(drawn.returncode == 0 and os.path.getsize(picture) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
+    results.check("resolve: runs" in drawn.stdout, "its technique runs", drawn.stdout)
+    listed = run([PROGRAM, "techniques"], target).stdout
+    results.check(re.findall(r"(?m)^(\w+)(?: \(default\))?$", listed)[:1] == [technique], "it has one technique", listed)
+    for command, module in ABSENT_COMMANDS.items():
+        absent = run([PROGRAM, command, scene], target)
+        results.check(
+            absent.returncode == 2 and "module_%s_enabled=yes" % module in absent.stderr,
+            "`%s` names the module %s" % (command, module),
+            absent.stderr,
+        )
+    windowed = run([PROGRAM, "run", scene], target)
+    results.check(windowed.returncode == 1 and "--headless" in windowed.stderr, "a window is refused", windowed.stderr)
+    libraries = run(["ldd", PROGRAM], target).stdout
+    for name in ("glfw", "OpenEXR", "embree"):
+        results.check(name not in libraries, "it does not load %s" % name, libraries)
+
+
+def count_libraries(program, folder):
+    return len(run(["ldd", program], folder).stdout.splitlines())
+
+
+def write_sizes(rows):
+    lines = ["| build | modules | program | without debug symbols | shared libraries |", "|---|---|---|---|---|"]
+    for name, module_count, size, stripped, libraries in rows:
+        lines.append("| %s | %d | %.1f MB | %.2f MB | %d |" % (name, module_count, size / 1e6, stripped / 1e6, libraries))
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    pattern = re.compile(r"(<!-- begin sizes -->\n).*?(<!-- end sizes -->)", re.DOTALL)
+    if not pattern.search(text):
+        raise SystemExit("ERROR: %s has no table of sizes." % PAGE)
+    text = pattern.sub(lambda match: match.group(1) + "\n".join(lines) + "\n" + match.group(2), text)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def check_build(results, jobs, writes_sizes):
+    module, technique = find_default_technique()
+    kept, options = list_options(module)
+    with tempfile.TemporaryDirectory() as target:
+        test_removal.copy_tree(target)
+        print("minimal: build", flush=True)
+        # Objects that others made stay: the program is linked of what it needs alone.
+        built = build(target, jobs, options)
+        if not results.check(built.returncode == 0, "it builds", built.stdout + built.stderr):
+            return
+        check_program(target, technique, results)
+        if not writes_sizes:
+            return
+        program = os.path.join(target, PROGRAM)
+        rows = [("a game", len(kept), os.path.getsize(program), get_stripped_size(program, target))]
+        rows[0] += (count_libraries(program, target),)
+        whole = os.path.join(ROOT, PROGRAM)
+        all_modules = modules_builders.find_modules(os.path.join(ROOT, "modules"))
+        sizes = os.path.getsize(whole), get_stripped_size(whole, target)
+        rows.insert(0, ("everything", len(all_modules), *sizes, count_libraries(whole, target)))
+        write_sizes(rows)
+        print("wrote the sizes into %s" % PAGE)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Builds the smallest game.")
+    parser.add_argument("--plan", action="store_true", help="compile nothing")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--write-sizes", action="store_true")
+    arguments = parser.parse_args()
+    if shutil.which("scons") is None:
+        raise SystemExit("ERROR: scons is missing. Install it, or run tests/run_tests.sh, which does.")
+    results = Results()
+    if arguments.plan:
+        check_plan(results)
+    else:
+        check_build(results, arguments.jobs, arguments.write_sizes)
+    print("%d passed, %d failed, 0 skipped" % (results.passed, results.failed))
+    return 1 if results.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
