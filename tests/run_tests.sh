@@ -8,9 +8,9 @@ usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
-               turn, tables with 9216 light samples, the editor's tests ten times, shadow volumes of
-               large meshes (installs npm, which downloads them), fuzzing (installs clang), 10,000 frames
-               of scenes that change at random, programs that are killed 200 times
+               turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
+               times, shadow volumes of large meshes (installs npm, which downloads them), fuzzing
+               (installs clang), 10,000 frames of scenes that change at random, programs killed 200 times
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
                demo removal template sanitized fuzz_replay; with --full also sanitized_all threads
@@ -213,8 +213,10 @@ fi
 if is_wanted removal; then
     if [ "$is_full" = yes ]; then
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs" --all
+        run_part "smallest game" python3 tests/removal/test_minimal.py --jobs "$jobs"
     else
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs"
+        run_part "smallest game" python3 tests/removal/test_minimal.py --plan
     fi
 fi
 if is_wanted template; then

@@ -30,15 +30,18 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 
 enum class Scatter { ANY, IN_METRES };
 
-/// Is there a translucent surface that the camera may see? IN_METRES: one that tells its distance.
-bool has_scatter(const SceneSnapshot &p_scene, glm::uvec2 p_size_px, Scatter p_which) {
-	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
-	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
-			[&](const InstanceSnapshot &p_instance) {
-				const Material &material = *p_instance.material;
-				return clamp_scatter(material.scatter) > 0.0f &&
-						(p_which == Scatter::ANY || material.scatter_distance_m > 0.0f) &&
-						camera_view.may_see(p_instance);
+/// IN_METRES: one that tells its distance.
+bool is_translucent(const Material &p_material, Scatter p_which) {
+	return clamp_scatter(p_material.scatter) > 0.0f &&
+			(p_which == Scatter::ANY || p_material.scatter_distance_m > 0.0f);
+}
+
+/// Is there a translucent surface that the camera may see in the light?
+bool has_scatter(const ShadowTechnique::Inputs &p_inputs, Scatter p_which) {
+	return std::any_of(p_inputs.lit_receivers.begin(), p_inputs.lit_receivers.end(),
+			[&](const VisibleReceiver &p_receiver) {
+				return is_translucent(
+						*p_inputs.scene.instances[p_receiver.instance_index].material, p_which);
 			});
 }
 
@@ -96,7 +99,12 @@ void ReceiverScatter::get_quality_settings(std::vector<QualitySetting> &r_settin
 }
 
 bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) const {
-	return has_scatter(p_scene, p_size_px, Scatter::ANY);
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+	return std::any_of(p_scene.instances.begin(), p_scene.instances.end(),
+			[&](const InstanceSnapshot &p_instance) {
+				return is_translucent(*p_instance.material, Scatter::ANY) &&
+						camera_view.may_see(p_instance.bounds_world);
+			});
 }
 
 bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
@@ -105,18 +113,18 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		r_plan.leave_out("scatter", text(ENABLED, " is false"));
 		return false;
 	}
-	if (p_inputs.may_leave_out && !may_change(p_inputs.scene, p_inputs.size_px)) {
-		r_plan.leave_out("scatter", "no visible surface scatters");
+	if (p_inputs.may_leave_out && !has_scatter(p_inputs, Scatter::ANY)) {
+		r_plan.leave_out("scatter", "it lights no visible surface that scatters");
 		return false;
 	}
 	may_average =
 			std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_METRES] ||
 			!p_inputs.may_leave_out ||
 			(std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_AUTO] &&
-					has_scatter(p_inputs.scene, p_inputs.size_px, Scatter::IN_METRES));
+					has_scatter(p_inputs, Scatter::IN_METRES));
 	r_plan.run("scatter");
 	if (!may_average) {
-		r_plan.leave_out("scatter average", "no visible surface scatters in metres");
+		r_plan.leave_out("scatter average", "it lights no visible surface that scatters in metres");
 	}
 	return true;
 }

@@ -97,7 +97,8 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 }
 
 SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
-		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates) {
+		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates,
+		const SilhouetteLists &p_targets) {
 	GNOMON_ASSERT(!p_casters.casters.empty(), "edge passes without a caster");
 	const auto make_buffer = [&](const char *p_name, uint64_t p_count, uint64_t p_item_bytes,
 									 BufferUsage p_usage) {
@@ -108,11 +109,13 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 			make_buffer("edge words", p_casters.word_count, sizeof(uint32_t), BufferUsage::STORAGE);
 	const RGBuffer blocks = make_buffer(
 			"edge blocks", p_casters.block_count, sizeof(uint32_t), BufferUsage::COPY_TARGET);
-	SilhouetteLists lists;
-	lists.list = make_buffer(
-			"silhouette edges", p_casters.edge_count, sizeof(uint32_t), BufferUsage::COPY_SOURCE);
-	lists.draws = make_buffer("silhouette draws", p_casters.casters.size(),
-			sizeof(shader::SilhouetteDraw), BufferUsage::INDIRECT | BufferUsage::COPY_SOURCE);
+	SilhouetteLists lists = p_targets;
+	if (!lists.list) {
+		lists.list = make_buffer("silhouette edges", p_casters.edge_count, sizeof(uint32_t),
+				BufferUsage::COPY_SOURCE);
+		lists.draws = make_buffer("silhouette draws", p_casters.casters.size(),
+				sizeof(shader::SilhouetteDraw), BufferUsage::INDIRECT | BufferUsage::COPY_SOURCE);
+	}
 	const std::vector<SilhouetteDispatch> dispatches = build_dispatches(p_casters);
 	r_graph.add_pass("clear edges")
 			.writes(blocks, Access::COPY_WRITE)

@@ -38,7 +38,7 @@ struct SilhouetteCasters {
 	const SilhouetteCaster *find(uint32_t p_instance_index) const;
 };
 
-/// Buffers of one frame.
+/// Handles of one frame.
 struct SilhouetteLists {
 	RGBuffer list;	// places in GpuTopology::edges, ascending, from a caster's first_in_list on
 	RGBuffer draws; // one shader::SilhouetteDraw per caster
@@ -50,9 +50,10 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 
 /// Passes that find the silhouette edges and compact them. The light's views share them. There must
 /// be at least one caster. Of a caster whose predicate is 0 nothing is listed: its draw must not
-/// happen either.
+/// happen either. p_targets: buffers to fill, large enough; none: buffers of the frame.
 SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_device,
-		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates = {});
+		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates = {},
+		const SilhouetteLists &p_targets = {});
 
 /// The light as seen from the instance's node, see SilhouettePush::light_node. Not finite when the
 /// transform is singular.

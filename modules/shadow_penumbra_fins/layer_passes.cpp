@@ -33,6 +33,16 @@ bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterL
 			});
 }
 
+} // namespace
+
+bool is_layer_3_conditional(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
+	const DeviceFeatures &features = p_inputs.device.get_features();
+	return p_inputs.may_leave_out && features.conditional_rendering && features.fragment_stores &&
+			may_layer_2_be_empty(p_inputs, p_inputs.casters[p_view_index]);
+}
+
+namespace {
+
 /// What one peel has to do with the flag.
 enum class FlagUse { NONE, TELLS, ASKS };
 
@@ -78,10 +88,8 @@ void add_peels(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs, ui
 	const CasterList &casters = p_inputs.casters[p_view_index];
 	add_depth_pass(r_graph, text("layer 1 view ", p_view_index), p_inputs,
 			p_inputs.views[p_view_index], casters, p_layers[0], p_view_index);
-	const DeviceFeatures &features = p_inputs.device.get_features();
-	const bool is_conditional = p_layers.size() > 2 && p_inputs.may_leave_out &&
-			features.conditional_rendering && features.fragment_stores &&
-			may_layer_2_be_empty(p_inputs, casters);
+	const bool is_conditional =
+			p_layers.size() > 2 && is_layer_3_conditional(p_inputs, p_view_index);
 	const RGBuffer found = is_conditional ? add_found_flag(r_graph, p_view_index) : RGBuffer();
 	for (uint32_t layer = 1; layer < p_layers.size(); ++layer) {
 		const FlagUse use = !is_conditional ? FlagUse::NONE

@@ -18,4 +18,8 @@ void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
 		RGBuffer &r_texels);
 
+/// When peels run one after the other: layer 3 is drawn only where layer 2 holds anything, which
+/// the GPU finds out. Not for views in which layer 2 holds something for certain.
+bool is_layer_3_conditional(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
+
 } // namespace gnomon

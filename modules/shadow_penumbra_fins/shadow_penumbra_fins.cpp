@@ -99,6 +99,15 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 			}
 		}
 	}
+	const auto conditional_count = settings.layer_count < 3
+			? 0
+			: std::count_if(drawn_views.begin(), drawn_views.end(), [&](uint32_t p_view_index) {
+				  return choose_peeling(settings, p_inputs, p_view_index) == Peeling::PASSES &&
+						  is_layer_3_conditional(p_inputs, p_view_index);
+			  });
+	if (conditional_count > 0) {
+		r_plan.run(text("layer 3 only if layer 2 holds anything, views: ", conditional_count));
+	}
 	if (!draws_fins) {
 		r_plan.leave_out("fins", "r and t are 0: a plain shadow map");
 		return;

@@ -165,9 +165,8 @@ DrawPredicates CasterCulling::add_passes(
 				commands.dispatch({ count, 1, 1 });
 			});
 	add_readback(r_graph, p_inputs.device, words);
-	return p_inputs.device.get_features().conditional_rendering
-			? DrawPredicates{ words, HEADER_BYTES, tested }
-			: DrawPredicates{};
+	return decides_draws(p_inputs) ? DrawPredicates{ words, HEADER_BYTES, tested }
+								   : DrawPredicates{};
 }
 
 void CasterCulling::get_debug_views(std::vector<ShadowTechnique::DebugView> &r_views) const {

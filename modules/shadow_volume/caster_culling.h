@@ -32,6 +32,10 @@ public:
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan);
 	/// Says what add_passes will do, where it is called.
 	void report(TechniquePlan &r_plan) const;
+	/// After plan: words that add_passes makes will decide which casters are drawn.
+	bool decides_draws(const ShadowTechnique::Inputs &p_inputs) const {
+		return tested && p_inputs.device.get_features().conditional_rendering;
+	}
 	/// Passes that look at the casters this frame, where plan found that to be of use. Without
 	/// conditional rendering their result serves later frames only.
 	DrawPredicates add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);

@@ -46,6 +46,8 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	report(casters.z_fail_count, "volumes by z-fail");
 	report(casters.robust_count, "robust volumes");
 	report(casters.geometry_shader_count, "volumes made by a geometry shader");
+	edges.plan(p_inputs, list_compute_casters(p_inputs, casters), !culling.decides_draws(p_inputs),
+			r_plan);
 	if (casters.spared_caps_count > 0) {
 		r_plan.leave_out(text("caps of ", casters.spared_caps_count, " casters"),
 				"z-pass is safe: the camera's near plane is outside their volumes");
@@ -70,7 +72,7 @@ RGTexture ShadowVolume::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);
 	if (!casters.casters.empty()) {
 		add_volume_passes(r_graph, p_inputs, settings, casters,
-				culling.add_passes(r_graph, p_inputs), targets);
+				culling.add_passes(r_graph, p_inputs), targets, edges);
 	}
 	return targets.mask;
 }

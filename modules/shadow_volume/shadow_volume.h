@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/shadow_volume/caster_culling.h"
+#include "modules/shadow_volume/kept_edges.h"
 #include "modules/shadow_volume/volume_casters.h"
 
 namespace gnomon {
@@ -34,6 +35,7 @@ private:
 	const std::string id;
 
 	CasterCulling culling;
+	KeptEdges edges;
 
 	// This frame.
 	VolumeSettings settings;

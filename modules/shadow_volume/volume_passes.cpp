@@ -71,25 +71,6 @@ PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSe
 	return p_inputs.device.get_raster_pipeline(desc);
 }
 
-/// Those whose edges compute shaders find.
-SilhouetteCasters list_compute_casters(
-		const ShadowTechnique::Inputs &p_inputs, const VolumeCasters &p_casters) {
-	std::vector<uint32_t> instances;
-	std::vector<uint32_t> vertices_per_edge;
-	for (const VolumeCaster &caster : p_casters.casters) {
-		if (caster.maker == VolumeMaker::COMPUTE) {
-			instances.push_back(caster.instance_index);
-			vertices_per_edge.push_back(VOLUMES_VERTICES_PER_SIDE * (caster.is_robust ? 2 : 1));
-		}
-	}
-	SilhouetteCasters listed =
-			build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
-	for (size_t i = 0; i < listed.casters.size(); ++i) {
-		listed.casters[i].vertices_per_edge = vertices_per_edge[i];
-	}
-	return listed;
-}
-
 std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const SilhouetteCasters &p_listed) {
@@ -186,6 +167,24 @@ void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inpu
 
 } // namespace
 
+SilhouetteCasters list_compute_casters(
+		const ShadowTechnique::Inputs &p_inputs, const VolumeCasters &p_casters) {
+	std::vector<uint32_t> instances;
+	std::vector<uint32_t> vertices_per_edge;
+	for (const VolumeCaster &caster : p_casters.casters) {
+		if (caster.maker == VolumeMaker::COMPUTE) {
+			instances.push_back(caster.instance_index);
+			vertices_per_edge.push_back(VOLUMES_VERTICES_PER_SIDE * (caster.is_robust ? 2 : 1));
+		}
+	}
+	SilhouetteCasters listed =
+			build_silhouette_casters(p_inputs, instances, VOLUMES_VERTICES_PER_SIDE);
+	for (size_t i = 0; i < listed.casters.size(); ++i) {
+		listed.casters[i].vertices_per_edge = vertices_per_edge[i];
+	}
+	return listed;
+}
+
 VolumeTargets add_volume_receivers_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs) {
 	VolumeTargets targets;
@@ -222,11 +221,11 @@ VolumeTargets add_volume_receivers_pass(
 
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
-		const DrawPredicates &p_predicates, const VolumeTargets &p_targets) {
+		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, KeptEdges &r_edges) {
 	const SilhouetteCasters listed = list_compute_casters(p_inputs, p_casters);
 	SilhouetteLists lists;
 	if (!listed.casters.empty()) {
-		lists = add_silhouette_passes(r_graph, p_inputs.device, listed, p_predicates);
+		lists = r_edges.add_passes(r_graph, p_inputs, listed, p_predicates);
 	}
 	const std::vector<VolumeDraw> draws =
 			build_draws(r_graph, p_inputs, p_settings, p_casters, listed);

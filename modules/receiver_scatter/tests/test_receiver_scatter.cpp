@@ -270,3 +270,28 @@ TEST_CASE("[GPU][ReceiverScatter] the same frame twice is the same to the bit") 
 		CHECK(fixture.render_mask(scene, find_technique()).visibility == first.visibility);
 	}
 }
+
+TEST_CASE(
+		"[GPU][ReceiverScatter] a light that does not reach what scatters leaves the filter out") {
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);
+	Light3D &lamp = scene.add_light("Lamp", LightType::OMNI, { -1.2, 0.5, 0.6 }, { 0, 0, 0.1 });
+	lamp.range_m = 0.6f; // the ground below it, not the box
+	const auto render = [&](bool p_may_leave_out) {
+		RenderRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(64);
+		request.technique_override = find_technique();
+		request.wants_image = true;
+		request.may_leave_out = p_may_leave_out;
+		return fixture.renderer->render(request);
+	};
+	const RenderResult lean = render(true);
+	CHECK(lean.plan.is_left_out("Lamp", "scatter"));
+	CHECK_FALSE(lean.plan.is_left_out("Light", "scatter"));
+	CHECK_FALSE(lean.plan.is_left_out("Lamp", "light"));
+	CHECK(lean.image == render(false).image);
+	lamp.range_m = 2.0f;
+	CHECK_FALSE(render(true).plan.is_left_out("Lamp", "scatter"));
+}

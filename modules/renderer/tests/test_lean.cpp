@@ -122,6 +122,8 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the 
 					r_lights.second.type = LightType::DIRECTIONAL;
 					r_lights.scene.camera->parent_from_node = look_at({ 0, 9, 0 }, { 0, 20, 0.1 });
 				} },
+		{ "one that is dark", "its intensity is 0",
+				[](TwoLights &r_lights) { r_lights.second.intensity = 0.0f; } },
 		{ "one that lights what is seen", "", [](TwoLights &) {} },
 		{ "one whose range ends just on a surface", "",
 				[](TwoLights &r_lights) {
@@ -138,7 +140,10 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the 
 		CAPTURE(one.what);
 		TwoLights lights;
 		one.change(lights);
-		CHECK(find_reason(render_both(fixture, lights.scene), "Second") == one.reason);
+		const RenderResult lean = render_both(fixture, lights.scene);
+		CHECK(find_reason(lean, "Second") == one.reason);
+		const bool has_wall = std::string(one.what).find("a wall outside") != std::string::npos;
+		CHECK((lean.plan.is_left_out("", "1 instances") || !has_wall));
 	}
 }
 

@@ -113,3 +113,24 @@ TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped
 		}
 	}
 }
+
+TEST_CASE("[GPU][PenumbraFins] the plan says where layer 3 waits for layer 2, with the same mask") {
+	RenderFixture fixture;
+	const auto is_asked = [&](const SmallScene &p_scene) {
+		const RenderResult lean = fixture.render_mask(p_scene, "penumbra_fins");
+		const RenderResult all =
+				fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
+		CHECK(lean.visibility == all.visibility);
+		CHECK(all.plan.to_text().find("layer 3 only if") == std::string::npos);
+		return lean.plan.to_text().find("layer 3 only if layer 2 holds anything, views: 1") !=
+				std::string::npos;
+	};
+	SmallScene sheet = make_scene(make_sheets({ 1.0f }), LightType::SPOT);
+	sheet.light->properties["penumbra_fins_peeling"] = std::string("passes");
+	add_mesh(sheet.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
+			.casts_shadow = false;
+	CHECK(is_asked(sheet) == fixture.device->get_features().conditional_rendering);
+	SmallScene solid; // a box has a back: nothing is asked
+	solid.light->properties["penumbra_fins_peeling"] = std::string("passes");
+	CHECK_FALSE(is_asked(solid));
+}

@@ -36,7 +36,7 @@ public:
 					p_context.commands.fill_buffer(p_context.get(words), 0);
 				});
 		const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);
-		add_volume_passes(r_graph, p_inputs, settings, casters, predicates, targets);
+		add_volume_passes(r_graph, p_inputs, settings, casters, predicates, targets, edges);
 		return targets.mask;
 	}
 	std::vector<std::string> get_shader_files() const override { return {}; }
@@ -44,6 +44,7 @@ public:
 private:
 	std::vector<uint32_t> instances;
 	VolumeCasters casters;
+	KeptEdges edges;
 };
 
 } // namespace

@@ -1,0 +1,73 @@
+#include "modules/shadow_volume/kept_edges.h"
+
+#include "modules/core/files.h"
+#include "modules/core/text.h"
+#include "modules/renderer/mesh_store.h"
+
+namespace gnomon {
+
+namespace {
+
+uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters) {
+	uint64_t key = 1;
+	for (const SilhouetteCaster &caster : p_casters.casters) {
+		key = compute_value_hash(p_inputs.scene.instances[caster.instance_index].mesh->id, key);
+		key = compute_value_hash(caster.light_node, key);
+		key = compute_value_hash(caster.vertices_per_edge, key);
+	}
+	return key;
+}
+
+} // namespace
+
+void KeptEdges::plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
+		bool p_are_all_drawn, TechniquePlan &r_plan) {
+	last_key = key;
+	key = 0;
+	is_kept = is_still = false;
+	if (p_casters.casters.empty()) {
+		return reset();
+	}
+	if (p_inputs.may_leave_out && p_inputs.may_keep && p_are_all_drawn) {
+		key = compute_key(p_inputs, p_casters);
+		is_kept = key == kept_key;
+		is_still = key == last_key;
+	}
+	const std::string pass = text("find edges, casters: ", p_casters.casters.size());
+	if (is_kept) {
+		r_plan.leave_out(pass, "kept: neither the light nor a caster moved");
+	} else {
+		r_plan.run(pass);
+	}
+}
+
+void KeptEdges::reset() {
+	list.reset();
+	draws.reset();
+	kept_key = 0;
+}
+
+SilhouetteLists KeptEdges::add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates) {
+	if (is_kept) {
+		return { r_graph.import_buffer(list.get()), r_graph.import_buffer(draws.get()) };
+	}
+	reset();
+	if (!is_still) {
+		return add_silhouette_passes(r_graph, p_inputs.device, p_casters, p_predicates);
+	}
+	const std::string light = " of " + p_inputs.light.name;
+	list = OwnedBuffer(p_inputs.device,
+			p_inputs.device.create_buffer({ "silhouette edges" + light,
+					p_casters.edge_count * sizeof(uint32_t), BufferUsage::STORAGE }));
+	draws = OwnedBuffer(p_inputs.device,
+			p_inputs.device.create_buffer({ "silhouette draws" + light,
+					p_casters.casters.size() * sizeof(shader::SilhouetteDraw),
+					BufferUsage::STORAGE | BufferUsage::INDIRECT }));
+	kept_key = key;
+	const SilhouetteLists lists = { r_graph.import_buffer(list.get()),
+		r_graph.import_buffer(draws.get()) };
+	return add_silhouette_passes(r_graph, p_inputs.device, p_casters, p_predicates, lists);
+}
+
+} // namespace gnomon

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Measures what is left out when it is not needed, and writes the tables of doc/benchmarks.md.
+
+    measure_lean.py [--only lean|lean_lights] [--size N] [--repeats N] [--write]
+
+lean: for each rule a scene made for it, with the rules on and off in turn: passes, draws, bytes and milliseconds of a whole
+frame. The frame plan must name the rule where it is on and must not where it is off. lean_lights: 4 lights in view alone and
+among 252 that light nothing in view. Each time is the median of 20 frames after 5, and the median of --repeats such (default 5).
+"""
+
+import argparse
+import json
+import os
+import statistics
+import tempfile
+
+import lean_scenes
+from run_benchmarks import PROGRAM, describe_machine, format_table, run, write_table
+
+HIDDEN_COUNT = 252
+MOST_EXTRA = 0.10  # what hidden lights may cost beside those in view
+
+
+class Rule:
+    def __init__(self, name, scene, line, technique=None, settings=(), is_still=False):
+        self.name = name
+        self.scene = scene  # function of a folder
+        self.line = line  # of the plan
+        self.technique = technique
+        self.settings = settings
+        self.is_still = is_still
+
+
+RULES = (
+    Rule("lights that light nothing in view", lambda folder: lean_scenes.make_lights(12, folder), "light: left out, the camera sees no"),
+    Rule("light views without casters", lean_scenes.make_tower, "left out, no casters", "shadow_map"),
+    Rule("light views without receivers", lean_scenes.make_room, "left out, the camera sees no receiver in it", "shadow_map"),
+    Rule("third layer behind an empty second", lean_scenes.make_sheets, "layer 3 only if layer 2", "penumbra_fins",
+         ("penumbra_fins_peeling=passes",)),
+    Rule("fins and layers, r = t = 0", lean_scenes.make_balls, "fins: left out, r and t are 0", "penumbra_fins",
+         ("penumbra_outer_width=0", "penumbra_inner_width=0")),
+    Rule("layers, t = 0", lean_scenes.make_balls, "layers 2 and 3: left out, t is 0", "penumbra_fins", ("penumbra_inner_width=0",)),
+    Rule("scatter without translucent surfaces", lean_scenes.make_balls, "scatter: left out"),
+    Rule("filter where blocks have few edges", lambda folder: lean_scenes.make_lights(0, folder), "edges: left out, all casters together", "edge_count"),
+    Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: left out, z-pass is safe", "shadow_volume"),
+    Rule("maps at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved", "shadow_map", (), True),
+    Rule("depth layers and fins at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved",
+         "penumbra_fins", (), True),
+    Rule("edges and layers at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved", "edge_count",
+         (), True),
+    Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: left out, kept", "shadow_volume",
+         ("shadow_volume_extrusion=compute",), True),
+)  # fmt: skip
+
+
+def measure(scene, folder, size_px, technique=None, settings=(), words=()):
+    """The frame's plan, and what --time says."""
+    times = os.path.join(folder, "time.json")
+    command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan"]
+    # What is kept is in the plan of a later frame, what is drawn in the first one's.
+    command += ["--time", times, "--frames", "4" if "--still" in words else "1", *words]
+    if technique:
+        command += ["--technique", technique]
+    for setting in settings:
+        command += ["--set", "light.Light." + setting]
+    plan = run(command)
+    with open(times, encoding="utf-8") as file:
+        return plan, json.load(file)
+
+
+def count_commands(result):
+    return "%d + %d" % (result["draws"], result["dispatches"])
+
+
+def measure_rules(options):
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for rule in RULES:
+            scene = rule.scene(folder)
+            still = ["--still"] if rule.is_still else []
+            times = {True: [], False: []}
+            results = {}
+            for _ in range(options.repeats):
+                for is_on in (True, False):
+                    words = still + ([] if is_on else ["--leave-out-nothing"])
+                    plan, results[is_on] = measure(scene, folder, options.size, rule.technique, rule.settings, words)
+                    times[is_on].append(results[is_on]["call_ms"])
+                    if (rule.line in plan) != is_on:
+                        raise SystemExit(
+                            "ERROR: rule \"%s\": the plan %s \"%s\":\n%s" % (rule.name, "lacks" if is_on else "has", rule.line, plan)
+                        )
+            with_rule, without = (statistics.median(times[is_on]) for is_on in (True, False))
+            on, off = results[True], results[False]
+            rows.append(
+                (rule.name, "`%s`" % (rule.technique or "edge_count"), "%d / %d" % (on["pass_count"], off["pass_count"]),
+                 "%s / %s" % (count_commands(on), count_commands(off)),
+                 "%.1f / %.1f" % (on["bytes"] / 1e6, off["bytes"] / 1e6),
+                 "%.1f / %.1f" % (with_rule, without), "%.2f" % (with_rule / without))  # fmt: skip
+            )
+            print(*rows[-1], flush=True)
+    header = ("what is left out", "technique", "passes, with the rules / without", "draws + dispatches", "MB", "ms", "ratio of ms")
+    return format_table(header, rows)
+
+
+def measure_lights(options):
+    cases = [("4 in view", 0, False), ("4 in view of %d" % (4 + HIDDEN_COUNT), HIDDEN_COUNT, False),
+             ("likewise, nothing left out", HIDDEN_COUNT, True)]  # fmt: skip
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        samples = {name: [] for name, _, _ in cases}
+        results = {}
+        for repeat in range(options.repeats):
+            for name, hidden_count, leaves_out_nothing in cases:
+                if leaves_out_nothing and repeat > 0:
+                    continue  # seconds a frame
+                scene = lean_scenes.make_lights(hidden_count, folder)
+                words = ["--leave-out-nothing"] if leaves_out_nothing else []
+                _, results[name] = measure(scene, folder, options.size, "shadow_map", (), words)
+                samples[name].append(results[name]["call_ms"])
+        base_ms = statistics.median(samples[cases[0][0]])
+        for index, (name, _, _) in enumerate(cases):
+            result, ms = results[name], statistics.median(samples[name])
+            met = "yes" if ms <= (1 + MOST_EXTRA) * base_ms else "no"
+            rows.append((name, result["pass_count"], count_commands(result), "%.1f" % (result["bytes"] / 1e6),
+                         "%.1f" % ms, "%.2f" % (ms / base_ms), met if index == 1 else ""))  # fmt: skip
+            print(*rows[-1], flush=True)
+    header = ("lights", "passes", "draws + dispatches", "MB", "ms", "times those in view alone", "at most 1.10")
+    return format_table(header, rows)
+
+
+PARTS = {"lean": measure_rules, "lean_lights": measure_lights}
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures what is left out when it is not needed.")
+    parser.add_argument("--only", choices=PARTS, help="this table")
+    parser.add_argument("--size", type=int, default=512, help="pixels of each side")
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    options = parser.parse_args()
+    load = os.getloadavg()[0]
+    for name in (options.only,) if options.only else PARTS:
+        lines = PARTS[name](options) + ["", describe_machine(load)]
+        print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
+        if options.write:
+            write_table(name, lines)
+
+
+if __name__ == "__main__":
+    main()
