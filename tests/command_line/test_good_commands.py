@@ -69,6 +69,35 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--time", result.stderr)
 
+    def test_whole_pictures_are_timed_with_and_without_what_is_left_out(self):
+        found, pictures, plans = {}, {}, {}
+        for name, words in (("lean", ()), ("whole", ("--leave-out-nothing",))):
+            times, picture = self.path(name + ".json"), self.path(name + ".png")
+            command = ("run", THREE_LIGHTS, "--headless", *SMALL, "--technique", self.get_fallback(), "--plan")
+            result = run(*command, "--time", times, "--capture", picture, *words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            plans[name] = result.stdout
+            with open(times, encoding="utf-8") as file:
+                found[name] = json.load(file)
+            with open(picture, "rb") as file:
+                pictures[name] = file.read()
+        self.assertEqual(pictures["lean"], pictures["whole"])
+        self.assertIn("left out, no casters", plans["lean"])
+        self.assertNotIn("left out, no casters", plans["whole"])
+        for name in ("pass_count", "draws", "dispatches"):
+            self.assertGreater(found["lean"][name], 0)
+            self.assertGreaterEqual(found["whole"][name], found["lean"][name])
+        self.assertGreater(found["whole"]["draws"], found["lean"]["draws"])
+        # The call is the frame and what the program does about it.
+        self.assertGreater(found["lean"]["call_ms"], 0.5 * found["lean"]["frame"]["wall_ms"])
+        self.assertGreater(len({item["name"].split(": ")[0] for item in found["lean"]["passes"]}), 2)
+
+    def test_only_headless_runs_are_timed(self):
+        for words in (("--time", self.path("time.json")), ("--leave-out-nothing",), ("--headless", "--still")):
+            result = run("run", THREE_LIGHTS, *SMALL, *words)
+            self.assertEqual(result.returncode, 2, words)
+            self.assertIn("--time" if "--still" in words else "--headless", result.stderr)
+
     def test_masks_of_other_sizes_are_not_compared(self):
         self.assert_mask(self.compute_mask(CONTACT_BOX))
         other = self.path("other.exr")
