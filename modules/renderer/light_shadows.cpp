@@ -162,7 +162,9 @@ RGTexture LightShadows::add_technique(const Work &p_work, ShadowTechnique &r_tec
 	std::vector<CasterList> casters;
 	for (const LightView &view : views) {
 		casters.push_back(cull_casters(p_scene, view, request.may_leave_out));
-		casters.back().has_receivers = may_view_hold_any(view, request.lit_receivers);
+		// What is shown itself is seen, receivers or not.
+		casters.back().has_receivers =
+				wants_debug_views || may_view_hold_any(view, request.lit_receivers);
 	}
 	const ShadowTechnique::Inputs inputs = { device, meshes, p_scene, request.light,
 		p_work.properties, views, casters, request.size_px, request.gbuffer.depth,

@@ -262,6 +262,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 
 TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 	RenderFixture fixture;
+	const Used without_frames = measure_use(*fixture.device);
 	const size_t topology_count = get_kept_topology_count();
 	SmallScene empty;
 	empty.scene.root->children.pop_back(); // the light
@@ -291,6 +292,10 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 		CHECK(after.resources == before.resources);
 		CHECK(get_kept_topology_count() <= topology_count);
 	}
+	fixture.renderer.reset();
+	const Used without_renderer = measure_use(*fixture.device);
+	CHECK(without_renderer.bytes == without_frames.bytes);
+	CHECK(without_renderer.resources == without_frames.resources);
 }
 
 TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, and not at once") {
