@@ -29,24 +29,20 @@ bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 
 /// Illuminance on a surface that faces the light, lx per colour: KHR_lights_punctual's attenuation
 /// with its range window and smooth cone.
+///
+/// Without a branch on the light's constants: some drivers (Mesa's lavapipe 22.3) compile a shader anew
+/// for the constants that its branches ask for, here once a light and frame.
 vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
-	if (p_light.type == LIGHT_TYPE_DIRECTIONAL) {
-		return p_light.intensity.rgb;
-	}
+	const bool is_directional = p_light.type == LIGHT_TYPE_DIRECTIONAL;
 	const float distance2 = max(dot(p_to_light, p_to_light), 1e-12);
-	float factor = 1.0 / distance2;
-	if (p_light.range_m > 0.0) {
-		const float ratio2 = distance2 / (p_light.range_m * p_light.range_m);
-		const float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
-		factor *= window;
-	}
-	if (p_light.type == LIGHT_TYPE_SPOT) {
-		const float cosine = dot(-p_to_light, p_light.direction.xyz) * inversesqrt(distance2);
-		const float span = max(p_light.cos_inner - p_light.cos_outer, 1e-4);
-		const float cone = clamp((cosine - p_light.cos_outer) / span, 0.0, 1.0);
-		factor *= cone * cone;
-	}
-	return p_light.intensity.rgb * factor;
+	const float ratio2 = distance2 / max(p_light.range_m * p_light.range_m, 1e-30);
+	const float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+	const float cosine = dot(-p_to_light, p_light.direction.xyz) * inversesqrt(distance2);
+	const float span = max(p_light.cos_inner - p_light.cos_outer, 1e-4);
+	const float cone = clamp((cosine - p_light.cos_outer) / span, 0.0, 1.0);
+	const float attenuation = 1.0 / distance2 * (p_light.range_m > 0.0 ? window : 1.0) *
+			(p_light.type == LIGHT_TYPE_SPOT ? cone * cone : 1.0);
+	return p_light.intensity.rgb * (is_directional ? 1.0 : attenuation);
 }
 
 #endif

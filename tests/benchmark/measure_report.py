@@ -115,12 +115,12 @@ def build_scaling(report):
     return format_table(("curve", "technique", "first point", "last point", "cost grew times", "for times"), rows)
 
 
-def save_pictures(page):
-    """Cuts the plots out of the page, as seen on a desktop in light colours."""
+def save_pictures(page, pictures):
+    """Cuts elements out of the page, as seen on a desktop in light colours. Names of files, and elements."""
     url = pathlib.Path(page).resolve().as_uri() + "#all"
     with check_report_page.Browser() as browser:
         browser.open(url, PICTURE_WIDTH_PX, 900)
-        for name, element in PICTURES.items():
+        for name, element in pictures.items():
             box = browser.evaluate(
                 "(() => { const box = %s.getBoundingClientRect();"
                 "return { x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height, scale: 1 }; })()" % element
@@ -155,7 +155,7 @@ def main():
         ("report_scaling", build_scaling(report)),
     ):
         write_table(part, [*lines, "", where])
-    save_pictures(os.path.join(options.out, "index.html"))
+    save_pictures(os.path.join(options.out, "index.html"), PICTURES)
     return 0
 
 

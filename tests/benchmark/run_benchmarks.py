@@ -176,16 +176,16 @@ def publish_tables(tables, measured, writes):
             write_table(name, lines)
 
 
-def write_table(name, lines):
+def write_table(name, lines, page=PAGE):
     """Replaces what stands between the page's two markers of that name."""
-    with open(PAGE, encoding="utf-8") as file:
+    with open(page, encoding="utf-8") as file:
         text = file.read()
     begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
     if begin not in text or end not in text:
-        raise SystemExit("ERROR: %s has no markers %s and %s. Add them where the table belongs." % (PAGE, begin, end))
+        raise SystemExit("ERROR: %s has no markers %s and %s. Add them where the table belongs." % (page, begin, end))
     before, rest = text.split(begin, 1)
     after = rest.split(end, 1)[1]
-    with open(PAGE, "w", encoding="utf-8") as file:
+    with open(page, "w", encoding="utf-8") as file:
         file.write(before + begin + "\n" + "\n".join(lines) + "\n" + end + after)
 
 

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""Sweeps every technique into stiff and extreme cases and writes doc/stability.md's tables and curves.
+
+    measure_stability.py [--out DIR] [--resume] [--no-run] [--write]
+
+--no-run takes the report that is in DIR. Without --write the tables are printed only. About 15 minutes on two cores;
+errors do not depend on what else the machine does. The curves are taken from the page by headless chromium.
+"""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests", "benchmark"))
+from measure_report import save_pictures  # noqa: E402
+from run_benchmarks import PROGRAM, format_table, write_table  # noqa: E402
+
+PAGE = os.path.join(ROOT, "doc", "stability.md")
+IMAGES = os.path.join(ROOT, "doc", "images")
+SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
+TYPES = ("spot", "omni", "directional")
+MARKS = {"ok": "", "doubled": " ×2", "nonsense": " !", "refused": " refused", "failed": " FAILED", "missing": "?"}
+
+
+def run_report(options):
+    arguments = ["--sizes", "0.2", "--size", "64x64", "--scaling", "none", "--stability", "full", "--out", options.out]
+    if options.resume:
+        arguments.append("--resume")
+    if subprocess.run([PROGRAM, "report", SCENE, *arguments], check=False).returncode not in (0, 1):
+        raise SystemExit("ERROR: gnomon report did not end well.")
+
+
+def get_plots(report, light_type, has_cases=False):
+    return [item for item in report["stability"] if item["light_type"] == light_type and item["has_cases"] == has_cases]
+
+
+def show_break(series):
+    ends = [series[name] for name in ("break_before", "break_after") if name in series]
+    return " and ".join("from %s" % end for end in ends) or "holds"
+
+
+def find_series(plot, technique):
+    return next((series for series in plot["series"] if series["technique"] == technique), None)
+
+
+def name_sweep(plot):
+    return plot["sweep"].replace("_", " ")
+
+
+def build_sweeps(report):
+    """What is swept, from where to where."""
+    rows = []
+    for plot in get_plots(report, "spot"):
+        labels = [point["label"] for point in plot["series"][0]["points"]]
+        types = [kind for kind in TYPES if any(item["sweep"] == plot["sweep"] for item in get_plots(report, kind))]
+        rows.append((name_sweep(plot), plot["quantity"], ", ".join(labels), plot["center"], ", ".join(types)))
+    return format_table(("sweep", "quantity", "values", "centre", "lights"), rows)
+
+
+def build_breaks(report, light_type):
+    plots = get_plots(report, light_type)
+    rows = []
+    for technique in report["techniques"]:
+        found = [find_series(plot, technique["id"]) for plot in plots]
+        if any(found):
+            rows.append(("`%s`" % technique["id"], *(show_break(series) if series else "" for series in found)))
+    return format_table(("technique", *(name_sweep(plot) for plot in plots)), rows)
+
+
+def build_errors(report):
+    """Error at the beginning, the centre and the end of each sweep, spot light."""
+    rows = []
+    for technique in report["techniques"]:
+        row = ["`%s`" % technique["id"]]
+        for plot in get_plots(report, "spot"):
+            series = find_series(plot, technique["id"])
+            points = series["points"]
+            center = next(point for point in points if point["label"] == plot["center"])
+            errors = [point["mae"] for point in points if "mae" in point]
+            row.append("%.4f, %.4f at most" % (center["mae"], max(errors)))
+        rows.append(row)
+    return format_table(("technique", *(name_sweep(plot) for plot in get_plots(report, "spot"))), rows)
+
+
+def build_cases(report):
+    """MAE in the hostile scenes."""
+    lines = []
+    for kind in TYPES:
+        for plot in get_plots(report, kind, has_cases=True):
+            techniques = [series["technique"] for series in plot["series"]]
+            rows = []
+            for index, point in enumerate(plot["series"][0]["points"]):
+                cells = [series["points"][index] for series in plot["series"]]
+                rows.append((point["label"], *(
+                    ("%.4f" % cell["mae"] if "mae" in cell else "-") + MARKS[cell["state"]] for cell in cells
+                )))  # fmt: skip
+            lines += ["", "%s light:" % kind.capitalize(), "", *format_table((kind, *("`%s`" % name for name in techniques)), rows)]
+    return lines[1:]
+
+
+def build_causes(report):
+    """How often each technique breaks, and what the path in double says of it."""
+    rows = []
+    points = [
+        (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))
+        for plot in report["stability"] for series in plot["series"] for point in series["points"]
+    ]  # fmt: skip
+    for technique in report["techniques"]:
+        own = [item for item in points if item[0] == technique["id"]]
+        broken = [item for item in own if item[1]["state"] in ("doubled", "nonsense")]
+        conditions = [item[2]["condition"] for item in broken if "condition" in item[2]]
+        nonsense = [item for item in own if item[1]["state"] == "nonsense"]
+        moved = [item[2]["temporal_rmse"] for item in own if "temporal_rmse" in item[2]]
+        causes = [condition["cause"] for condition in conditions]
+        rows.append((
+            "`%s`" % technique["id"], len(own), len(broken), len(nonsense), sum(1 for item in nonsense if item[2]["warnings"]),
+            "%.0f" % statistics.median([condition["number"] for condition in conditions]) if conditions else "",
+            ", ".join("%s %d" % (cause, causes.count(cause)) for cause in ("method", "rounding", "truth") if cause in causes),
+            "%.4f" % statistics.median(moved), "%.4f" % max(moved),
+        ))  # fmt: skip
+    header = ("technique", "points", "do not hold", "nonsense", "of them warned of", "condition number", "cause",
+              "error of change, median", "greatest")  # fmt: skip
+    return format_table(header, rows)
+
+
+def save_curves(report, folder):
+    element = "[...document.querySelectorAll('#stability .grid figure')].find((item) => item.querySelector('h3').textContent == '%s')"
+    pictures = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
+    save_pictures(os.path.join(folder, "index.html"), pictures)
+    names = sorted(pictures)
+    rows = [names[index : index + 2] for index in range(0, len(names), 2)]
+    return [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures the stability sweeps for doc/stability.md.")
+    parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "stability"), help="the report's folder")
+    parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
+    parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
+    parser.add_argument("--write", action="store_true", help="writes doc/stability.md and its pictures")
+    options = parser.parse_args()
+    if not options.no_run:
+        run_report(options)
+    with open(os.path.join(options.out, "report.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    parts = {
+        "stability_sweeps": build_sweeps(report),
+        "stability_breaks": build_breaks(report, "spot"),
+        "stability_breaks_omni": build_breaks(report, "omni"),
+        "stability_breaks_directional": build_breaks(report, "directional"),
+        "stability_errors": build_errors(report),
+        "stability_cases": build_cases(report),
+        "stability_causes": build_causes(report),
+    }
+    if options.write:
+        parts["stability_curves"] = save_curves(report, options.out)
+    for name, lines in parts.items():
+        print("\n".join((name, *lines, "")))
+        if options.write:
+            write_table(name, lines, PAGE)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,104 @@
+"""Stiff and extreme cases: no technique fails, nonsense is warned of, and edge_count holds its error.
+
+STABILITY_EXTENT=full sweeps all techniques over all values; else some of them over the ends and centres.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.path.abspath(os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon")))
+SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
+IS_FULL = os.environ.get("STABILITY_EXTENT") == "full"
+TIMEOUT_S = 7200 if IS_FULL else 600
+QUICK_TECHNIQUES = ("shadow_map", "pcss", "outer_fins", "edge_count")
+# Nonsense by what the technique is, not by a light beyond its limits.
+BY_DESIGN = {
+    "planar": None,  # shadows on declared receivers alone, of what stands before their plane
+    "edge_count": ("fin_width",),  # r and t are the size of its light: it draws the light that they ask for
+}
+HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e5}  # up to which values edge_count must hold
+LEAST_MAE = 1.0 / 256  # smaller ones no picture shows
+MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
+
+
+class Stability(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        listed = json.loads(cls.run_program("techniques", "--json").stdout)
+        cls.ids = [item["id"] for item in listed if not item["is_reference"]]
+        techniques = [] if IS_FULL else ["--techniques", ",".join(name for name in QUICK_TECHNIQUES if name in cls.ids)]
+        result = cls.run_program(
+            "report", SCENE, "--sizes", "0.2", "--size", "32x32", "--samples", "1024" if IS_FULL else "256", "--scaling", "none",
+            "--stability", "full" if IS_FULL else "quick", "--validation", "--out", cls.holder.name, *techniques,
+        )  # fmt: skip
+        cls.status, cls.errors = result.returncode, result.stderr
+        with open(os.path.join(cls.holder.name, "report.json"), encoding="utf-8") as file:
+            cls.report = json.load(file)
+        cls.points = [
+            (plot["sweep"], plot["light_type"], series["technique"], point, cls.report["cells"][point["cell"]])
+            for plot in cls.report["stability"] for series in plot["series"] for point in series["points"]
+        ]  # fmt: skip
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    @staticmethod
+    def run_program(*arguments):
+        return subprocess.run([GNOMON, *arguments], capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
+
+    def test_every_point_is_measured_and_none_fails(self):
+        self.assertEqual(self.status, 0, self.errors)
+        self.assertGreater(len(self.points), 3000 if IS_FULL else 200)
+        for sweep, light, technique, point, cell in self.points:
+            with self.subTest(sweep=sweep, light=light, technique=technique, value=point["label"]):
+                self.assertIn(point["state"], ("ok", "doubled", "nonsense"), cell)
+
+    def test_nonsense_is_warned_of(self):
+        for sweep, light, technique, point, cell in self.points:
+            by_design = technique in BY_DESIGN and sweep in (BY_DESIGN[technique] or (sweep,))
+            if point["state"] == "nonsense" and not by_design:
+                with self.subTest(sweep=sweep, light=light, technique=technique, value=point["label"]):
+                    self.assertTrue(cell["stability"]["warnings"])
+
+    def test_sensible_lights_are_not_warned_of(self):
+        for sweep, light, technique, point, cell in self.points:
+            if sweep in ("scale", "offset"):
+                self.assertEqual(cell["stability"]["warnings"], [], technique)
+
+    def test_edge_count_holds_its_error(self):
+        if "edge_count" not in self.ids:
+            return
+        for plot in self.report["stability"]:
+            (series,) = [item for item in plot["series"] if item["technique"] == "edge_count"]
+            for point in series["points"]:
+                cell = self.report["cells"][point["cell"]]
+                moved = cell["stability"].get("temporal_rmse")
+                with self.subTest(sweep=plot["sweep"], light=plot["light_type"], value=point["label"]):
+                    if plot["sweep"] in HELD_SWEEPS and point["value"] <= HELD_SWEEPS[plot["sweep"]]:
+                        center = next(item for item in series["points"] if item["label"] == plot["center"])
+                        truth = self.report["configurations"][cell["configuration"]]["truth"]
+                        allowed = max(2 * center["mae"], LEAST_MAE) + 2 * truth["standard_error"]
+                        self.assertLessEqual(point["mae"], allowed)
+                    if moved is not None:
+                        self.assertLessEqual(moved, MOST_CHANGE)
+
+    def test_a_caster_in_the_light_is_a_method_s_error_not_rounding(self):
+        causes = [
+            cell["stability"]["condition"]["cause"]
+            for sweep, _, technique, point, cell in self.points
+            if sweep == "inside" and technique == "edge_count" and point["state"] == "doubled"
+        ]
+        if "edge_count" in self.ids:
+            self.assertTrue(causes)
+            self.assertEqual(set(causes), {"method"})
+
+
+if __name__ == "__main__":
+    unittest.main()
