@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills blender"
+PARTS="layers scenes build docs engine command_line demo stability removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
@@ -10,12 +10,13 @@ Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
                times, shadow volumes of large meshes (installs npm, which downloads them), fuzzing
-               (installs clang), 10,000 frames of scenes that change at random, programs killed 200 times
+               (installs clang), 10,000 frames of scenes that change at random, programs killed 200
+               times, all stability sweeps
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
-               demo removal template sanitized fuzz_replay; with --full also sanitized_all threads
-               tables editor_repeats large_meshes fuzz soak kills; only when named: blender (installs
-               Blender, 160 MB)
+               demo stability removal template sanitized fuzz_replay; with --full also sanitized_all
+               threads tables editor_repeats large_meshes fuzz soak kills extremes; only when named:
+               blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
@@ -210,6 +211,9 @@ fi
 if is_wanted demo; then
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --no-window --out "$work/demo"
 fi
+if is_wanted stability; then
+    run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py
+fi
 if is_wanted removal; then
     if [ "$is_full" = yes ]; then
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs" --all
@@ -251,6 +255,9 @@ if [ "$is_full" = yes ]; then
     fi
     if is_wanted soak; then
         run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
+    fi
+    if is_wanted extremes; then
+        STABILITY_EXTENT=full run_part extremes python3 tests/run_unittest.py tests/stability/test_stability.py
     fi
     if is_wanted kills; then
         GNOMON_KILL_COUNT=200 run_part "kills, engine" bin/gnomon_tests '--test-case=*killed at a random time*'

@@ -32,8 +32,6 @@ struct Random {
 	}
 };
 
-enum class Pictures { DRAWN, LEFT_OUT };
-
 /// A camera and nothing to see.
 struct EmptyScene {
 	Scene scene;
@@ -69,8 +67,7 @@ public:
 		}
 	}
 
-	/// The same draws of chance either way.
-	RenderRequest make_request(Pictures p_pictures) {
+	RenderRequest make_request() {
 		static const RenderGraph::Mode MODES[] = { RenderGraph::Mode::WAIT,
 			RenderGraph::Mode::QUEUE, RenderGraph::Mode::ONE_BY_ONE };
 		RenderRequest request;
@@ -88,10 +85,6 @@ public:
 			request.mode = request.wants_image ? RenderGraph::Mode::WAIT : MODES[random.choose(3)];
 			request.debug_view = random.chance(0.3) ? "mask" : "";
 			request.needs_debug_view = false;
-			if (p_pictures == Pictures::LEFT_OUT && !all.empty()) {
-				request.wants_image = false;
-				request.mask_light = all.front()->name;
-			}
 		}
 		return request;
 	}

@@ -1,9 +1,8 @@
 // Frames of scenes that change at random, again and again: nothing grows, nothing breaks. 150
 // frames; GNOMON_SOAK_FRAMES and GNOMON_SOAK_SEED say otherwise, see run_soak.py.
 //
-// Each block of frames is drawn three times: all of it, then twice its masks alone. Only what the
-// process grows by the third time is a leak of ours: Mesa's software driver compiles shaders for
-// each new use and keeps them, and the one of the lighting pass for each light of each frame.
+// Each block of frames is drawn three times. Only what the process grows by the third time is a
+// leak of ours: Mesa's software driver compiles shaders for each new use of them and keeps them.
 
 #include "modules/core/error.h"
 #include "modules/core/module_registry.h"
@@ -108,10 +107,10 @@ public:
 			CAPTURE(block);
 			const uint32_t begin = different_count * block / block_count;
 			const uint32_t end = different_count * (block + 1) / block_count;
-			run_block(seed + block, end - begin, Pictures::DRAWN);
-			run_block(seed + block, end - begin, Pictures::LEFT_OUT);
+			run_block(seed + block, end - begin);
+			run_block(seed + block, end - begin);
 			const uint64_t before = read_resident_bytes();
-			run_block(seed + block, end - begin, Pictures::LEFT_OUT);
+			run_block(seed + block, end - begin);
 			const uint64_t after = read_resident_bytes();
 			CHECK(after <= before + MOST_GROWTH_BYTES);
 			if (tells) {
@@ -125,7 +124,7 @@ public:
 	}
 
 private:
-	void run_block(uint32_t p_seed, uint32_t p_frame_count, Pictures p_pictures) {
+	void run_block(uint32_t p_seed, uint32_t p_frame_count) {
 		random = Random(p_seed);
 		for (uint32_t frame = 0; frame < p_frame_count; ++frame) {
 			CAPTURE(p_seed);
@@ -138,7 +137,7 @@ private:
 				switch_module();
 			}
 			scene->change();
-			draw(p_pictures);
+			draw();
 			CHECK(RenderingDevice::get_validation_message_count() == message_count);
 			if (tells) {
 				std::printf("frame %u\n", frame); // the runner waits for it
@@ -187,8 +186,8 @@ private:
 		}
 	}
 
-	void draw(Pictures p_pictures) {
-		const RenderRequest request = scene->make_request(p_pictures);
+	void draw() {
+		const RenderRequest request = scene->make_request();
 		CAPTURE(request.size_px.x);
 		CAPTURE(request.size_px.y);
 		CAPTURE(request.mask_light);
