@@ -215,6 +215,8 @@ class Measurement:
         times = os.path.join(self.work_folder, "time.json")
         try:
             words = [word for setting in settings for word in ("--set", setting)]
+            if self.options.frames:
+                words += ["--timed-frames", str(self.options.frames)]
             mask = self.compute_mask(stem, scene_path, light, technique, "--time", times, *words)
             row["mask"] = stem + ".png"
             with open(times, encoding="utf-8") as file:
@@ -258,6 +260,7 @@ def main():
     parser.add_argument("--out", default=os.path.join(PROJECT, "out"), help="folder for PNGs and results.json")
     parser.add_argument("--size", default="512x512", help="WxH of pictures and masks")
     parser.add_argument("--samples", type=int, default=0, help="light samples of the reference (0 = its default)")
+    parser.add_argument("--frames", type=int, default=0, help="frames that are timed (0 = the program's default)")
     parser.add_argument("--scenes", default="", help="A,B: these scenes only")
     parser.add_argument("--quick", action="store_true", help="the first %d scenes only" % QUICK_SCENE_COUNT)
     parser.add_argument("--device", default="", help="Vulkan device, by name or index")

@@ -8,6 +8,7 @@ usage() {
 Usage: demo_project/run_demo.sh [options]
   --size WxH      size of the pictures and masks (default 512x512)
   --samples N     light samples of the reference (default: its own)
+  --frames N      frames that each technique is timed for (default 20)
   --quick         three scenes only
   --scenes A,B    these scenes only
   --out DIR       where the page goes (default demo_project/out)
@@ -32,11 +33,11 @@ wants_build=yes
 measure_options=()
 while [ $# -gt 0 ]; do
     case $1 in
-        --size | --samples | --scenes | --out | --jobs | --device)
+        --size | --samples | --frames | --scenes | --out | --jobs | --device)
             [ $# -ge 2 ] || fail_usage "$1 needs a value"
             case $1 in
                 --size) [[ $2 =~ ^[1-9][0-9]*x[1-9][0-9]*$ ]] || fail_usage "--size is $2, must be WxH, such as 512x512" ;;
-                --samples | --jobs) [[ $2 =~ ^[1-9][0-9]*$ ]] || fail_usage "$1 is $2, must be a number from 1" ;;
+                --samples | --frames | --jobs) [[ $2 =~ ^[1-9][0-9]*$ ]] || fail_usage "$1 is $2, must be a number from 1" ;;
             esac
             case $1 in
                 --out) out=$2 ;;

@@ -209,7 +209,7 @@ if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
     run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
 fi
 if is_wanted demo; then
-    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --no-window --out "$work/demo"
+    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 fi
 if is_wanted stability; then
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py

@@ -34,8 +34,14 @@ void end_step() {
 }
 
 /// False: another process writes the file, or the file system knows no locks.
-bool lock(int p_file) {
+bool try_lock(int p_file) {
 	return ::flock(p_file, LOCK_EX | LOCK_NB) == 0;
+}
+
+/// Waits for a process that takes the file for left over, for as long as it takes to remove it.
+void lock(int p_file) {
+	while (::flock(p_file, LOCK_EX) != 0 && errno == EINTR) {
+	}
 }
 
 /// A file beside the target that is written, then renamed. Vanishes unless it was.
@@ -134,7 +140,7 @@ void remove_left_over_files(const fs::path &p_folder) {
 		}
 		const int file = ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
 		if (file >= 0) {
-			if (lock(file)) {
+			if (try_lock(file)) {
 				::unlink(entry->path().c_str());
 			}
 			::close(file);

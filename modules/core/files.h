@@ -20,8 +20,8 @@ std::string load_text_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 
 /// Writes beside the target, syncs to disk and renames: the target is the old file or the new one,
-/// never a part, also when the process is killed (what it leaves beside the target is removed by the
-/// next one that saves there). An unwritable folder or a full disk is an Error naming the path.
+/// never a part, also when the process is killed (what it leaves beside the target is removed by
+/// the next one that saves there). An unwritable folder or a full disk is an Error naming the path.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 

@@ -35,8 +35,12 @@ void write_log(LogLevel p_level, const std::string &p_line) {
 		return;
 	}
 	std::lock_guard lock(log_mutex);
-	if (log_sink) {
-		log_sink(p_level, p_line);
+	forward_log(log_sink, p_level, p_line);
+}
+
+void forward_log(const LogSink &p_sink, LogLevel p_level, const std::string &p_line) {
+	if (p_sink) {
+		p_sink(p_level, p_line);
 		return;
 	}
 	static const char *const PREFIXES[] = { "", "WARNING: ", "ERROR: " };

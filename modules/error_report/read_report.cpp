@@ -106,9 +106,11 @@ void read_result(const Json &p_json, ReportCell &r_cell) {
 	if (p_json.contains("stability")) {
 		cell.stability = read_stability(p_json.at("stability"));
 	}
-	if (cell.is_ok()) {
+	if (cell.is_ok() && !cell.stability) {
 		cell.time = read_time(p_json.at("time"));
 		cell.bytes = p_json.at("bytes");
+	}
+	if (cell.is_ok()) {
 		cell.image = p_json.at("image");
 	}
 	r_cell = std::move(cell);

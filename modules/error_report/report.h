@@ -92,7 +92,7 @@ struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius: see
 	/// TemporalMetrics. None where the light has no place to move to.
 	std::optional<double> temporal_rmse;
-	/// Of the receivers whose truth is 0 or 1: how many of them are wrong by more than a half.
+	/// Of the receivers: the share whose truth is 0 or 1 and that are wrong by more than a half.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // that the program gave
 	std::string refusal; // why it drew nothing: an error that says what to do; then no numbers

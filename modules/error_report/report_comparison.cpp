@@ -1,6 +1,7 @@
 #include "modules/error_report/report_comparison.h"
 
 #include "modules/core/text.h"
+#include "modules/error_report/stability_curves.h"
 
 #include <nlohmann/json.hpp>
 
@@ -79,6 +80,7 @@ private:
 			return;
 		}
 		++comparison.compared_count;
+		compare_stability(p_old, p_new);
 		if (p_old.error && p_new.error) {
 			const MaskMetrics &before = p_old.error->all;
 			const MaskMetrics &after = p_new.error->all;
@@ -86,6 +88,21 @@ private:
 			compare_errors(p_old, p_new, "receiver error", before.receiver, after.receiver);
 		}
 		compare_times(p_old, p_new);
+	}
+
+	/// What was drawn and is now refused, or became nonsense, and the other way round.
+	void compare_stability(const ReportCell &p_old, const ReportCell &p_new) {
+		if (!p_old.stability || !p_new.stability) {
+			return;
+		}
+		const auto is_bad = [](const ReportCell &p_cell) {
+			const StabilityState state = judge_stability(p_cell, {}, nullptr);
+			return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
+		};
+		if (is_bad(p_old) != is_bad(p_new)) {
+			add(p_new, "status", !is_bad(p_old), !is_bad(p_new), is_bad(p_new),
+					p_new.stability->refusal);
+		}
 	}
 
 	void compare_errors(const ReportCell &p_old, const ReportCell &p_new, const char *p_what,

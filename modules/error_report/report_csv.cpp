@@ -51,7 +51,7 @@ void add_metrics(const ErrorMetrics *p_metrics, std::vector<std::string> &r_fiel
 }
 
 void add_times(const ReportCell &p_cell, std::vector<std::string> &r_fields) {
-	if (!p_cell.is_ok()) {
+	if (!p_cell.is_ok() || p_cell.stability) {
 		r_fields.insert(r_fields.end(), 7, "");
 		return;
 	}
@@ -68,7 +68,7 @@ void add_times(const ReportCell &p_cell, std::vector<std::string> &r_fields) {
 
 std::string to_csv(const Report &p_report) {
 	std::vector<std::string> names = { "program", "device", "driver", "cpu", "threads",
-		"configuration", "group", "scene", "light", "light_type", "light_size_m",
+		"configuration", "group", "sweep", "value", "scene", "light", "light_type", "light_size_m",
 		"light_angular_distance_deg", "light_count", "width_px", "height_px", "triangles", "edges",
 		"technique", "setting", "properties", "status", "message", "samples", "standard_error" };
 	for (const char *set : { "receiver", "penumbra", "whole_light_penumbra" }) {
@@ -89,11 +89,11 @@ std::string to_csv(const Report &p_report) {
 		const bool has_truth = at.has_truth() && at.status == ReportStatus::OK;
 		const ReportError *error = cell.is_ok() && cell.error ? &*cell.error : nullptr;
 		std::vector<std::string> fields = { p_report.program, machine.device, machine.driver,
-			machine.cpu, has_machine ? text(machine.threads) : "", at.id, at.group, at.scene,
-			at.light, at.light_type, text(at.light_size_m), text(at.light_angular_distance_deg),
-			text(at.light_count), text(at.size_px.x), text(at.size_px.y), text(at.triangle_count),
-			text(at.edge_count), cell.technique, cell.setting, join(cell.properties),
-			get_status_name(cell.status), cell.message,
+			machine.cpu, has_machine ? text(machine.threads) : "", at.id, at.group, at.sweep,
+			text(at.value), at.scene, at.light, at.light_type, text(at.light_size_m),
+			text(at.light_angular_distance_deg), text(at.light_count), text(at.size_px.x),
+			text(at.size_px.y), text(at.triangle_count), text(at.edge_count), cell.technique,
+			cell.setting, join(cell.properties), get_status_name(cell.status), cell.message,
 			at.has_truth() ? text(p_report.sample_count) : "",
 			has_truth ? text(at.truth.standard_error) : "" };
 		add_metrics(error ? &error->all.receiver : nullptr, fields);

@@ -65,9 +65,11 @@ void add_result(const ReportCell &p_cell, Json &r_json) {
 	if (p_cell.stability) {
 		r_json["stability"] = stability_to_json(*p_cell.stability);
 	}
-	if (p_cell.is_ok()) {
+	if (p_cell.is_ok() && !p_cell.stability) { // a sweep's points are drawn, not timed
 		r_json["time"] = time_to_json(p_cell.time);
 		r_json["bytes"] = p_cell.bytes;
+	}
+	if (p_cell.is_ok()) {
 		r_json["image"] = p_cell.image;
 	}
 }
@@ -152,7 +154,9 @@ Json to_json(const Report &p_report) {
 	}
 	for (size_t index = 0; index < p_report.configurations.size(); ++index) {
 		json["configurations"].push_back(configuration_to_json(p_report.configurations[index]));
-		json["configurations"].back()["pareto"] = find_pareto_front(p_report, index);
+		if (!p_report.configurations[index].is_stability()) {
+			json["configurations"].back()["pareto"] = find_pareto_front(p_report, index);
+		}
 	}
 	for (const ReportCell &cell : p_report.cells) {
 		json["cells"].push_back(cell_to_json(p_report, cell));

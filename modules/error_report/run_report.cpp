@@ -79,6 +79,13 @@ public:
 
 private:
 	bool is_mine(size_t p_configuration) const {
+		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
+		if (configuration.is_stability()) {
+			// A whole curve each, since its points are judged by its centre.
+			const uint64_t hash = compute_text_hash(
+					configuration.light_type, compute_text_hash(configuration.sweep, 1));
+			return hash % options.shard_count == options.shard_index;
+		}
 		// Along diagonals: sizes follow one another, and the middle ones have the expensive
 		// settings.
 		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
@@ -161,6 +168,10 @@ private:
 		}
 	}
 
+	const TracedTruth &get_truth(const ReportConfiguration &p_configuration) const {
+		return p_configuration.is_stability() ? stability_truth.still : truth;
+	}
+
 	void run_truth(size_t p_index) {
 		ReportConfiguration &configuration = report.configurations[p_index];
 		std::vector<uint8_t> image;
@@ -168,21 +179,21 @@ private:
 			const MaskQuestion question = plan.questions[p_index]({});
 			if (configuration.is_stability()) {
 				stability_truth = trace_stability_truth(source, question, report.sample_count);
-				truth = stability_truth.still;
 			} else {
 				truth = source.trace_truth(question, report.sample_count);
 			}
-			image = encode_truth_png(truth.mask);
+			image = encode_truth_png(get_truth(configuration).mask);
 		});
 		if (failure) {
 			configuration.status = ReportStatus::FAILED;
 			configuration.message = *failure;
 			log_error("Truth of ", configuration.id, ": ", *failure);
 		} else if (configuration.status == ReportStatus::MISSING) {
-			const MaskMetrics metrics = compute_mask_metrics(truth.mask, truth.mask);
+			const TracedTruth &traced = get_truth(configuration);
+			const MaskMetrics metrics = compute_mask_metrics(traced.mask, traced.mask);
 			configuration.status = ReportStatus::OK;
 			configuration.message.clear();
-			configuration.truth = { truth.standard_error, truth.is_double, truth.wall_ms,
+			configuration.truth = { traced.standard_error, traced.is_double, traced.wall_ms,
 				configuration.record + ".png", metrics.receiver.pixel_count,
 				metrics.penumbra.pixel_count };
 		} else {

@@ -14,7 +14,7 @@ struct RunOptions {
 	/// False: they are removed.
 	bool resumes = false;
 	/// This run measures the configurations whose index leaves shard_index when divided by
-	/// shard_count.
+	/// shard_count (along diagonals), and of the stability sweeps whole curves.
 	uint32_t shard_index = 0;
 	uint32_t shard_count = 1;
 };

@@ -45,7 +45,8 @@ std::optional<double> find_break(
 
 StabilityCurve make_curve(const Report &p_report, const std::string &p_technique,
 		const StabilitySweep &p_sweep, const std::string &p_light_type) {
-	StabilityCurve curve = { p_technique, {}, {}, {} };
+	StabilityCurve curve;
+	curve.technique = p_technique;
 	for (const double value : p_sweep.values) {
 		for (size_t index = 0; index < p_report.cells.size(); ++index) {
 			const ReportCell &cell = p_report.cells[index];
@@ -60,6 +61,8 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 					get_stability_error(cell) });
 		}
 	}
+	curve.is_complete = std::none_of(curve.points.begin(), curve.points.end(),
+			[](const StabilityPoint &p_point) { return p_point.state == StabilityState::MISSING; });
 	if (p_sweep.labels.empty()) { // cases have no order to break in
 		curve.break_before = find_break(curve.points, p_sweep.center, -1);
 		curve.break_after = find_break(curve.points, p_sweep.center, 1);
@@ -161,7 +164,8 @@ Json to_json(const std::vector<StabilityPlot> &p_plots) {
 					points.back()["is_of_penumbra"] = point.error->is_of_penumbra;
 				}
 			}
-			series.push_back({ { "technique", curve.technique }, { "points", points } });
+			series.push_back({ { "technique", curve.technique },
+					{ "is_complete", curve.is_complete }, { "points", points } });
 			if (curve.break_before) {
 				series.back()["break_before"] = sweep.describe_value(*curve.break_before);
 			}

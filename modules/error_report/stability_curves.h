@@ -47,6 +47,7 @@ struct StabilityCurve {
 	std::vector<StabilityPoint> points; // in the order of the sweep
 	/// The first values that are not OK on the way from the centre to the curve's beginning and to
 	/// its end.
+	bool is_complete = true; // every point that was planned is measured
 	std::optional<double> break_before;
 	std::optional<double> break_after;
 };

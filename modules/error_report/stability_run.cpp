@@ -24,7 +24,7 @@ const size_t CHECKED_RECEIVERS = 128; // of a truth, in double
 // Mean difference that 256 rays on a spiral and 1024 stratified ones do not have: about 0.004 in
 // penumbras.
 const double MOST_TRUTH_ERROR = 0.009;
-const double TRUTH_NOISE_ERRORS = 3.0; // standard errors of a truth of fewer rays
+const double TRUTH_NOISE_ERRORS = 3.0;		// standard errors of a truth of fewer rays
 const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
 
 void check_values(const std::vector<MaskImage> &p_frames) {
@@ -40,7 +40,6 @@ void check_values(const std::vector<MaskImage> &p_frames) {
 }
 
 double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
-	uint64_t sharp_count = 0;
 	uint64_t wrong_count = 0;
 	uint64_t receiver_count = 0;
 	for (size_t index = 0; index < p_truth.visibility.size(); ++index) {
@@ -50,11 +49,10 @@ double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
 		++receiver_count;
 		const float truth = p_truth.visibility[index];
 		if (truth <= 0.002f || truth >= 0.998f) {
-			++sharp_count;
 			wrong_count += std::abs(p_mask.visibility[index] - truth) > 0.5f ? 1 : 0;
 		}
 	}
-	return sharp_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
+	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
 }
 
 /// The pixels that are worst, as points to be asked in double.
@@ -77,8 +75,9 @@ std::vector<ConditionPoint> find_worst_points(const TracedTruth &p_truth, const 
 }
 
 /// The reference traces in float32. Where that is not enough for the question, the truth is traced
-/// anew in double; asked at some receivers, evenly spread.
-void mend_truth(const MaskQuestion &p_question, TracedTruth &r_truth) {
+/// anew in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
+enum class DoubleTruth { WHERE_NEEDED, ALWAYS };
+void mend_truth(const MaskQuestion &p_question, DoubleTruth p_when, TracedTruth &r_truth) {
 	MaskImage &mask = r_truth.mask;
 	std::vector<size_t> receivers;
 	for (size_t index = 0; index < mask.visibility.size(); ++index) {
@@ -110,7 +109,8 @@ void mend_truth(const MaskQuestion &p_question, TracedTruth &r_truth) {
 		return count == 0 ? 0.0 : sum / double(count);
 	};
 	const double most = std::max(MOST_TRUTH_ERROR, TRUTH_NOISE_ERRORS * r_truth.standard_error);
-	if (compute_error(receivers) <= most && compute_error(soft) <= most) {
+	if (p_when == DoubleTruth::WHERE_NEEDED && compute_error(receivers) <= most &&
+			compute_error(soft) <= most) {
 		return;
 	}
 	for (const size_t index : receivers) {
@@ -153,11 +153,11 @@ StabilityTruth trace_stability_truth(
 	if (pixel_count > MOST_MOVED_PIXELS) {
 		return truth;
 	}
-	mend_truth(p_question, truth.still);
+	mend_truth(p_question, DoubleTruth::WHERE_NEEDED, truth.still);
 	const MaskQuestion moved = move_light(p_question);
 	truth.moved = r_source.trace_truth(moved, sample_count);
 	if (truth.still.is_double) {
-		mend_truth(moved, *truth.moved);
+		mend_truth(moved, DoubleTruth::ALWAYS, *truth.moved);
 	}
 	return truth;
 }
@@ -173,6 +173,8 @@ MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_questio
 	DrawnMasks drawn;
 	try {
 		drawn = r_source.draw(questions, r_cell.technique);
+	} catch (const DeviceLost &) {
+		throw; // no answer: the run ends, and goes on with --resume
 	} catch (const Error &error) {
 		stability.refusal = error.what();
 		r_cell.stability = stability;

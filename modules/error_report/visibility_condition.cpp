@@ -9,8 +9,6 @@ namespace gnomon {
 
 namespace {
 
-const double RECEIVER_SHIFT_SIZES =
-		5e-5; // of S, along the normal: as the reference and all else do
 // Relative moves of the receiver. The first is what a few operations in float32 round away, 16
 // halves of the last bit; the second shows slopes that 256 rays cannot resolve otherwise.
 const double ROUNDING_MOVE = 1e-6;

@@ -36,6 +36,7 @@ struct VisibilityOptions {
 	std::optional<std::string> size;
 	std::vector<std::string> settings;
 	uint32_t frame_count = 1;
+	uint32_t timed_frame_count = MEASURED_COUNT;
 	std::vector<double> motion;
 	std::string time;
 	bool prints_plan = false;
@@ -109,8 +110,9 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		// The truth takes seconds a frame and nobody draws with it: one frame tells what it costs.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
-				measure_mask_time(renderer, request, is_reference ? 0 : WARM_UP_COUNT,
-						is_reference ? 1 : MEASURED_COUNT));
+				measure_mask_time(renderer, request,
+						is_reference ? 0 : std::min(WARM_UP_COUNT, p_options.timed_frame_count),
+						is_reference ? 1 : p_options.timed_frame_count));
 	}
 }
 
@@ -137,6 +139,10 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			->expected(3);
 	CLI::Option *time = command->add_option(
 			"--time", options.time, "Writes the times of 20 frames after 5 to warm up as JSON");
+	command->add_option("--timed-frames", options.timed_frame_count,
+				   "How many frames --time measures; default 20. Fewer are for tests of the "
+				   "program")
+			->check(CLI::Range(1u, 100000u));
 	command->add_flag("--still", options.is_still,
 				   "--time measures frames in which nothing moves, so that what is kept is used")
 			->needs(time);

@@ -128,8 +128,8 @@ public:
 		before = set_log_sink([this, &r_warnings](LogLevel p_level, const std::string &p_line) {
 			if (p_level == LogLevel::WARNING) {
 				r_warnings.push_back(p_line);
-			} else if (before) {
-				before(p_level, p_line);
+			} else {
+				forward_log(before, p_level, p_line);
 			}
 		});
 	}

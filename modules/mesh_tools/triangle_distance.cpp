@@ -1,10 +1,13 @@
 #include "modules/mesh_tools/triangle_distance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon {
 
 namespace {
+
+const double MOST_FLOAT = 3e38;
 
 double compute_segment_distance(
 		const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b) {
@@ -40,7 +43,26 @@ bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node
 		return glm::dvec3(p_world_from_node *
 				glm::dvec4(glm::dvec3(p_mesh.positions_node[p_mesh.indices[p_index]]), 1.0));
 	};
+	// The box about the ball, in the mesh's own space, where most triangles are ruled out as they
+	// lie there. A flattened mesh has no such space.
+	Bounds near_node;
+	near_node.add(p_point_world - p_distance);
+	near_node.add(p_point_world + p_distance);
+	near_node = transform_bounds(near_node, glm::inverse(p_world_from_node));
+	const bool is_flat = !std::isfinite(near_node.get_diagonal());
+	const glm::vec3 least(glm::max(near_node.minimum, glm::dvec3(-MOST_FLOAT)));
+	const glm::vec3 most(glm::min(near_node.maximum, glm::dvec3(MOST_FLOAT)));
+	const auto is_far = [&](size_t p_index) {
+		const glm::vec3 &a = p_mesh.positions_node[p_mesh.indices[p_index]];
+		const glm::vec3 &b = p_mesh.positions_node[p_mesh.indices[p_index + 1]];
+		const glm::vec3 &c = p_mesh.positions_node[p_mesh.indices[p_index + 2]];
+		return glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), most)) ||
+				glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), least));
+	};
 	for (size_t index = 0; index < p_mesh.indices.size(); index += 3) {
+		if (!is_flat && is_far(index)) {
+			continue;
+		}
 		const glm::dvec3 a = get_corner(index);
 		const glm::dvec3 b = get_corner(index + 1);
 		const glm::dvec3 c = get_corner(index + 2);

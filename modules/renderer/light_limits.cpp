@@ -14,55 +14,64 @@ namespace {
 
 const char *const WHERE_TO_READ = "; doc/stability.md tells the limits of each technique.";
 
-uint64_t compute_asked_hash(const SceneSnapshot &p_scene, const LightSnapshot &p_light,
-		const std::string &p_technique_id, const ShadowLimits &p_limits) {
-	uint64_t hash = compute_text_hash(p_technique_id, 1);
-	hash = compute_value_hash(p_light.type, hash);
-	hash = compute_value_hash(p_light.position_world, hash);
-	hash = compute_value_hash(p_light.get_disc_radius(), hash);
-	hash = compute_value_hash(p_light.penumbra_outer_width_m, hash);
-	hash = compute_value_hash(p_light.penumbra_inner_width_m, hash);
-	hash = compute_value_hash(p_limits.least_caster_distance_radii, hash);
-	hash = compute_value_hash(p_limits.most_width_sizes, hash);
-	hash = compute_value_hash(p_scene.scene_size_m, hash);
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow) {
-			hash = compute_value_hash(instance.mesh->id, hash);
-			hash = compute_value_hash(instance.world_from_node, hash);
-		}
-	}
-	return hash;
-}
-
 double compute_box_distance_m(const Bounds &p_bounds, const glm::dvec3 &p_point) {
 	return glm::distance(p_point, glm::clamp(p_point, p_bounds.minimum, p_bounds.maximum));
 }
 
-/// The caster that comes nearer to the light's centre than that; null: none does.
-const InstanceSnapshot *find_near_caster(
-		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow && !instance.bounds_world.is_empty() &&
-				compute_box_distance_m(instance.bounds_world, p_light.position_world) <
-						p_distance_m &&
-				has_triangle_within(*instance.mesh, instance.world_from_node,
-						p_light.position_world, p_distance_m)) {
-			return &instance;
-		}
+/// True when all of the box lies behind the light by more than its radius: what a spot does not
+/// shine at.
+bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
+	const glm::dvec3 direction = p_light.get_direction_world();
+	double farthest = -std::numeric_limits<double>::infinity();
+	for (int corner = 0; corner < 8; ++corner) {
+		const glm::dvec3 point(corner & 1 ? p_bounds.maximum.x : p_bounds.minimum.x,
+				corner & 2 ? p_bounds.maximum.y : p_bounds.minimum.y,
+				corner & 4 ? p_bounds.maximum.z : p_bounds.minimum.z);
+		farthest = std::max(farthest, glm::dot(point - p_light.position_world, direction));
 	}
-	return nullptr;
+	return farthest < -double(p_light.light_size_m);
 }
 
 } // namespace
 
+const InstanceSnapshot *LightLimits::find_near_caster(
+		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
+	std::vector<Search> now;
+	const InstanceSnapshot *found = nullptr;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const Bounds &bounds = instance.bounds_world;
+		if (!instance.casts_shadow || bounds.is_empty() ||
+				compute_box_distance_m(bounds, p_light.position_world) >= p_distance_m ||
+				(p_light.type == LightType::SPOT && is_behind(bounds, p_light))) {
+			continue;
+		}
+		uint64_t hash = compute_value_hash(instance.mesh->id, 1);
+		hash = compute_value_hash(instance.world_from_node, hash);
+		hash = compute_value_hash(p_light.position_world, hash);
+		hash = compute_value_hash(p_distance_m, hash);
+		const auto before = std::find_if(searches.begin(), searches.end(),
+				[&](const Search &p_search) { return p_search.hash == hash; });
+		Search search = { hash, false };
+		if (before != searches.end()) {
+			search = *before;
+		} else {
+			++search_count;
+			search.is_near = has_triangle_within(
+					*instance.mesh, instance.world_from_node, p_light.position_world, p_distance_m);
+		}
+		now.push_back(search);
+		if (search.is_near) {
+			found = &instance;
+			break;
+		}
+	}
+	searches = std::move(now);
+	return found;
+}
+
 const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, const std::string &p_technique_id,
 		const ShadowLimits &p_limits) {
-	const uint64_t hash = compute_asked_hash(p_scene, p_light, p_technique_id, p_limits);
-	if (hash == asked_hash) {
-		return broken;
-	}
-	asked_hash = hash;
 	broken.clear();
 	const std::string light = text("Light \"", p_light.name, "\": ");
 	const std::string key = p_light.name + "/" + p_technique_id;
@@ -80,17 +89,20 @@ const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_
 							WHERE_TO_READ) });
 		}
 	}
-	const double width_m = std::max(p_light.penumbra_outer_width_m, p_light.penumbra_inner_width_m);
-	const double most_m = p_limits.most_width_sizes * p_scene.scene_size_m;
-	if (width_m > most_m) {
-		broken.push_back({ key + "/widths",
-				text(light, "penumbra_outer_width is ", p_light.penumbra_outer_width_m,
-						" m and penumbra_inner_width ", p_light.penumbra_inner_width_m, " m, and ",
-						p_technique_id, " is wrong above ", most_m, " m (",
-						p_limits.most_width_sizes,
-						" of the scene's size). Lower them, or set another shadow_technique",
-						WHERE_TO_READ) });
-	}
+	const auto check_width = [&](const char *p_property, double p_width_m, double p_most_sizes) {
+		const double most_m = p_most_sizes * p_scene.scene_size_m;
+		if (p_width_m > most_m) {
+			broken.push_back({ key + "/" + p_property,
+					text(light, p_property, " is ", p_width_m, " m, and ", p_technique_id,
+							" is wrong above ", most_m, " m (", p_most_sizes,
+							" of the scene's size). Lower it, or set another shadow_technique",
+							WHERE_TO_READ) });
+		}
+	};
+	check_width("penumbra_outer_width", p_light.penumbra_outer_width_m,
+			p_limits.most_outer_width_sizes);
+	check_width("penumbra_inner_width", p_light.penumbra_inner_width_m,
+			p_limits.most_inner_width_sizes);
 	return broken;
 }
 

@@ -3,7 +3,6 @@
 #include "modules/renderer/shadow_technique.h"
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,8 @@ struct BrokenLimit {
 	std::string warning; // light, value, range and what to do
 };
 
-/// Looks for limits that a light breaks, and looks again only when something moved.
+/// Looks for limits that a light breaks; at a caster's triangles again only when it or the light
+/// moved.
 class LightLimits {
 public:
 	/// p_technique_id: for the text. The limits are of that technique with the light's properties.
@@ -23,9 +23,21 @@ public:
 			const LightSnapshot &p_light, const std::string &p_technique_id,
 			const ShadowLimits &p_limits);
 
+	/// Meshes that were searched since the beginning.
+	uint32_t get_search_count() const { return search_count; }
+
 private:
-	uint64_t asked_hash = 0;
+	/// A caster whose triangles were searched, and what came out.
+	struct Search {
+		uint64_t hash = 0; // of the mesh, its place, the light's place and the distance
+		bool is_near = false;
+	};
+	const InstanceSnapshot *find_near_caster(
+			const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m);
+
+	std::vector<Search> searches; // of the last call
 	std::vector<BrokenLimit> broken;
+	uint32_t search_count = 0;
 };
 
 } // namespace gnomon

@@ -57,8 +57,9 @@ struct ShadowLimits {
 	/// From the light's centre to the nearest caster, over R; placed lights of some size only.
 	/// Within 1 the light's sphere touches the caster, and part of it is inside.
 	double least_caster_distance_radii = 1.0;
-	/// Of r and t, over S.
-	double most_width_sizes = std::numeric_limits<double>::infinity();
+	/// Of r, over S; and of t.
+	double most_outer_width_sizes = std::numeric_limits<double>::infinity();
+	double most_inner_width_sizes = std::numeric_limits<double>::infinity();
 };
 
 /// Answers one question for one light: what fraction of it does each visible pixel see?

@@ -18,7 +18,10 @@ constexpr uint32_t BORDER_PX = 2; // bilinear lookups, and the 3 x 3 texels of a
 ShadowLimits ShadowPenumbraFins::get_limits(const PropertyValues & /*p_properties*/) const {
 	// Wider fins cross one another, and one texel serves one receiver: sweep fin_width of
 	// doc/stability.md.
-	return { .most_width_sizes = has_inner_half ? 0.15 : 0.075 };
+	if (!has_inner_half) {
+		return { .most_outer_width_sizes = 0.075 };
+	}
+	return { .most_outer_width_sizes = 0.15, .most_inner_width_sizes = 0.15 };
 }
 
 void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {

@@ -103,22 +103,19 @@ def measure_rules(options):
 
 
 def measure_lights(options):
-    cases = [("4 in view", 0, False), ("4 in view of %d" % (4 + HIDDEN_COUNT), HIDDEN_COUNT, False),
-             ("likewise, nothing left out", HIDDEN_COUNT, True)]  # fmt: skip
+    # Without the rules 256 lights take seconds a frame; the other table has twelve of them.
+    cases = [("4 in view", 0), ("4 in view of %d" % (4 + HIDDEN_COUNT), HIDDEN_COUNT)]
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        samples = {name: [] for name, _, _ in cases}
+        samples = {name: [] for name, _ in cases}
         results = {}
-        for repeat in range(options.repeats):
-            for name, hidden_count, leaves_out_nothing in cases:
-                if leaves_out_nothing and repeat > 0:
-                    continue  # seconds a frame
+        for _ in range(options.repeats):
+            for name, hidden_count in cases:
                 scene = lean_scenes.make_lights(hidden_count, folder)
-                words = ["--leave-out-nothing"] if leaves_out_nothing else []
-                _, results[name] = measure(scene, folder, options.size, "shadow_map", (), words)
+                _, results[name] = measure(scene, folder, options.size, "shadow_map", ())
                 samples[name].append(results[name]["call_ms"])
         base_ms = statistics.median(samples[cases[0][0]])
-        for index, (name, _, _) in enumerate(cases):
+        for index, (name, _) in enumerate(cases):
             result, ms = results[name], statistics.median(samples[name])
             met = "yes" if ms <= (1 + MOST_EXTRA) * base_ms else "no"
             rows.append((name, result["pass_count"], count_commands(result), "%.1f" % (result["bytes"] / 1e6),

@@ -51,8 +51,7 @@ def kill_sometime(process, folders, chance):
         if skipped_count < 0:
             time.sleep(chance.choice((0, 0, 0.001)))
             break
-        if not waits_for_file:
-            time.sleep(0.002)
+        time.sleep(0 if begun else 0.001)
     process.send_signal(signal.SIGKILL)
     return process.wait(TIMEOUT_S) == -signal.SIGKILL
 

@@ -3,11 +3,12 @@
 
     measure_stability.py [--out DIR] [--resume] [--no-run] [--write]
 
---no-run takes the report that is in DIR. Without --write the tables are printed only. About 15 minutes on two cores;
+--no-run takes the report that is in DIR. Without --write the tables are printed only. About 5 minutes on two cores;
 errors do not depend on what else the machine does. The curves are taken from the page by headless chromium.
 """
 
 import argparse
+import datetime
 import json
 import os
 import statistics
@@ -20,7 +21,6 @@ from measure_report import save_pictures  # noqa: E402
 from run_benchmarks import PROGRAM, format_table, write_table  # noqa: E402
 
 PAGE = os.path.join(ROOT, "doc", "stability.md")
-IMAGES = os.path.join(ROOT, "doc", "images")
 SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
 TYPES = ("spot", "omni", "directional")
 MARKS = {"ok": "", "doubled": " ×2", "nonsense": " !", "refused": " refused", "failed": " FAILED", "missing": "?"}
@@ -40,7 +40,13 @@ def get_plots(report, light_type, has_cases=False):
 
 def show_break(series):
     ends = [series[name] for name in ("break_before", "break_after") if name in series]
-    return " and ".join("from %s" % end for end in ends) or "holds"
+    return " and ".join("from %s" % end for end in ends) or ("holds" if series["is_complete"] else "?")
+
+
+def get_techniques(report):
+    """Those that were swept: mask filters are not."""
+    swept = {series["technique"] for plot in report["stability"] for series in plot["series"]}
+    return [item["id"] for item in report["techniques"] if item["id"] in swept]
 
 
 def find_series(plot, technique):
@@ -64,24 +70,22 @@ def build_sweeps(report):
 def build_breaks(report, light_type):
     plots = get_plots(report, light_type)
     rows = []
-    for technique in report["techniques"]:
-        found = [find_series(plot, technique["id"]) for plot in plots]
-        if any(found):
-            rows.append(("`%s`" % technique["id"], *(show_break(series) if series else "" for series in found)))
+    for technique in get_techniques(report):
+        found = [find_series(plot, technique) for plot in plots]
+        rows.append(("`%s`" % technique, *(show_break(series) if series else "" for series in found)))
     return format_table(("technique", *(name_sweep(plot) for plot in plots)), rows)
 
 
 def build_errors(report):
-    """Error at the beginning, the centre and the end of each sweep, spot light."""
+    """Error at the centre of each sweep, and the largest, spot light."""
     rows = []
-    for technique in report["techniques"]:
-        row = ["`%s`" % technique["id"]]
+    for technique in get_techniques(report):
+        row = ["`%s`" % technique]
         for plot in get_plots(report, "spot"):
-            series = find_series(plot, technique["id"])
-            points = series["points"]
+            points = find_series(plot, technique)["points"]
             center = next(point for point in points if point["label"] == plot["center"])
             errors = [point["mae"] for point in points if "mae" in point]
-            row.append("%.4f, %.4f at most" % (center["mae"], max(errors)))
+            row.append("%.4f (%.4f)" % (center["mae"], max(errors)))
         rows.append(row)
     return format_table(("technique", *(name_sweep(plot) for plot in get_plots(report, "spot"))), rows)
 
@@ -109,15 +113,15 @@ def build_causes(report):
         (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))
         for plot in report["stability"] for series in plot["series"] for point in series["points"]
     ]  # fmt: skip
-    for technique in report["techniques"]:
-        own = [item for item in points if item[0] == technique["id"]]
+    for technique in get_techniques(report):
+        own = [item for item in points if item[0] == technique]
         broken = [item for item in own if item[1]["state"] in ("doubled", "nonsense")]
         conditions = [item[2]["condition"] for item in broken if "condition" in item[2]]
         nonsense = [item for item in own if item[1]["state"] == "nonsense"]
         moved = [item[2]["temporal_rmse"] for item in own if "temporal_rmse" in item[2]]
         causes = [condition["cause"] for condition in conditions]
         rows.append((
-            "`%s`" % technique["id"], len(own), len(broken), len(nonsense), sum(1 for item in nonsense if item[2]["warnings"]),
+            "`%s`" % technique, len(own), len(broken), len(nonsense), sum(1 for item in nonsense if item[2]["warnings"]),
             "%.0f" % statistics.median([condition["number"] for condition in conditions]) if conditions else "",
             ", ".join("%s %d" % (cause, causes.count(cause)) for cause in ("method", "rounding", "truth") if cause in causes),
             "%.4f" % statistics.median(moved), "%.4f" % max(moved),
@@ -127,11 +131,18 @@ def build_causes(report):
     return format_table(header, rows)
 
 
+def describe_run(report, date):
+    machine = report["machines"][0]
+    return "%s: %s, %s; %s. %d rays a pixel of truth." % (
+        date.isoformat(), machine["cpu"], machine["device"], machine["driver"], report["samples"]
+    )  # fmt: skip
+
+
 def save_curves(report, folder):
     element = "[...document.querySelectorAll('#stability .grid figure')].find((item) => item.querySelector('h3').textContent == '%s')"
     pictures = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
     save_pictures(os.path.join(folder, "index.html"), pictures)
-    names = sorted(pictures)
+    names = list(pictures)
     rows = [names[index : index + 2] for index in range(0, len(names), 2)]
     return [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
 
@@ -143,13 +154,17 @@ def main():
     parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
     parser.add_argument("--write", action="store_true", help="writes doc/stability.md and its pictures")
     options = parser.parse_args()
+    path = os.path.join(options.out, "report.json")
     if not options.no_run:
+        if os.path.exists(path):
+            os.remove(path)  # a run that ends without one must not leave the one before
         run_report(options)
-    with open(os.path.join(options.out, "report.json"), encoding="utf-8") as file:
+    with open(path, encoding="utf-8") as file:
         report = json.load(file)
+    date = datetime.date.fromtimestamp(os.path.getmtime(path))
     parts = {
         "stability_sweeps": build_sweeps(report),
-        "stability_breaks": build_breaks(report, "spot"),
+        "stability_breaks": [*build_breaks(report, "spot"), "", describe_run(report, date)],
         "stability_breaks_omni": build_breaks(report, "omni"),
         "stability_breaks_directional": build_breaks(report, "directional"),
         "stability_errors": build_errors(report),

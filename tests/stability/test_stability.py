@@ -21,7 +21,7 @@ BY_DESIGN = {
     "planar": None,  # shadows on declared receivers alone, of what stands before their plane
     "edge_count": ("fin_width",),  # r and t are the size of its light: it draws the light that they ask for
 }
-HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e5}  # up to which values edge_count must hold
+HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # up to which values edge_count must hold
 LEAST_MAE = 1.0 / 256  # smaller ones no picture shows
 MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
 

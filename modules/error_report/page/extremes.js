@@ -69,7 +69,7 @@
 			return "–";
 		}
 		const ends = [series.break_before, series.break_after].filter((label) => label);
-		return ends.map((label) => `from ${label}`).join(" and ") || "holds";
+		return ends.map((label) => `from ${label}`).join(" and ") || (series.is_complete ? "holds" : "?");
 	}
 
 	/* One row a technique, one column a sweep: the first value beyond which it does not hold. Sorting is no use here. */
@@ -107,7 +107,8 @@
 			`${counts.map(([state, count]) => `${report.showCount(count)} ${state}`).join(", ")}. Hollow dots do not hold: their error is more than twice ` +
 			"that of the sweep's centre, or the picture is nonsense. A click on a dot shows its picture, where the report keeps it."));
 		const pictured = report.data.configurations.filter((item) => item.group === "stability" && item.cells.some((cell) => cell.image));
-		const viewer = pictured.length > 0 ? report.makeViewer(pictured, () => {}) : null;
+		const showPoint = (item) => `${item.id.split("/").slice(1).join(", ").replaceAll("_", " ")}`;
+		const viewer = pictured.length > 0 ? report.makeViewer(pictured, () => {}, showPoint) : null;
 		const onPick = (cell) => (cell.image ? viewer?.select(cell) : undefined);
 		section.append(make("div", { class: "grid two" }, d3.groups(curves, (plot) => plot.sweep)
 			.map(([, list]) => makeSweep(list, onPick, drawOnEverySize))));

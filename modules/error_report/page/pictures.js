@@ -99,8 +99,8 @@
 			["umbra over", report.showPercent(penumbra.umbra_over)],
 			["all receivers", report.showError(cell.error?.all?.receiver?.mae)],
 			["whole light", report.showError(report.getWholeLight(cell)?.penumbra?.mae)],
-			["cost", `${report.showMs(time.cost_ms)} ms (${report.showRatio(cell.time_ratio)})`],
-			["memory", report.showMebibytes(cell.bytes)],
+			...(cell.time ? [["cost", `${report.showMs(time.cost_ms)} ms (${report.showRatio(cell.time_ratio)})`],
+				["memory", report.showMebibytes(cell.bytes)]] : []),
 		];
 		return entries.map(([name, value]) => make("span", {}, `${name} `, make("b", {}, value)));
 	}
@@ -119,7 +119,7 @@
 	}
 
 	/* { element, select(cell), draw() }; p_on_select is told of every cell that is chosen here or from outside. */
-	report.makeViewer = function (configurations, onSelect) {
+	report.makeViewer = function (configurations, onSelect, getLabel = report.getLightText) {
 		const truthCanvas = make("canvas", { "aria-hidden": "true" });
 		const resultCanvas = make("canvas", { class: "over", "aria-hidden": "true" });
 		const heatCanvas = make("canvas", { role: "img", "aria-label": "Signed error, result minus truth" });
@@ -137,7 +137,7 @@
 		const chooseConfiguration = makeSelect("light and size", (index) => select(findAlike(configurations[index])));
 		const chooseCell = makeSelect("technique and setting", (index) => select(report.data.cells[index]));
 		configurations.forEach((configuration, index) => chooseConfiguration.select.append(
-			make("option", { value: index }, report.getLightText(configuration))));
+			make("option", { value: index }, getLabel(configuration))));
 		const element = make("div", { class: "viewer" },
 			make("div", { class: "fields" }, chooseConfiguration.element, chooseCell.element), metrics, message, views);
 		let chosen = null;

@@ -24,6 +24,8 @@ public:
 	size_t lose_after_count = SIZE_MAX; // calls of measure, before the device is lost
 	size_t kill_after_count = SIZE_MAX; // calls of measure
 	std::string device = "scripted";
+	size_t lose_after_drawn_count = SIZE_MAX; // calls of draw, before the device is lost
+	size_t draw_count = 0;
 	std::vector<std::string> warnings; // that drawing gives
 	unsigned validation_message_count = 0;
 	std::optional<float> spoiled_value; // of a pixel of what is drawn
@@ -75,6 +77,9 @@ public:
 
 	DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override {
+		if (draw_count++ == lose_after_drawn_count) {
+			throw DeviceLost("The device was lost. Restart it.");
+		}
 		if (p_technique == failing_technique) {
 			fail("the device is sad");
 		}

@@ -115,21 +115,22 @@ TEST_CASE("[ErrorReport] a row of the CSV has each number under its name") {
 	const auto rows = read_rows(make_report());
 	const std::map<std::string, std::string> expected = { { "program", "1.0 abc" },
 		{ "device", "GPU 1" }, { "driver", "driver 2" }, { "cpu", "CPU 3" }, { "threads", "4" },
-		{ "configuration", "sphere/Spot/0.4" }, { "group", "matrix" }, { "scene", "sphere" },
-		{ "light", "Spot" }, { "light_type", "spot" }, { "light_size_m", "0.4" },
-		{ "light_angular_distance_deg", "0" }, { "light_count", "1" }, { "width_px", "640" },
-		{ "height_px", "480" }, { "triangles", "5132" }, { "edges", "0" }, { "technique", "soft" },
-		{ "setting", "32 taps" }, { "properties", "soft_bias=0.5 soft_taps=32" },
-		{ "status", "ok" }, { "message", "" }, { "samples", "1024" },
-		{ "standard_error", "0.0021" }, { "receiver_pixels", "100" }, { "penumbra_pixels", "50" },
-		{ "whole_light_penumbra_pixels", "40" }, { "receiver_mae", "0.01" },
-		{ "receiver_rmse", "0.02" }, { "receiver_p99", "0.03" }, { "receiver_bias", "-0.04" },
-		{ "penumbra_mae", "0.11" }, { "penumbra_rmse", "0.12" }, { "penumbra_p99", "0.13" },
-		{ "penumbra_bias", "-0.14" }, { "whole_light_penumbra_mae", "0.21" },
-		{ "whole_light_penumbra_rmse", "0.22" }, { "whole_light_penumbra_p99", "0.23" },
-		{ "whole_light_penumbra_bias", "-0.24" }, { "umbra_over", "0.25" }, { "frames", "20" },
-		{ "cost_ms", "8" }, { "gpu_ms", "9" }, { "gpu_ms_p90", "10" }, { "wall_ms", "11" },
-		{ "wall_ms_p90", "12" }, { "bytes", "9314128000" }, { "time_ratio", "2" } };
+		{ "configuration", "sphere/Spot/0.4" }, { "group", "matrix" }, { "sweep", "" },
+		{ "value", "0" }, { "scene", "sphere" }, { "light", "Spot" }, { "light_type", "spot" },
+		{ "light_size_m", "0.4" }, { "light_angular_distance_deg", "0" }, { "light_count", "1" },
+		{ "width_px", "640" }, { "height_px", "480" }, { "triangles", "5132" }, { "edges", "0" },
+		{ "technique", "soft" }, { "setting", "32 taps" },
+		{ "properties", "soft_bias=0.5 soft_taps=32" }, { "status", "ok" }, { "message", "" },
+		{ "samples", "1024" }, { "standard_error", "0.0021" }, { "receiver_pixels", "100" },
+		{ "penumbra_pixels", "50" }, { "whole_light_penumbra_pixels", "40" },
+		{ "receiver_mae", "0.01" }, { "receiver_rmse", "0.02" }, { "receiver_p99", "0.03" },
+		{ "receiver_bias", "-0.04" }, { "penumbra_mae", "0.11" }, { "penumbra_rmse", "0.12" },
+		{ "penumbra_p99", "0.13" }, { "penumbra_bias", "-0.14" },
+		{ "whole_light_penumbra_mae", "0.21" }, { "whole_light_penumbra_rmse", "0.22" },
+		{ "whole_light_penumbra_p99", "0.23" }, { "whole_light_penumbra_bias", "-0.24" },
+		{ "umbra_over", "0.25" }, { "frames", "20" }, { "cost_ms", "8" }, { "gpu_ms", "9" },
+		{ "gpu_ms_p90", "10" }, { "wall_ms", "11" }, { "wall_ms_p90", "12" },
+		{ "bytes", "9314128000" }, { "time_ratio", "2" } };
 	for (const auto &[name, value] : rows[1]) {
 		CAPTURE(name);
 		CHECK(value == expected.at(name));

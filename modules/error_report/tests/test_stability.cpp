@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 using namespace gnomon;
@@ -223,4 +224,44 @@ TEST_CASE("[Stability] a technique that refuses is no failure, and its message i
 		CHECK(cell.error.has_value() == (cell.technique != "soft"));
 	}
 	CHECK(find_stability_plots(report)[0].curves[1].points[0].state == StabilityState::REFUSED);
+}
+
+TEST_CASE("[Stability] a lost device is no refusal: the run ends, and a resume measures the rest") {
+	const TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const ReportPlan plan =
+			make_report_plan(make_options({ "scale" }), {}, make_scripted_techniques());
+	ScriptedMasks masks;
+	masks.lose_after_drawn_count = 2;
+	CHECK_THROWS_AS(run_report(plan, masks, store, {}), DeviceLost);
+	ScriptedMasks rest;
+	const Report report = run_report(plan, rest, store, { true, 0, 1 });
+	CHECK(report.count(ReportStatus::OK) > 5);
+	CHECK(report.count(ReportStatus::MISSING) == 0);
+	CHECK(rest.draw_count == plan.report.cells.size() - 2);
+	for (const ReportCell &cell : report.cells) {
+		CHECK(cell.stability->refusal.empty());
+	}
+}
+
+TEST_CASE("[Stability] shards take whole curves, whose centres they need") {
+	const ReportPlan plan = make_report_plan(
+			make_options({ "light_size", "scale", "offset" }), {}, make_scripted_techniques());
+	std::map<std::pair<std::string, std::string>, std::set<size_t>> shards;
+	for (uint32_t shard = 0; shard < 3; ++shard) {
+		const TemporaryFolder folder;
+		RecordStore store(folder.path);
+		ScriptedMasks masks;
+		const Report report = run_report(plan, masks, store, { false, shard, 3 });
+		for (const ReportCell &cell : report.cells) {
+			const ReportConfiguration &at = report.configurations[cell.configuration_index];
+			if (cell.is_ok()) {
+				shards[{ at.sweep, at.light_type }].insert(shard);
+			}
+		}
+	}
+	CHECK(shards.size() == 5);
+	for (const auto &[curve, own] : shards) {
+		CHECK(own.size() == 1);
+	}
 }

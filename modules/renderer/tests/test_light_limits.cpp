@@ -52,24 +52,48 @@ TEST_CASE("[LightLimits] widths beyond a technique's limit are told with their v
 	scene.scene.scene_size_m = 4.0;
 	scene.light->properties["penumbra_outer_width"] = 0.3;
 	scene.light->properties["penumbra_inner_width"] = 1.0;
-	CHECK(find_broken(scene, { .most_width_sizes = 0.25 }).empty());
-	const std::vector<BrokenLimit> broken = find_broken(scene, { .most_width_sizes = 0.2 });
+	CHECK(find_broken(scene, { .most_outer_width_sizes = 0.08, .most_inner_width_sizes = 0.25 })
+					.empty());
+	const std::vector<BrokenLimit> broken = find_broken(scene, { .most_inner_width_sizes = 0.2 });
 	REQUIRE(broken.size() == 1);
-	CHECK(holds(broken[0].warning, "penumbra_inner_width 1"));
+	CHECK(holds(broken[0].warning, "penumbra_inner_width is 1 m"));
 	CHECK(holds(broken[0].warning, "above 0.8"));
 }
 
-TEST_CASE("[LightLimits] nothing is looked for again while nothing moved") {
+TEST_CASE("[LightLimits] a caster is searched again only when it or the light moved") {
 	SmallScene scene;
-	const auto snapshot = scene.snap();
-	LightLimits limits;
-	const std::vector<BrokenLimit> &first =
-			limits.find_broken(*snapshot, snapshot->lights[0], "some", { .most_width_sizes = 0 });
-	REQUIRE(first.size() == 1);
-	const char *text = first[0].warning.data();
-	CHECK(limits.find_broken(*snapshot, snapshot->lights[0], "some", { .most_width_sizes = 0 })[0]
-					.warning.data() == text);
-	CHECK(limits.find_broken(*snapshot, snapshot->lights[0], "other", {}).empty());
+	MeshInstance3D &shade = add_mesh(
+			scene.scene, "Shade", make_box_mesh("shade", glm::vec3(0.5f)), { 1.2, 4.0, 0.8 });
+	LightLimits limits; // the light is in the middle of the shade
+	const auto ask = [&](const ShadowLimits &p_limits) {
+		const auto snapshot = scene.snap();
+		return limits.find_broken(*snapshot, snapshot->lights[0], "some", p_limits).size();
+	};
+	CHECK(ask({}) == 0);
+	CHECK(limits.get_search_count() == 1);
+	CHECK(ask({}) == 0);
+	scene.box->parent_from_node[3].y += 0.1; // far away: not asked at all
+	CHECK(ask({}) == 0);
+	CHECK(limits.get_search_count() == 1);
+	shade.parent_from_node[3].y += 0.4;
+	CHECK(ask({}) == 1);
+	CHECK(limits.get_search_count() == 2);
+	scene.light->parent_from_node[3].y += 0.4;
+	CHECK(ask({}) == 0);
+	CHECK(limits.get_search_count() == 3);
+	CHECK(ask({ .least_caster_distance_radii = 3 }) == 1); // 0.6 m
+	CHECK(limits.get_search_count() == 4);
+}
+
+TEST_CASE("[LightLimits] what lies behind a spot is not near it") {
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		SmallScene scene(type);
+		const glm::dvec3 way = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
+		add_mesh(scene.scene, "Ceiling", make_box_mesh("ceiling", glm::vec3(0.05f)),
+				glm::dvec3(1.2, 4.0, 0.8) + 0.5 * way);
+		CHECK(find_broken(scene, { .least_caster_distance_radii = 3 }).size() ==
+				(type == LightType::OMNI ? 1 : 0));
+	}
 }
 
 TEST_CASE("[GPU][LightLimits] the renderer warns once, whatever the light does then") {
