@@ -137,21 +137,11 @@ def write_registration(target, source, env):
 
 def add_builders(env, modules):
     """Adds `add_module_sources`, the precompiled header and the registration generator to env."""
-    from SCons.Script import Action  # not env.Action, which would expand $SOURCE at once
-
     env["GNOMON_MODULES"] = modules
     for module in modules:
         getattr(module.config, "configure", lambda env: None)(env)
 
-    header = env.Command(
-        env["BUILD_FOLDER"] + "/pch/pch.h", "#modules/pch.h", [lambda target, source, env: _copy(target, source)]
-    )
-    env["PRECOMPILED"] = env.Command(
-        env["BUILD_FOLDER"] + "/pch/pch.h.gch",
-        header,
-        Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
-    )
-    env.Depends(env["PRECOMPILED"], env["BUILD_FOLDER"] + "/pch/pch.h")
+    add_precompiled_header(env, "pch")
 
     def add_sources(self, pattern_or_files, objects):
         """Compiles the files (glob pattern or list) and appends their objects to `objects`."""
@@ -164,12 +154,26 @@ def add_builders(env, modules):
     env.AddMethod(add_sources, "add_sources")
 
 
+def add_precompiled_header(env, folder):
+    """Compiles modules/pch.h with the flags of env, into a folder of the build; its objects wait for it."""
+    from SCons.Script import Action  # not env.Action, which would expand $SOURCE at once
+
+    copy = env["BUILD_FOLDER"] + "/" + folder + "/pch.h"
+    header = env.Command(copy, "#modules/pch.h", [lambda target, source, env: _copy(target, source)])
+    env["PRECOMPILED"] = env.Command(
+        copy + ".gch",
+        header,
+        Action("$CXX -x c++-header $CXXFLAGS $CCFLAGS $_CCCOMCOM -o $TARGET $SOURCE", "Precompiling $SOURCE"),
+    )
+    env.Depends(env["PRECOMPILED"], copy)
+    # Relative, so that a copy of the tree with its build folder rebuilds nothing (tests/removal).
+    env["PRECOMPILED_PATH"] = env.File(copy).path
+
+
 def use_precompiled_header(env):
     """A clone of env whose C++ files begin with the precompiled header."""
     clone = env.Clone()
-    # Relative, so that a copy of the tree with its build folder rebuilds nothing (tests/removal).
-    header = env.File(env["BUILD_FOLDER"] + "/pch/pch.h").path
-    clone.Append(CXXFLAGS=["-include", header, "-Winvalid-pch"])
+    clone.Append(CXXFLAGS=["-include", env["PRECOMPILED_PATH"], "-Winvalid-pch"])
     return clone
 
 

@@ -12,7 +12,7 @@ void KeptDepthMap::plan(
 		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED };
 	frame_map = {};
 	views.begin(p_inputs, p_reads);
-	if (views.is_all_empty()) {
+	if (views.may_forget()) {
 		map.reset(); // nobody reads it
 	}
 	has_content = bool(map) && map_desc == desc;

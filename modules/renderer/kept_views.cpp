@@ -28,6 +28,7 @@ void KeptViews::plan(
 		drawn_hashes.assign(view_count, 0);
 	}
 	wanted_views.clear();
+	unseen_frame_count = is_empty && unseen_views != 0 ? unseen_frame_count + 1 : 0;
 	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if ((unseen_views & (1u << index)) != 0) {

@@ -27,10 +27,18 @@ public:
 	uint32_t get_empty_views() const { return empty_views; }
 	/// No view has casters and receivers: everything is lit.
 	bool is_all_empty() const { return is_empty; }
+	/// What is kept may go: no view has casters, or for long the camera saw no receiver in any.
+	bool may_forget() const {
+		return is_empty && (unseen_views == 0 || unseen_frame_count >= LONGEST_UNSEEN_FRAMES);
+	}
 	/// Views that were not left out, ascending.
 	const std::vector<uint32_t> &get_wanted_views() const { return wanted_views; }
 
 private:
+	/// A camera that turns away often turns back; as LightShadows does with whole lights.
+	static constexpr uint32_t LONGEST_UNSEEN_FRAMES = 60;
+
+	uint32_t unseen_frame_count = 0;	// in which nothing but receivers was missing
 	std::vector<uint64_t> drawn_hashes; // per view; 0 = nothing of use is kept
 	uint32_t empty_views = 0;
 	uint32_t unseen_views = 0; // of them: those that have casters

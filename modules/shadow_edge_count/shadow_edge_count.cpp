@@ -54,13 +54,15 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
 	views.begin(p_inputs, KeptViews::Reads::ACROSS_VIEWS);
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
-	const auto forget = [&] {
-		views.plan(p_inputs, r_plan, false);
-		buffers.reset();
-		found.clear();
+	const auto plan_nothing = [&] {
+		if (views.may_forget()) {
+			buffers.reset();
+			found.clear();
+		}
+		views.plan(p_inputs, r_plan, found.size() == view_count);
 	};
 	if (views.is_all_empty()) {
-		return forget();
+		return plan_nothing();
 	}
 	uint32_t most_edges = 0;
 	uint32_t edge_count = 0;
@@ -77,18 +79,20 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	check_device(p_inputs);
 	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
 			most_edges, fragment_bound, settings.layer_count);
-	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
-	const CountCapacities &capacities = buffers.get_capacities();
-	const bool may_lack_room = most_edges > capacities.records_per_view ||
-			(settings.layer_count == 0 && fragment_bound > capacities.fragments_per_view);
-	may_be_over = edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
-	if (!may_be_over) {
+	const auto may_filter = [&](const CountCapacities &p_capacities) {
+		const bool may_lack_room = most_edges > p_capacities.records_per_view ||
+				(settings.layer_count == 0 && fragment_bound > p_capacities.fragments_per_view);
+		return edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
+	};
+	if (!may_filter(wanted)) {
 		// Only filters read beyond the view of a receiver.
 		views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
 		if (views.is_all_empty()) {
-			return forget();
+			return plan_nothing(); // takes no memory for what nobody sees
 		}
 	}
+	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
+	may_be_over = may_filter(buffers.get_capacities());
 	empty_views |= views.get_empty_views();
 	if (!has_content || found.size() != view_count) {
 		found.assign(view_count, {});

@@ -69,9 +69,11 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
-	bool has_content = false;
+	bool has_content = !views.may_forget();
 	if (views.is_all_empty()) {
-		maps.reset();
+		if (views.may_forget()) {
+			maps.reset();
+		}
 		maps.forget_frame();
 	} else {
 		has_content = maps.prepare(p_inputs.device, p_inputs.light.name, p_inputs.views[0].size_px,

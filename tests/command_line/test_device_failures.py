@@ -6,7 +6,7 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, run  # noqa: E402
+from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, at_length, run  # noqa: E402
 from display_case import TIMEOUT_S  # noqa: E402
 from editor_case import EditorCase  # noqa: E402
 from report_case import ReportCase, load_report  # noqa: E402
@@ -82,7 +82,7 @@ class FailingReports(ReportCase):
     def test_a_report_whose_device_is_lost_ends_and_goes_on_with_resume(self):
         self.check_lost("device_lost@250")
 
-    @unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full")
+    @at_length
     def test_a_report_whose_device_hangs_ends_and_goes_on_with_resume(self):
         self.check_lost("hang@250")
 
@@ -118,7 +118,7 @@ class FailingEditor(EditorCase):
     def test_changes_are_kept_aside_when_the_device_is_lost(self):
         self.fail_with("device_lost", "The device was lost", "Restart the program")
 
-    @unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full")
+    @at_length
     def test_changes_are_kept_aside_when_the_device_hangs(self):
         self.fail_with("hang", "no progress for 3 s")
 

@@ -14,7 +14,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from check_report_page import check_page  # noqa: E402
-from command_line_case import GNOMON, SCENES, find_technique, run  # noqa: E402
+from command_line_case import GNOMON, SCENES, at_length, find_technique, run  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
 from report_case import PROJECT, QUICK, ReportCase, drop_times, load_report  # noqa: E402
 
@@ -34,14 +34,14 @@ def list_unfinished(folder):
     return glob.glob(os.path.join(folder, "**", UNFINISHED), recursive=True)
 
 
-def kill_sometime(process, folders, chance):
+def kill_sometime(process, folders, chance, most_skipped=3):
     """Every other time as soon as, or shortly after, a file is begun in one of the folders; else at a random time.
 
     True: it was killed; False: it had ended before.
     """
     delay_s = chance.uniform(0, LONGEST_DELAY_S)
     waits_for_file = chance.random() < 0.5
-    skipped_count = chance.randrange(4)  # files that it may begin first
+    skipped_count = chance.randrange(most_skipped + 1)  # files that it may begin first
     seen = {path for folder in folders for path in list_unfinished(folder)}
     end = time.monotonic() + (TIMEOUT_S if waits_for_file else delay_s)
     while process.poll() is None and time.monotonic() < end:
@@ -124,7 +124,7 @@ class KilledReports(ReportCase):
         return ["visibility", scene, "--technique", reference, "--size", "128x128", "--out", self.path("m.exr"), *settings]
 
 
-@unittest.skipUnless("GNOMON_KILL_COUNT" in os.environ, "with --full; test_editor_document.cpp kills after each step")
+@at_length  # test_editor_document.cpp kills after each step
 class KilledEditor(EditorCase):
     def test_an_editor_that_is_killed_while_it_saves_leaves_the_scene_before_or_after(self):
         chance = random.Random(SEED + 2)
@@ -139,7 +139,7 @@ class KilledEditor(EditorCase):
                 self.drag("property light_size", 1)
                 self.wait_for(lambda state: state["is_changed"])
                 self.press("key", "ctrl+s")
-                kill_sometime(self.process, (folder,), chance)
+                kill_sometime(self.process, (folder,), chance, most_skipped=0)  # it does not end by itself
                 self.process.communicate()
                 self.assertGreaterEqual(self.get_size(), sizes[-1])
                 sizes.append(self.get_size())

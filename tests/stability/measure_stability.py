@@ -141,10 +141,11 @@ def describe_run(report, date):
 def save_curves(report, folder):
     element = "[...document.querySelectorAll('#stability .grid figure')].find((item) => item.querySelector('h3').textContent == '%s')"
     pictures = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
-    save_pictures(os.path.join(folder, "index.html"), pictures)
+    save_pictures(os.path.join(folder, "index.html"), {**pictures, "stability_legend.png": "document.getElementById('legend')"})
     names = list(pictures)
     rows = [names[index : index + 2] for index in range(0, len(names), 2)]
-    return [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
+    legend = "![Colours of the techniques](images/stability_legend.png)"
+    return [legend, ""] + [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
 
 
 def main():

@@ -1,14 +1,9 @@
-// What a frame does not need is not run, not compiled and not kept: asked of every technique that
-// is registered; none is named here.
+// What a frame does not need is not run: asked of every technique that is registered; none is
+// named here.
 
-#include "modules/core/error.h"
-#include "modules/core/module_registry.h"
-#include "modules/mesh_tools/topology.h"
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/renderer/tests/lean_fixture.h"
 
 #include <doctest/doctest.h>
-
-#include <algorithm>
 
 using namespace gnomon;
 
@@ -23,69 +18,6 @@ RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // the rule is off
 	}
 	return lean;
-}
-
-/// Why the light was left out; empty when it was not.
-std::string find_reason(const RenderResult &p_result, const std::string &p_light) {
-	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
-		if (entry.light == p_light && entry.pass == "light" && !entry.runs) {
-			return entry.reason;
-		}
-	}
-	return "";
-}
-
-/// A spot of 46 degrees to each side, and the ground and the box in view of a camera above them.
-struct TwoLights {
-	SmallScene scene;
-	Light3D &second;
-	TwoLights() : second(scene.add_light("Second", LightType::SPOT, { 1, 3, 0 }, { 0, 0, 0 })) {}
-	void turn(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
-		second.parent_from_node = look_at(p_from, p_to);
-	}
-};
-
-void disable_all_but(const std::vector<std::string> &p_wanted, std::vector<std::string> &r_off) {
-	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
-		if (module.can_disable && module.is_enabled &&
-				std::find(p_wanted.begin(), p_wanted.end(), module.name) == p_wanted.end()) {
-			r_off.push_back(module.name);
-		}
-	}
-	for (const std::string &name : r_off) {
-		ModuleRegistry::set_enabled(name, false);
-	}
-}
-
-/// The module that registers the technique: the one without which it is gone.
-std::string find_module(const std::string &p_technique) {
-	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
-		if (!module.can_disable || !module.is_enabled) {
-			continue;
-		}
-		ModuleRegistry::set_enabled(module.name, false);
-		const bool is_gone = ShadowRegistry::find(p_technique) == nullptr;
-		ModuleRegistry::set_enabled(module.name, true);
-		if (is_gone) {
-			return module.name;
-		}
-	}
-	fail("no module registers ", p_technique);
-}
-
-struct Used {
-	uint32_t pipeline_count = 0;
-	uint64_t bytes = 0;
-	std::vector<std::string> resources;
-	bool operator==(const Used &) const = default;
-};
-
-Used measure_use(RenderingDevice &r_device) {
-	r_device.wait_idle();
-	r_device.begin_commands(); // collects what was freed
-	r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
-	return { r_device.get_pipeline_count(), r_device.get_memory_use().used_bytes,
-		r_device.get_live_resources() };
 }
 
 } // namespace
@@ -217,150 +149,37 @@ TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the ca
 	}
 }
 
-TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothing") {
-	std::vector<std::string> ids;
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		ids.push_back(info.id);
-	}
-	const auto measure = [](const std::string &p_id) {
+TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds the maps kept") {
+	for (const ShadowTechniqueInfo *info :
+			{ ShadowRegistry::find_fallback(), ShadowRegistry::find_default() }) {
+		CAPTURE(info->id);
 		RenderFixture fixture;
-		SmallScene scene;
-		fixture.render_picture(scene, p_id);
-		return measure_use(*fixture.device);
-	};
-	for (const std::string &id : ids) {
-		if (ShadowRegistry::get(id).is_reference) {
-			continue; // rays: nothing on the device
+		SmallScene scene(LightType::DIRECTIONAL);
+		scene.ground->casts_shadow = false; // the light's view holds the box alone
+		scene.camera->vertical_fov_rad = 0.3f;
+		const glm::dmat4 towards = scene.camera->parent_from_node;
+		const auto get_reason = [&] {
+			const RenderResult result = fixture.render_mask(scene, info->id);
+			CHECK(count_receivers(result) > 0);
+			for (const FramePlanEntry &entry : result.plan.get_entries()) {
+				if (entry.pass == "light view 0" && !entry.runs) {
+					return entry.reason;
+				}
+			}
+			return std::string("drawn");
+		};
+		CHECK(get_reason() == "drawn");
+		for (int frame = 0; frame < 3; ++frame) {
+			scene.camera->parent_from_node = look_at({ 2.5, 3, 2.5 }, { 2.6, 0, 2.6 });
+			CHECK(get_reason() == "the camera sees no receiver in it");
 		}
-		CAPTURE(id);
-		const Used among_others = measure(id);
-		std::vector<std::string> off;
-		disable_all_but({ find_module(id) }, off);
-		CHECK_FALSE(off.empty());
-		const Used alone = measure(id);
-		for (const std::string &name : off) {
-			ModuleRegistry::set_enabled(name, true);
-		}
-		CHECK(among_others == alone);
-		CHECK(among_others.pipeline_count > 0);
-	}
-	// Two techniques at work are more: what is counted above does tell them apart.
-	RenderFixture fixture;
-	TwoLights lights;
-	const auto count_pipelines = [&](const std::string &p_second) {
-		lights.scene.light->properties["shadow_technique"] = ids.front();
-		lights.second.properties["shadow_technique"] = p_second;
-		fixture.render_picture(lights.scene);
-		return fixture.device->get_pipeline_count();
-	};
-	const uint32_t one = count_pipelines(ids.front());
-	CHECK(count_pipelines(ids.front()) == one);
-	CHECK(count_pipelines(ShadowRegistry::find_default()->id == ids.front()
-						  ? ShadowRegistry::find_fallback()->id
-						  : ShadowRegistry::find_default()->id) > one);
-}
-
-TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
-	RenderFixture fixture;
-	const Used without_frames = measure_use(*fixture.device);
-	const size_t topology_count = get_kept_topology_count();
-	SmallScene empty;
-	empty.scene.root->children.pop_back(); // the light
-	empty.ground->surfaces.clear();
-	empty.box->surfaces.clear();
-	const auto render_empty = [&] {
-		for (int frame = 0; frame < 64; ++frame) { // what is kept for a while goes too
-			fixture.render_picture(empty);
-		}
-		return measure_use(*fixture.device);
-	};
-	const Used before = render_empty();
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		if (info.is_reference) {
-			continue;
-		}
-		CAPTURE(info.id);
-		{
-			SmallScene scene(LightType::OMNI);
-			add_mesh(scene.scene, "More", make_box_mesh("more", glm::vec3(0.2f)), { 1, 1, 1 });
-			fixture.render_picture(scene, info.id);
-			fixture.render_mask(scene, info.id);
-			CHECK(fixture.device->get_memory_use().used_bytes > before.bytes);
-		}
-		Used after = render_empty();
-		CHECK(after.bytes == before.bytes);
-		CHECK(after.resources == before.resources);
-		CHECK(get_kept_topology_count() <= topology_count);
-	}
-	fixture.renderer.reset();
-	const Used without_renderer = measure_use(*fixture.device);
-	CHECK(without_renderer.bytes == without_frames.bytes);
-	CHECK(without_renderer.resources == without_frames.resources);
-}
-
-TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, and not at once") {
-	RenderFixture fixture;
-	TwoLights lights;
-	const std::string id = ShadowRegistry::find_default()->id;
-	const Used without = [&] {
-		lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
+		scene.camera->parent_from_node = towards;
+		CHECK(get_reason().starts_with("kept"));
+		scene.camera->parent_from_node = look_at({ 2.5, 3, 2.5 }, { 2.6, 0, 2.6 });
 		for (int frame = 0; frame < 64; ++frame) {
-			fixture.render_picture(lights.scene, id);
+			get_reason();
 		}
-		return measure_use(*fixture.device);
-	}();
-	const auto has_own = [&] {
-		const std::vector<std::string> names = fixture.device->get_live_resources();
-		return std::any_of(names.begin(), names.end(), [](const std::string &p_name) {
-			return p_name.find("Second") != std::string::npos;
-		});
-	};
-	CHECK_FALSE(has_own());
-	lights.turn({ 1, 3, 0 }, { 0, 0, 0 });
-	fixture.render_picture(lights.scene, id);
-	CHECK(has_own());
-	lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
-	fixture.render_picture(lights.scene, id);
-	CHECK(has_own()); // it may come back
-	for (int frame = 0; frame < 64; ++frame) {
-		fixture.render_picture(lights.scene, id);
+		scene.camera->parent_from_node = towards;
+		CHECK(get_reason() == "drawn"); // after long what was kept is given back
 	}
-	CHECK_FALSE(has_own());
-	CHECK(measure_use(*fixture.device).bytes == without.bytes);
-}
-
-TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do") {
-	const auto measure = [](int p_hidden_count, Used &r_used) {
-		RenderFixture fixture;
-		SmallScene scene;
-		for (int index = 1; index < 4; ++index) {
-			scene.add_light(text("Visible ", index), LightType::SPOT, { 0.8 * index, 3.5, -0.5 },
-					{ 0, 0, 0 });
-		}
-		const LightType types[] = { LightType::SPOT, LightType::OMNI };
-		for (int index = 0; index < p_hidden_count; ++index) {
-			const glm::dvec3 place(3.0 * (index % 16) - 24, 4.0, 8.0 + index / 16);
-			Light3D &light = scene.add_light(
-					text("Hidden ", index), types[index % 2], place, place + glm::dvec3(0, 1, 0.1));
-			light.range_m = index % 2 ? 2.0f : 0.0f; // a spot points away, an omni light ends
-		}
-		fixture.render_picture(scene);
-		const RenderResult result = fixture.render_picture(scene);
-		r_used = measure_use(*fixture.device);
-		return result;
-	};
-	Used of_many;
-	Used of_few;
-	const RenderResult many = measure(252, of_many);
-	const RenderResult few = measure(0, of_few);
-	CHECK(many.image == few.image);
-	CHECK(many.timings.size() == few.timings.size());
-	CHECK(many.commands.draws == few.commands.draws);
-	CHECK(many.commands.dispatches == few.commands.dispatches);
-	CHECK(many.aliased_bytes == few.aliased_bytes);
-	CHECK(of_many == of_few);
-	CHECK(few.commands.dispatches > 4);
-	CHECK(few.commands.draws > 0);
-	CHECK(find_reason(many, "Hidden 0") != "");
-	CHECK(find_reason(many, "Visible 3") == "");
 }

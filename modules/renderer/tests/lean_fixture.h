@@ -1,0 +1,27 @@
+#pragma once
+
+#include "modules/renderer/tests/render_fixture.h"
+
+namespace gnomon {
+
+/// Why the light was left out; empty when it was not.
+inline std::string find_reason(const RenderResult &p_result, const std::string &p_light) {
+	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
+		if (entry.light == p_light && entry.pass == "light" && !entry.runs) {
+			return entry.reason;
+		}
+	}
+	return "";
+}
+
+/// A spot of 46 degrees to each side, and the ground and the box in view of a camera above them.
+struct TwoLights {
+	SmallScene scene;
+	Light3D &second;
+	TwoLights() : second(scene.add_light("Second", LightType::SPOT, { 1, 3, 0 }, { 0, 0, 0 })) {}
+	void turn(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
+		second.parent_from_node = look_at(p_from, p_to);
+	}
+};
+
+} // namespace gnomon
