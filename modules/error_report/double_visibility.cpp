@@ -1,5 +1,7 @@
 #include "modules/error_report/double_visibility.h"
 
+#include "shared/light_shared.h"
+
 #include <cmath>
 #include <optional>
 
@@ -7,7 +9,6 @@ namespace gnomon {
 
 namespace {
 
-const double RECEIVER_SHIFT_SIZES = 5e-5; // of S, along the normal: as the reference and all else
 const double GOLDEN_ANGLE_RAD = 2.39996322972865332;
 
 } // namespace
@@ -34,7 +35,7 @@ double DoubleVisibility::get_distance_m(const glm::dvec3 &p_position_world) cons
 double DoubleVisibility::compute(
 		const glm::dvec3 &p_position_world, const glm::dvec3 &p_normal) const {
 	const glm::dvec3 origin =
-			p_position_world + RECEIVER_SHIFT_SIZES * scene.scene_size_m * p_normal;
+			p_position_world + double(RECEIVER_OFFSET) * scene.scene_size_m * p_normal;
 	const bool is_directional = light.type == LightType::DIRECTIONAL;
 	const glm::dvec3 way =
 			is_directional ? -light.get_direction_world() : light.position_world - origin;

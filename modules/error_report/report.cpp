@@ -1,6 +1,14 @@
 #include "modules/error_report/report.h"
 
+#include <cstdio>
+
 namespace gnomon {
+
+std::string format_number(double p_value) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
+	return digits;
+}
 
 const char *get_status_name(ReportStatus p_status) {
 	static const char *const NAMES[] = { "ok", "failed", "missing" };

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 
 namespace gnomon {
 
@@ -34,12 +33,6 @@ std::string make_slug(const std::string &p_text) {
 std::string make_record_name(
 		const std::string &p_scene, const std::string &p_what, uint64_t p_hash) {
 	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + format_hash(p_hash);
-}
-
-std::string format_number(double p_value) {
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
-	return digits;
 }
 
 PropertyValues derive_widths() {

@@ -14,7 +14,7 @@ namespace gnomon {
 
 namespace {
 
-// As the study's scenes (DESIGN, section 7), in metres.
+// As the demo scenes have them, in metres.
 const double SCENE_SIZE_M = 4.0;
 const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
 const glm::dvec3 LIGHT_TARGET(0.0, 0.4, 0.0);

@@ -5,7 +5,6 @@
 #include "modules/error_report/stability_scenes.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace gnomon {
 
@@ -73,9 +72,7 @@ std::string StabilitySweep::describe_value(double p_value) const {
 	if (!labels.empty()) {
 		return labels.at(static_cast<size_t>(p_value));
 	}
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
-	return digits;
+	return format_number(p_value);
 }
 
 const std::vector<StabilitySweep> &get_stability_sweeps() {

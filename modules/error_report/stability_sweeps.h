@@ -30,7 +30,7 @@ struct StabilitySweep {
 	/// "1e-06", or the value's own label.
 	std::string describe_value(double p_value) const;
 };
-/// All that there are, guards of TECHNIQUES, section 6, among them.
+/// All that there are; the last, "guards", holds scenes that once broke something or might.
 const std::vector<StabilitySweep> &get_stability_sweeps();
 /// Null: there is none of that name.
 const StabilitySweep *find_stability_sweep(const std::string &p_id);

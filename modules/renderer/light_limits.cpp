@@ -5,8 +5,6 @@
 #include "modules/mesh_tools/triangle_distance.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace gnomon {
 
@@ -14,22 +12,13 @@ namespace {
 
 const char *const WHERE_TO_READ = "; doc/stability.md tells the limits of each technique.";
 
-double compute_box_distance_m(const Bounds &p_bounds, const glm::dvec3 &p_point) {
-	return glm::distance(p_point, glm::clamp(p_point, p_bounds.minimum, p_bounds.maximum));
-}
-
 /// True when all of the box lies behind the light by more than its radius: what a spot does not
 /// shine at.
 bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 	const glm::dvec3 direction = p_light.get_direction_world();
-	double farthest = -std::numeric_limits<double>::infinity();
-	for (int corner = 0; corner < 8; ++corner) {
-		const glm::dvec3 point(corner & 1 ? p_bounds.maximum.x : p_bounds.minimum.x,
-				corner & 2 ? p_bounds.maximum.y : p_bounds.minimum.y,
-				corner & 4 ? p_bounds.maximum.z : p_bounds.minimum.z);
-		farthest = std::max(farthest, glm::dot(point - p_light.position_world, direction));
-	}
-	return farthest < -double(p_light.light_size_m);
+	const glm::dvec3 farthest = glm::mix(
+			p_bounds.minimum, p_bounds.maximum, glm::greaterThan(direction, glm::dvec3(0.0)));
+	return glm::dot(farthest - p_light.position_world, direction) < -double(p_light.light_size_m);
 }
 
 } // namespace
@@ -41,7 +30,7 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		const Bounds &bounds = instance.bounds_world;
 		if (!instance.casts_shadow || bounds.is_empty() ||
-				compute_box_distance_m(bounds, p_light.position_world) >= p_distance_m ||
+				bounds.compute_distance(p_light.position_world) >= p_distance_m ||
 				(p_light.type == LightType::SPOT && is_behind(bounds, p_light))) {
 			continue;
 		}

@@ -6,6 +6,7 @@
 #include "modules/renderer/light_properties.h"
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/map_resolve.h"
+#include "modules/renderer/nearest_caster.h"
 
 #include "renderer/renderer_shared.h"
 
@@ -185,6 +186,10 @@ RGTexture LightShadows::add_technique(const Work &p_work, ShadowTechnique &r_tec
 	const RGTexture mask = r_technique.resolve(p_work.graph, inputs);
 	if (wants_debug_views) {
 		r_technique.get_debug_views(p_work.debug_views);
+		for (ShadowTechnique::DebugView &view : p_work.debug_views) {
+			view.shown_range =
+					view.is_light_depth ? compute_shown_depths(inputs) : view.shown_range;
+		}
 	}
 	return mask;
 }

@@ -10,15 +10,13 @@ namespace {
 /// Distance along the view before which none of the box lies, as far as the view sees it.
 double compute_nearest_distance_m(
 		const LightView &p_view, const LightSnapshot &p_light, const InstanceSnapshot &p_instance) {
-	const Bounds &bounds = p_instance.bounds_world;
 	const double along_m = p_view.compute_distance_range_m(p_instance).x;
 	if (p_view.is_orthographic) {
 		return along_m;
 	}
 	// A box that reaches behind the light may still be far from it wherever the view looks: what is
 	// so far away, and between the view's sides, has at least this distance along the view.
-	const glm::dvec3 nearest = glm::clamp(p_light.position_world, bounds.minimum, bounds.maximum);
-	const double straight_m = glm::distance(p_light.position_world, nearest);
+	const double straight_m = p_instance.bounds_world.compute_distance(p_light.position_world);
 	const double corner = std::sqrt(
 			1.0 + glm::dot(glm::dvec2(p_view.half_extent), glm::dvec2(p_view.half_extent)));
 	return std::max(along_m, straight_m / corner);
@@ -48,6 +46,24 @@ float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs) {
 		nearest_w = std::max(nearest_w, compute_nearest_w(p_inputs, view));
 	}
 	return nearest_w;
+}
+
+glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs) {
+	double farthest_m = 0;
+	for (size_t index = 0; index < p_inputs.views.size(); ++index) {
+		if (p_inputs.views[index].is_orthographic) {
+			return glm::vec2(0.0f, 1.0f);
+		}
+		for (uint32_t caster : p_inputs.casters[index].instances) {
+			const InstanceSnapshot &instance = p_inputs.scene.instances[caster];
+			farthest_m = std::max(
+					farthest_m, p_inputs.views[index].compute_distance_range_m(instance).y);
+		}
+	}
+	if (farthest_m <= 0) {
+		return glm::vec2(0.0f, 1.0f); // no map holds anything
+	}
+	return static_cast<float>(p_inputs.views[0].near_m / farthest_m) * glm::vec2(1.0f, 3.0f);
 }
 
 } // namespace gnomon

@@ -9,5 +9,7 @@ namespace gnomon {
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
 /// The greatest of all views.
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs);
+/// What debug views of light depths show black and white, see ShadowTechnique::DebugView.
+glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs);
 
 } // namespace gnomon

@@ -106,6 +106,9 @@ public:
 		/// Above 0: values are classes 0 .. class_count - 1 (at most 8), shown in colours.
 		uint32_t class_count = 0;
 		bool is_color = false; // values are sRGB colours, shown as they are
+		/// Values are depths of light views as maps hold them. The renderer chooses shown_range:
+		/// black the farthest caster, white a third of its distance; directional: all depths.
+		bool is_light_depth = false;
 	};
 
 	virtual ~ShadowTechnique() = default;

@@ -180,8 +180,7 @@ bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world)
 		return true;
 	}
 	const glm::dvec3 &light = p_light.position_world;
-	const glm::dvec3 nearest = glm::clamp(light, p_bounds_world.minimum, p_bounds_world.maximum);
-	const double distance_m = glm::distance(nearest, light);
+	const double distance_m = p_bounds_world.compute_distance(light);
 	if (p_light.range_m > 0 && distance_m > p_light.range_m * (1 + ROUNDING)) {
 		return false;
 	}

@@ -23,6 +23,10 @@ struct Bounds {
 		minimum = glm::min(minimum, p_bounds.minimum);
 		maximum = glm::max(maximum, p_bounds.maximum);
 	}
+	/// From the point to the nearest of the box; 0 inside. Not for an empty one.
+	double compute_distance(const glm::dvec3 &p_point) const {
+		return glm::distance(p_point, glm::clamp(p_point, minimum, maximum));
+	}
 	/// Length of the diagonal; 0 when empty.
 	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
 };

@@ -87,7 +87,8 @@ RGTexture ShadowJitteredPcf::resolve(RenderGraph &r_graph, const Inputs &p_input
 
 void ShadowJitteredPcf::get_debug_views(std::vector<DebugView> &r_views) const {
 	if (maps.get_imported()) {
-		r_views.push_back({ "map", maps.get_imported(), glm::vec2(0.0f, 1e-3f) });
+		r_views.push_back({ "map", maps.get_imported() });
+		r_views.back().is_light_depth = true;
 	}
 }
 

@@ -69,10 +69,8 @@ LightSnapshot make_light_point(
 double compute_nearest_distance_m(const LightSnapshot &p_light, const SceneSnapshot &p_scene) {
 	double nearest_m = 1e30;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		const glm::dvec3 &position = p_light.position_world;
-		const glm::dvec3 closest =
-				glm::clamp(position, instance.bounds_world.minimum, instance.bounds_world.maximum);
-		nearest_m = std::min(nearest_m, glm::distance(position, closest));
+		nearest_m =
+				std::min(nearest_m, instance.bounds_world.compute_distance(p_light.position_world));
 	}
 	return nearest_m;
 }

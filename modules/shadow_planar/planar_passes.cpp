@@ -13,8 +13,7 @@ namespace {
 
 const uint32_t ON_PLANE = 1; // in the stencil: of the plane, and not dark yet
 
-const double RECEIVER_OFFSET = 5e-5; // of S; as receiver_inc.glsl has it
-const float SAME_PLANE = 1e-5f;		 // of S: a pixel so near to the plane lies in it
+const float SAME_PLANE = 1e-5f; // of S: a pixel so near to the plane lies in it
 const float SAME_PLANE_PER_DISTANCE = 2e-6f;
 
 /// As in renderer/receivers: what the shaders read of the G-buffer.

@@ -6,6 +6,8 @@
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/spread_visibility.h"
 
+#include "shared/light_shared.h"
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -17,8 +19,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr float START_OFFSET = 5e-5f; // of S; the techniques move P by the same
-constexpr float MAX_RADIUS = 1e18f;	  // Embree drops coordinates beyond 1.8e18
+constexpr float MAX_RADIUS = 1e18f; // Embree drops coordinates beyond 1.8e18
 constexpr uint32_t MAX_SAMPLE_COUNT = 65536;
 constexpr uint32_t TILE_SIZE_PX = 8; // neighbours share the tree's nodes in the cache
 constexpr float PENUMBRA_MINIMUM = 0.002f;
@@ -173,7 +174,7 @@ uint64_t trace_pixel(Job &r_job, uint32_t p_pixel) {
 	if (!point.is_receiver) {
 		return 0;
 	}
-	const float offset_m = START_OFFSET * r_job.options.scene_size_m;
+	const float offset_m = RECEIVER_OFFSET * r_job.options.scene_size_m;
 	const uint64_t hash = mix_bits(mix_bits(r_job.options.seed) ^ p_pixel);
 	DiscView view;
 	float known = 0.0f;

@@ -58,7 +58,8 @@ RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) 
 
 void ShadowTemplate::get_debug_views(std::vector<DebugView> &r_views) const {
 	if (map) {
-		r_views.push_back({ "map", map, glm::vec2(0.0f, 1e-3f), 0 });
+		r_views.push_back({ "map", map });
+		r_views.back().is_light_depth = true;
 	}
 }
 

@@ -172,6 +172,7 @@ DrawPredicates CasterCulling::add_passes(
 void CasterCulling::get_debug_views(std::vector<ShadowTechnique::DebugView> &r_views) const {
 	if (map) {
 		r_views.push_back({ "occluders", map });
+		r_views.back().is_light_depth = true;
 	}
 }
 

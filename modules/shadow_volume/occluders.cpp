@@ -49,10 +49,8 @@ bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot 
 	const LightView &view = p_inputs.views[0];
 	double distance_m = double(view.far_m) - view.near_m;
 	if (!view.is_orthographic) {
-		const glm::dvec3 &light = p_inputs.light.position_world;
-		const Bounds &bounds = p_instance.bounds_world;
 		distance_m =
-				std::max(glm::distance(glm::clamp(light, bounds.minimum, bounds.maximum), light),
+				std::max(p_instance.bounds_world.compute_distance(p_inputs.light.position_world),
 						LEAST_DISTANCE_PER_NEAR * view.near_m);
 	}
 	return reach * scale * ROUNDING <= MOST_ROUNDING_PER_DISTANCE * distance_m;

@@ -35,12 +35,6 @@ glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_c
 							: glm::dvec4(p_light.position_world, 1.0));
 }
 
-/// Least distance from the light's centre to the box; 0 inside.
-double compute_distance_m(const Bounds &p_box_world, const glm::dvec3 &p_point_world) {
-	const glm::dvec3 nearest = glm::clamp(p_point_world, p_box_world.minimum, p_box_world.maximum);
-	return glm::length(nearest - p_point_world);
-}
-
 /// Collects projected points.
 struct Projection {
 	const LightView &camera;
@@ -87,7 +81,7 @@ VolumeArea make_area(const Projection &p_projection, glm::uvec2 p_size_px) {
 /// How far beyond each corner the volume goes, in parts of the corner's distance from the light;
 /// infinity without an end.
 double compute_reach(const Bounds &p_box_world, const LightSnapshot &p_light) {
-	const double nearest_m = compute_distance_m(p_box_world, p_light.position_world);
+	const double nearest_m = p_box_world.compute_distance(p_light.position_world);
 	return p_light.range_m > 0 && nearest_m > 1e-3 * p_box_world.get_diagonal()
 			? std::max(p_light.range_m / nearest_m, 1.0)
 			: INFINITY;
@@ -107,7 +101,7 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 	whole.size_px = p_size_px;
 	const glm::dvec4 light = compute_light_view(p_light, p_camera);
 	const bool is_point = light.w != 0;
-	if (is_point && compute_distance_m(p_box_world, p_light.position_world) <= 0) {
+	if (is_point && p_box_world.compute_distance(p_light.position_world) <= 0) {
 		return whole;
 	}
 	const double reach = is_point ? compute_reach(p_box_world, p_light) : INFINITY;

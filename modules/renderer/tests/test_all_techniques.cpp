@@ -2,7 +2,7 @@
 
 #include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/renderer/tests/each_technique.h"
 
 #include <doctest/doctest.h>
 
@@ -10,45 +10,6 @@
 #include <set>
 
 using namespace gnomon;
-
-namespace {
-
-const LightType ALL_TYPES[] = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };
-
-/// Reference rays are few here: these tests ask for rules, not for precision.
-template <typename Function> void for_each_technique(Function p_function) {
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		CAPTURE(info.id);
-		p_function(info);
-	}
-}
-
-template <typename Function> void for_each_technique_and_type(Function p_function) {
-	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
-		for (LightType type : ALL_TYPES) {
-			CAPTURE(get_light_type_name(type));
-			p_function(p_info, type);
-		}
-	});
-}
-
-/// Cheap settings for properties that make a technique slow; by name's ending, not by technique.
-void make_cheap(Light3D &r_light) {
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
-		for (const PropertyInfo &property :
-				ShadowRegistry::get_light_properties(info.id).get_properties()) {
-			if (property.name.ends_with("_samples")) {
-				r_light.properties[property.name] = int64_t(64);
-			} else if (property.name.ends_with("_count")) {
-				r_light.properties[property.name] = int64_t(4);
-			} else if (property.name.ends_with("_map_size")) {
-				r_light.properties[property.name] = int64_t(256);
-			}
-		}
-	}
-}
-
-} // namespace
 
 TEST_CASE("[GPU][Techniques] masks are finite, in 0..1, and hold light and shadow") {
 	RenderFixture fixture;
@@ -251,32 +212,6 @@ TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are whole") {
 		make_cheap(*scene.light);
 		CHECK(fixture.render_mask(scene, p_info.id, { 1, 1 }).visibility.size() == 1);
 		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, { 67, 13 })));
-	});
-}
-
-TEST_CASE("[GPU][Techniques] every debug view can be shown, and an unknown one is refused") {
-	RenderFixture fixture;
-	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
-		SmallScene scene;
-		make_cheap(*scene.light);
-		RenderRequest request;
-		request.scene = scene.snap();
-		request.size_px = glm::uvec2(32);
-		request.technique_override = p_info.id;
-		request.wants_image = true;
-		request.debug_view = "mask";
-		for (const std::string &id : fixture.renderer->render(request).debug_views) {
-			CAPTURE(id);
-			request.debug_view = id;
-			CHECK(fixture.renderer->render(request).image.size() == 32 * 32 * 4);
-		}
-		request.debug_view = "no such view";
-		CHECK_THROWS_WITH_AS(
-				fixture.renderer->render(request), doctest::Contains("\"mask\""), Error);
-		request.needs_debug_view = false;
-		const std::vector<uint8_t> instead = fixture.renderer->render(request).image;
-		request.debug_view = "";
-		CHECK(instead == fixture.renderer->render(request).image);
 	});
 }
 
