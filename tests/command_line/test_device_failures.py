@@ -6,9 +6,9 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, at_length, run  # noqa: E402
+from command_line_case import CONTACT_BOX, SMALL, CommandLineTest, at_length, find_technique, run  # noqa: E402
 from display_case import TIMEOUT_S  # noqa: E402
-from editor_case import EditorCase  # noqa: E402
+from editor_case import EditorCase, load  # noqa: E402
 from report_case import ReportCase, load_report  # noqa: E402
 
 FAULTS = {
@@ -17,6 +17,8 @@ FAULTS = {
     "hang@1": ("no progress for 3 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
 }
 LIMIT = {"GNOMON_DEVICE_TIMEOUT_S": "3"}  # longer than any pass of these tests on a busy machine
+LITTLE_MEMORY = {"GNOMON_MEMORY_BUDGET_MIB": "200"}  # enough for the editor and the scene
+GREATEST_MAP = 8192  # texels a side: 256 MiB
 LOST_AFTER = 450  # submissions of the editor, one a frame: time enough to change something
 
 
@@ -88,17 +90,20 @@ class FailingReports(ReportCase):
 
 
 class FailingEditor(EditorCase):
+    def open_with(self, environment):
+        os.environ.update(environment)
+        try:
+            self.open_editor()
+        finally:
+            for name in environment:
+                del os.environ[name]
+
     def fail_with(self, fault, *words):
         os.makedirs(self.path("config"), exist_ok=True)
         with open(os.path.join(self.path("config"), "editor.json"), "w", encoding="utf-8") as file:
             json.dump({"autosave_s": 3600}, file)  # so that it is the failure that saves
         recovery = os.path.join(self.project, "scenes", ".three_lights.recovery.gltf")
-        os.environ.update({"GNOMON_INJECT_FAULT": "%s@%d" % (fault, LOST_AFTER), **LIMIT})
-        try:
-            self.open_editor()
-        finally:
-            for name in ("GNOMON_INJECT_FAULT", *LIMIT):
-                del os.environ[name]
+        self.open_with({"GNOMON_INJECT_FAULT": "%s@%d" % (fault, LOST_AFTER), **LIMIT})
         self.select_light()
         self.drag("property light_size", 3)
         self.wait_for(lambda state: state["is_changed"])
@@ -121,6 +126,34 @@ class FailingEditor(EditorCase):
     @at_length
     def test_changes_are_kept_aside_when_the_device_hangs(self):
         self.fail_with("hang", "no progress for 3 s")
+
+    @at_length
+    def test_changes_are_kept_aside_when_memory_is_out(self):
+        self.fail_with("out_of_memory", "Out of memory", "smaller scene or picture")
+
+    def test_a_shadow_that_does_not_fit_into_the_device_is_told_and_undone(self):
+        technique, scene = find_technique("is_fallback"), load(self.scene)
+        before = self.find_light(scene)["extras"]
+        before["%s_size" % technique] = GREATEST_MAP
+        self.save(scene)
+        self.open_with(LITTLE_MEMORY)
+        self.select_light()
+        first = self.photograph()
+        self.choose("property shadow_technique", technique)
+        state = self.wait_for(lambda state: "Out of device memory" in state["status"])
+        for word in ("Lower the map size", "MiB"):
+            self.assertIn(word, state["status"])
+        self.press("key", "ctrl+z")
+        self.wait_for(lambda state: not state["is_changed"])
+        self.assertLess(self.count_different(first, self.photograph()), 0.001)
+        self.drag("property light_size", 3)
+        self.assertGreater(self.count_different(first, self.photograph()), 0.005)
+        self.press("key", "ctrl+s")
+        self.wait_for(lambda state: not state["is_changed"] and state["status"].startswith("Saved"))
+        after = self.find_light(load(self.scene))["extras"]
+        self.assertGreater(after["light_size"], before["light_size"])
+        self.assertEqual(after["%s_size" % technique], GREATEST_MAP)
+        self.finish()
 
 
 if __name__ == "__main__":
