@@ -40,6 +40,8 @@ def get_plots(report, light_type, has_cases=False):
 
 def show_break(series):
     ends = [series[name] for name in ("break_before", "break_after") if name in series]
+    if len(ends) == 2 and ends[0] == ends[1]:
+        return "not at its centre"
     return " and ".join("from %s" % end for end in ends) or ("holds" if series["is_complete"] else "?")
 
 

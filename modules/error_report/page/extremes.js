@@ -68,6 +68,9 @@
 		if (!series) {
 			return "–";
 		}
+		if (series.break_before && series.break_before === series.break_after) {
+			return "not at its centre";
+		}
 		const ends = [series.break_before, series.break_after].filter((label) => label);
 		return ends.map((label) => `from ${label}`).join(" and ") || (series.is_complete ? "holds" : "?");
 	}
