@@ -7,6 +7,7 @@
 #include "modules/renderer/lighting.h"
 #include "modules/renderer/map_resolve.h"
 #include "modules/renderer/nearest_caster.h"
+#include "modules/renderer/view_fit.h"
 
 #include "renderer/renderer_shared.h"
 
@@ -161,7 +162,11 @@ RGTexture LightShadows::add_technique(const Work &p_work, ShadowTechnique &r_tec
 	std::vector<LightView> views;
 	r_technique.get_light_views(request.light, p_scene, p_work.properties, views);
 	std::vector<CasterList> casters;
-	for (const LightView &view : views) {
+	for (LightView &view : views) {
+		if (r_technique.asks_receivers_alone()) {
+			fit_to_receivers(
+					view, request.lit_receivers, compute_fit_reach_m(view, request.light, p_scene));
+		}
 		casters.push_back(cull_casters(p_scene, view, request.may_leave_out));
 		// What is shown itself is seen, receivers or not.
 		casters.back().has_receivers =

@@ -37,9 +37,7 @@ float widen_for_border(uint32_t p_map_size_px, uint32_t p_border_px) {
 
 template <typename Function> void for_each_corner(const Bounds &p_bounds, Function p_function) {
 	for (int corner = 0; corner < 8; ++corner) {
-		p_function(glm::dvec3(corner & 1 ? p_bounds.maximum.x : p_bounds.minimum.x,
-				corner & 2 ? p_bounds.maximum.y : p_bounds.minimum.y,
-				corner & 4 ? p_bounds.maximum.z : p_bounds.minimum.z));
+		p_function(p_bounds.get_corner(corner));
 	}
 }
 

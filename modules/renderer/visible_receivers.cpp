@@ -59,12 +59,6 @@ Polygon clip(const Polygon &p_polygon, const Plane &p_plane) {
 	return clipped;
 }
 
-glm::dvec3 get_corner(const Bounds &p_box, int p_index) {
-	return { p_index & 1 ? p_box.maximum.x : p_box.minimum.x,
-		p_index & 2 ? p_box.maximum.y : p_box.minimum.y,
-		p_index & 4 ? p_box.maximum.z : p_box.minimum.z };
-}
-
 /// Adds the ends of the ray's part in the box.
 void add_ray(const Bounds &p_box, const glm::dvec3 &p_origin, const glm::dvec3 &p_direction,
 		Bounds &r_bounds) {
@@ -95,7 +89,7 @@ Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 	bool is_inside = true;
 	for (int index = 0; index < 8 && is_inside; ++index) {
 		is_inside = std::all_of(p_planes.begin(), p_planes.end(), [&](const Plane &p_plane) {
-			return p_plane.compute_side(get_corner(p_box, index)) >= 0;
+			return p_plane.compute_side(p_box.get_corner(index)) >= 0;
 		});
 	}
 	if (is_inside) {
@@ -106,8 +100,8 @@ Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 		const int u = 1 << (axis + 1) % 3;
 		const int v = 1 << (axis + 2) % 3;
 		for (const int side : { 0, 1 << axis }) {
-			Polygon face = { get_corner(p_box, side), get_corner(p_box, side | u),
-				get_corner(p_box, side | u | v), get_corner(p_box, side | v) };
+			Polygon face = { p_box.get_corner(side), p_box.get_corner(side | u),
+				p_box.get_corner(side | u | v), p_box.get_corner(side | v) };
 			for (const Plane &plane : p_planes) {
 				face = clip(face, plane);
 			}

@@ -109,10 +109,7 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source) {
 	Bounds bounds;
 	for (int corner = 0; corner < 8; ++corner) {
-		const glm::dvec3 point((corner & 1) ? p_bounds.maximum.x : p_bounds.minimum.x,
-				(corner & 2) ? p_bounds.maximum.y : p_bounds.minimum.y,
-				(corner & 4) ? p_bounds.maximum.z : p_bounds.minimum.z);
-		bounds.add(glm::dvec3(p_target_from_source * glm::dvec4(point, 1.0)));
+		bounds.add(glm::dvec3(p_target_from_source * glm::dvec4(p_bounds.get_corner(corner), 1.0)));
 	}
 	return bounds;
 }

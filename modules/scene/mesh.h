@@ -23,6 +23,11 @@ struct Bounds {
 		minimum = glm::min(minimum, p_bounds.minimum);
 		maximum = glm::max(maximum, p_bounds.maximum);
 	}
+	/// p_index: 0 .. 7; bits 0, 1, 2: whether x, y, z are the greatest.
+	glm::dvec3 get_corner(int p_index) const {
+		return glm::dvec3(p_index & 1 ? maximum.x : minimum.x, p_index & 2 ? maximum.y : minimum.y,
+				p_index & 4 ? maximum.z : minimum.z);
+	}
 	/// From the point to the nearest of the box; 0 inside. Not for an empty one.
 	double compute_distance(const glm::dvec3 &p_point) const {
 		return glm::distance(p_point, glm::clamp(p_point, minimum, maximum));

@@ -28,22 +28,36 @@ int sum_weights(const CountEdge &p_edge, bool p_is_facing0, bool p_is_facing1) {
 	return p_edge.is_double_sided ? sum : sum / 2;
 }
 
-/// Moves an end that is nearer than the near plane onto it. False when both are.
-bool clip_near(double p_near_m, glm::dvec3 &r_a, glm::dvec3 &r_b) {
-	if (r_a.z < p_near_m && r_b.z < p_near_m) {
-		return false;
-	}
-	const auto cut = [&](const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
-		glm::dvec3 point = glm::mix(p_from, p_to, (p_near_m - p_from.z) / (p_to.z - p_from.z));
-		point.z = p_near_m;
-		return point;
+/// Moves ends that lie before the near plane, or too far aside, to where they do no more. False
+/// where nothing is left.
+bool clip_edge(const CountSpace &p_space, glm::dvec3 &r_a, glm::dvec3 &r_b) {
+	double begin = 0;
+	double end = 1;
+	const auto keep = [&](double p_at_a, double p_at_b) {
+		if (p_at_a < 0 && p_at_b < 0) {
+			begin = 2;
+		} else if (p_at_a < 0) {
+			begin = std::max(begin, p_at_a / (p_at_a - p_at_b));
+		} else if (p_at_b < 0) {
+			end = std::min(end, p_at_a / (p_at_a - p_at_b));
+		}
 	};
-	if (r_a.z < p_near_m) {
-		r_a = cut(r_a, r_b);
-	} else if (r_b.z < p_near_m) {
-		r_b = cut(r_b, r_a);
+	keep(r_a.z - p_space.near_m, r_b.z - p_space.near_m);
+	for (int axis = 0; axis < 2; ++axis) {
+		for (const double slope : { -p_space.least_slope, p_space.least_slope }) {
+			keep(r_a.z - slope * r_a[axis], r_b.z - slope * r_b[axis]);
+		}
 	}
-	return true;
+	const glm::dvec3 a = r_a;
+	if (begin > 0) {
+		r_a = glm::mix(a, r_b, begin);
+		r_a.z = p_space.get_least_z(r_a);
+	}
+	if (end < 1) {
+		r_b = glm::mix(a, r_b, end);
+		r_b.z = p_space.get_least_z(r_b);
+	}
+	return begin <= end;
 }
 
 } // namespace
@@ -104,7 +118,7 @@ void add_count_edges(const MeshTopology &p_topology, const glm::dmat4 &p_view_fr
 				p_space.get_light_side(edge.plane1) > 0.0);
 		glm::dvec3 a = to_view(is_mirrored ? mesh_edge.b : mesh_edge.a);
 		glm::dvec3 b = to_view(is_mirrored ? mesh_edge.a : mesh_edge.b);
-		if (!p_space.is_directional && !clip_near(p_space.near_m, a, b)) {
+		if (!p_space.is_directional && !clip_edge(p_space, a, b)) {
 			continue;
 		}
 		edge.a = p_space.warp(a);

@@ -26,7 +26,8 @@ struct CountEdge {
 	int compute_weight(const glm::dvec3 &p_r) const;
 };
 
-/// Edges of a mesh that may be silhouettes from a point of the light, cut at the near plane. What
+/// Edges of a mesh that may be silhouettes from a point of the light, cut off
+/// before the near plane and far aside. What
 /// every point of the light sees from one side is left out: on both sides of such an edge the
 /// number of solids is the same.
 void add_count_edges(const MeshTopology &p_topology, const glm::dmat4 &p_view_from_node,

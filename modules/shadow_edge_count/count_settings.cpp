@@ -2,6 +2,14 @@
 
 namespace gnomon {
 
+namespace {
+
+/// Of what a view sees, and of 45 degrees where it sees less: nothing beyond can hide a light that
+/// is smaller than its distance to the casters.
+const double LEAST_SLOPE = 1e-3;
+
+} // namespace
+
 void add_count_properties(PropertyList &r_list) {
 	const std::string group = "Edge count";
 	r_list.add({ "edge_count_quality", PropertyType::ENUM, std::string("256"), "64,256",
@@ -45,6 +53,8 @@ CountSpace make_count_space(const LightView &p_view, double p_disc_radius, doubl
 	space.is_directional = p_view.is_orthographic;
 	space.disc_radius = p_disc_radius;
 	space.near_m = p_view.near_m;
+	space.least_slope = LEAST_SLOPE /
+			std::max(1.0, double(std::max(p_view.half_extent.x, p_view.half_extent.y)));
 	space.depth_far_m = p_view.far_m;
 	space.depth_range_m = double(p_view.far_m) - p_view.near_m;
 	space.scene_size_m = p_scene_size_m;
@@ -63,6 +73,7 @@ shader::CountViewConstants make_count_view_constants(
 	constants.map_size_px = p_view.size_px;
 	constants.is_directional = p_space.is_directional ? 1 : 0;
 	constants.near_m = static_cast<float>(p_space.near_m);
+	constants.least_slope = static_cast<float>(p_space.least_slope);
 	constants.index = p_index;
 	return constants;
 }

@@ -11,8 +11,11 @@ namespace gnomon {
 /// centre at the origin. Warped, lines stay lines, and a point nearer to the light has a greater w.
 struct CountSpace {
 	bool is_directional = false;
-	double disc_radius = 0;	  // R in metres; directional: the tangent of half the apparent diameter
-	double near_m = 1e-3;	  // what is nearer to the light's plane is cut off; not for directional
+	double disc_radius = 0; // R in metres; directional: the tangent of half the apparent diameter
+	double near_m = 1e-3;	// what is nearer to the light's plane is cut off; not for directional
+	/// Edges are cut off where z is less than this part of |x| or |y|: float32 tells no more where
+	/// a line lies whose end is a million times farther away. Not for directional.
+	double least_slope = 1e-3;
 	double depth_far_m = 1;	  // directional: w = depth_far_m - z
 	double depth_range_m = 1; // directional: D, of the view
 	double scene_size_m = 1;  // S
@@ -21,6 +24,10 @@ struct CountSpace {
 	glm::dvec3 warp(const glm::dvec3 &p_r) const {
 		return is_directional ? glm::dvec3(p_r.x, p_r.y, depth_far_m - p_r.z)
 							  : glm::dvec3(p_r.x / p_r.z, p_r.y / p_r.z, 1.0 / p_r.z);
+	}
+	/// Least z at which an edge's point is kept.
+	double get_least_z(const glm::dvec2 &p_xy) const {
+		return std::max(near_m, least_slope * std::max(std::abs(p_xy.x), std::abs(p_xy.y)));
 	}
 	/// What a relative tolerance of w is a share of: w itself; directional, where w has no scale of
 	/// its own, max(S, D/250), since a deep view would loosen it with D alone.

@@ -37,9 +37,23 @@ int count_sum_weights(bool p_is_facing0, bool p_is_facing1, int p_kind) {
 	return (p_kind & EDGE_COUNT_HAS_FACE1) != 0 ? both : first;
 }
 
+/// Shortens the part of a segment that is kept, from x to y, to where a quantity is not below 0: linear
+/// between its values at the ends.
+void keep_count_part(float p_at_a, float p_at_b, inout vec2 r_part) {
+	const float at = p_at_a / (p_at_a - p_at_b);
+	r_part.x = p_at_a < 0.0 ? (p_at_b < 0.0 ? 2.0 : max(r_part.x, at)) : r_part.x;
+	r_part.y = p_at_a >= 0.0 && p_at_b < 0.0 ? min(r_part.y, at) : r_part.y;
+}
+
+/// A point of a segment where it is cut off: exactly there, as x' and y' may be a thousand.
+vec3 count_cut_point(CountViewConstants p_view, vec3 p_a, vec3 p_b, float p_at) {
+	const vec2 xy = mix(p_a.xy, p_b.xy, p_at);
+	return vec3(xy, max(p_view.near_m, p_view.least_slope * max(abs(xy.x), abs(xy.y))));
+}
+
 /// The record of an edge between two points of the view, as its first face winds. False where no
 /// receiver counts it: the light lies wholly on one side of both faces, or the edge before the near
-/// plane. A boundary edge is always kept.
+/// plane or far aside. A boundary edge is always kept.
 bool make_count_record(CountViewConstants p_view, vec3 p_a, vec3 p_b, vec4 p_plane0, vec4 p_plane1,
 		int p_kind, out CountEdgeRecord r_record) {
 	const bool has_face1 = (p_kind & EDGE_COUNT_HAS_FACE1) != 0;
@@ -49,12 +63,17 @@ bool make_count_record(CountViewConstants p_view, vec3 p_a, vec3 p_b, vec4 p_pla
 			count_light_side(p_view, p_plane1.xyz, p_plane1.w) > 0.0, p_kind);
 	vec3 a = p_a;
 	vec3 b = p_b;
-	const bool is_a_before = p_view.is_directional == 0u && p_a.z < p_view.near_m;
-	const bool is_b_before = p_view.is_directional == 0u && p_b.z < p_view.near_m;
-	if (is_a_before) {
-		a = vec3(mix(p_a.xy, p_b.xy, (p_view.near_m - p_a.z) / (p_b.z - p_a.z)), p_view.near_m);
-	} else if (is_b_before) {
-		b = vec3(mix(p_b.xy, p_a.xy, (p_view.near_m - p_b.z) / (p_a.z - p_b.z)), p_view.near_m);
+	vec2 part = vec2(0.0, 1.0);
+	if (p_view.is_directional == 0u) {
+		const vec2 aside_a = p_view.least_slope * p_a.xy;
+		const vec2 aside_b = p_view.least_slope * p_b.xy;
+		keep_count_part(p_a.z - p_view.near_m, p_b.z - p_view.near_m, part);
+		keep_count_part(p_a.z - aside_a.x, p_b.z - aside_b.x, part);
+		keep_count_part(p_a.z + aside_a.x, p_b.z + aside_b.x, part);
+		keep_count_part(p_a.z - aside_a.y, p_b.z - aside_b.y, part);
+		keep_count_part(p_a.z + aside_a.y, p_b.z + aside_b.y, part);
+		a = part.x > 0.0 ? count_cut_point(p_view, p_a, p_b, part.x) : a;
+		b = part.y < 1.0 ? count_cut_point(p_view, p_a, p_b, part.y) : b;
 	}
 	const vec3 warped_a = count_warp(p_view, a);
 	const vec3 warped_b = count_warp(p_view, b);
@@ -62,7 +81,7 @@ bool make_count_record(CountViewConstants p_view, vec3 p_a, vec3 p_b, vec4 p_pla
 	r_record.by_bw_weight_kind = vec4(warped_b.yz, float(weight), float(p_kind));
 	r_record.plane0 = p_plane0;
 	r_record.plane1 = p_plane1;
-	return !is_one_sided && !(is_a_before && is_b_before);
+	return !is_one_sided && part.x <= part.y;
 }
 
 #endif

@@ -83,7 +83,7 @@ struct SHARED_ALIGN CountViewConstants {
 	uint is_directional;
 	float near_m; // what is nearer to the light's plane is cut off; not for directional
 	uint index;	  // of the view; its part of the light's buffers
-	uint padding;
+	float least_slope; // z per |x| or |y| below which edges are cut off, likewise
 };
 SHARED_SIZE(CountViewConstants, 48);
 SHARED_OFFSET(CountViewConstants, half_extent, 16);

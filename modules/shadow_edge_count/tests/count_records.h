@@ -30,6 +30,7 @@ inline shader::CountViewConstants make_constants(const CountScene &p_scene) {
 	constants.map_size_px = p_scene.get_layers().get_size_px();
 	constants.is_directional = space.is_directional ? 1 : 0;
 	constants.near_m = float(space.near_m);
+	constants.least_slope = float(space.least_slope);
 	return constants;
 }
 

@@ -64,8 +64,12 @@ public:
 				glm::transpose(glm::dmat3(right, glm::cross(forward, right), forward));
 		view_from_world = glm::dmat4(rotation);
 		view_from_world[3] = glm::dvec4(-(rotation * light), 1.0);
-		space = { is_directional, radius, 1e-4 * scene_size, 3 * scene_size, 3 * scene_size,
-			scene_size };
+		space.is_directional = is_directional;
+		space.disc_radius = radius;
+		space.near_m = 1e-4 * scene_size;
+		space.depth_far_m = 3 * scene_size;
+		space.depth_range_m = 3 * scene_size;
+		space.scene_size_m = scene_size;
 		layers = std::make_unique<LayerMap>(space, glm::dvec2(half_extent), glm::uvec2(map_size));
 		edges.clear();
 		triangles.clear();

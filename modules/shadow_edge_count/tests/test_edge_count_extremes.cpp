@@ -156,6 +156,33 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 	}
 }
 
+TEST_CASE(
+		"[GPU][EdgeCount] a beam that reaches far behind the light's plane shades itself rightly") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		for (const float half_length : { 25.0f, 250.0f }) {
+			CAPTURE(std::string(get_light_type_name(type)));
+			CAPTURE(half_length);
+			SmallScene scene(type);
+			scene.box->surfaces[0].mesh = make_box_mesh("beam", { half_length, 0.25f, 0.5f });
+			const MaskDifference difference = compare_with_reference(fixture, scene);
+			CHECK(difference.mean < 0.001);
+			CHECK(difference.penumbra_mean < 0.008);
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] a sun's map holds what the camera sees, however large the ground is") {
+	RenderFixture fixture;
+	SmallScene scene(LightType::DIRECTIONAL);
+	add_mesh(scene.scene, "Small", make_box_mesh("small", { 0.15f, 0.25f, 0.1f }),
+			{ 1.1, 0.25, 0.9 });
+	add_mesh(scene.scene, "Far", make_box_mesh("far", { 150.0f, 0.1f, 150.0f }), { 0, -0.6, 0 });
+	const MaskDifference difference = compare_with_reference(fixture, scene);
+	CHECK(difference.mean < 0.001);
+	CHECK(difference.penumbra_mean < 0.008);
+}
+
 TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts the same shadow") {
 	RenderFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
