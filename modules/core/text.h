@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <sstream>
 #include <string>
 
@@ -12,6 +13,13 @@ template <typename... Arguments> std::string text(const Arguments &...p_argument
 	stream.precision(9);
 	(stream << ... << p_arguments);
 	return stream.str();
+}
+
+/// For people: 6 significant digits, so that 0.3f is 0.3.
+inline std::string format_number(double p_value) {
+	char digits[32];
+	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
+	return digits;
 }
 
 } // namespace gnomon

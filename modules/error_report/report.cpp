@@ -4,12 +4,6 @@
 
 namespace gnomon {
 
-std::string format_number(double p_value) {
-	char digits[32];
-	std::snprintf(digits, sizeof(digits), "%.6g", p_value);
-	return digits;
-}
-
 const char *get_status_name(ReportStatus p_status) {
 	static const char *const NAMES[] = { "ok", "failed", "missing" };
 	return NAMES[static_cast<int>(p_status)];

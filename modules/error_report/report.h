@@ -33,9 +33,6 @@ struct ReportTechnique {
 	bool is_baseline = false; // the fallback: what times are ratios to
 };
 
-/// Six digits at most: "0.05", "1e-06".
-std::string format_number(double p_value);
-
 enum class ReportStatus { OK, FAILED, MISSING };
 /// "ok", "failed", "missing".
 const char *get_status_name(ReportStatus p_status);

@@ -113,6 +113,41 @@ LightSnapshot build_light_snapshot_at(const Light3D &p_light, const glm::dmat4 &
 	return snapshot;
 }
 
+/// The longest of the cross products of a matrix's columns.
+glm::dvec3 find_longest_cross(const glm::dmat3 &p_matrix) {
+	glm::dvec3 longest(0.0);
+	for (int column = 0; column < 3; ++column) {
+		const glm::dvec3 product = glm::cross(p_matrix[column], p_matrix[(column + 1) % 3]);
+		longest = glm::length(product) > glm::length(longest) ? product : longest;
+	}
+	return longest;
+}
+
+/// A transform that presses a node flat, as a scale of 0 does, leaves a sheet that casts shadows;
+/// but its faces have no sides any more. It gets the least thickness that has them.
+void thicken_if_flat(glm::dmat4 &r_world_from_node) {
+	const double THICKNESS = 1e-6; // of the longest axis
+	const double ROUNDING = 1e-14;
+	const glm::dmat3 axes(r_world_from_node);
+	const double longest =
+			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
+	const glm::dvec3 normal_world = find_longest_cross(axes);
+	const glm::dvec3 lost_node = find_longest_cross(glm::transpose(axes));
+	if (longest <= 0 || glm::length(normal_world) <= ROUNDING * longest * longest ||
+			std::abs(glm::determinant(axes)) > ROUNDING * longest * glm::length(normal_world)) {
+		return; // has three dimensions, or fewer than two
+	}
+	const glm::dvec3 along = THICKNESS * longest * glm::normalize(normal_world);
+	const glm::dvec3 lost = glm::normalize(lost_node);
+	glm::dmat3 thick = axes + glm::outerProduct(along, lost);
+	if (glm::determinant(thick) < 0) {
+		thick = axes - glm::outerProduct(along, lost);
+	}
+	for (int column = 0; column < 3; ++column) {
+		r_world_from_node[column] = glm::dvec4(thick[column], 0.0);
+	}
+}
+
 /// Fills the snapshot from the tree, with the transform to the world carried along: asking every
 /// node to compute its own would cost the square of the depth.
 struct TreeReader {
@@ -131,7 +166,8 @@ struct TreeReader {
 		}
 	}
 
-	void read_surfaces(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
+	void read_surfaces(const MeshInstance3D &p_node, glm::dmat4 p_world_from_node) {
+		thicken_if_flat(p_world_from_node);
 		// A mesh without a material is still seen: it gets the plain one.
 		static const auto default_material = std::make_shared<const Material>();
 		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
@@ -140,6 +176,7 @@ struct TreeReader {
 			}
 			InstanceSnapshot instance;
 			instance.mesh = surface.mesh;
+			instance.node_name = p_node.name;
 			instance.material = surface.material ? surface.material : default_material;
 			instance.world_from_node = p_world_from_node;
 			instance.bounds_world = transform_bounds(surface.mesh->bounds_node, p_world_from_node);

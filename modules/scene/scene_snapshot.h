@@ -50,6 +50,7 @@ struct LightSnapshot {
 struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> mesh;
 	std::shared_ptr<const Material> material;
+	std::string node_name; // for messages
 	glm::dmat4 world_from_node = glm::dmat4(1.0);
 	Bounds bounds_world;
 	bool casts_shadow = true;

@@ -205,6 +205,31 @@ TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
 	});
 }
 
+TEST_CASE(
+		"[GPU][Techniques] a caster pressed flat casts the shadow of one of hardly any thickness") {
+	RenderFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		const glm::dmat4 place =
+				glm::rotate(scene.box->parent_from_node, 0.4, glm::normalize(glm::dvec3(1, 2, 3)));
+		std::vector<float> masks[2];
+		for (const int thickness : { 0, 1 }) {
+			scene.box->parent_from_node = glm::scale(place, glm::dvec3(1.3, 1e-6 * thickness, 0.8));
+			const RenderResult result = fixture.render_mask(scene, p_info.id);
+			CHECK(is_valid_mask(result));
+			masks[thickness] = result.visibility;
+		}
+		double difference = 0;
+		double hidden = 0;
+		for (size_t index = 0; index < masks[0].size(); ++index) {
+			difference += std::abs(double(masks[0][index]) - masks[1][index]);
+			hidden += 1.0 - masks[1][index];
+		}
+		CHECK(difference < 0.01 * hidden);
+	});
+}
+
 TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are whole") {
 	RenderFixture fixture;
 	for_each_technique([&](const ShadowTechniqueInfo &p_info) {

@@ -29,7 +29,7 @@ TEST_CASE("[LightLimits] a caster that touches the light's sphere is named, one 
 		const std::vector<BrokenLimit> broken = find_broken(scene, {}); // 0.15 m away
 		REQUIRE(broken.size() == 1);
 		CAPTURE(broken[0].warning);
-		CHECK(holds(broken[0].warning, "Light \"Light\": caster \"shade\""));
+		CHECK(holds(broken[0].warning, "Light \"Light\": caster \"Shade\""));
 		CHECK(holds(broken[0].warning, "1 x light_size = 0.2"));
 		CHECK(holds(broken[0].warning, "Lower light_size"));
 		shade.parent_from_node[3].y = 4.35; // 0.25 m
@@ -58,6 +58,33 @@ TEST_CASE("[LightLimits] widths beyond a technique's limit are told with their v
 	REQUIRE(broken.size() == 1);
 	CHECK(holds(broken[0].warning, "penumbra_inner_width is 1 m"));
 	CHECK(holds(broken[0].warning, "above 0.8"));
+}
+
+TEST_CASE("[LightLimits] a width that was derived is told with the size that it comes from") {
+	SmallScene scene;
+	scene.scene.scene_size_m = 4.0;
+	scene.light->properties["light_size"] = 0.9;
+	const std::vector<BrokenLimit> broken = find_broken(scene, { .most_outer_width_sizes = 0.2 });
+	REQUIRE(broken.size() == 1);
+	CAPTURE(broken[0].warning);
+	CHECK(holds(broken[0].warning, "penumbra_outer_width, derived from light_size, is 0.9 m"));
+	CHECK(holds(broken[0].warning, "Lower light_size"));
+}
+
+TEST_CASE("[LightLimits] a size of the scene that does not fit to its casters is told") {
+	SmallScene scene;
+	CHECK(find_broken(scene, {}).empty());
+	scene.scene.scene_size_m = 2000.0;
+	std::vector<BrokenLimit> broken = find_broken(scene, {});
+	REQUIRE(broken.size() == 1);
+	CAPTURE(broken[0].warning);
+	CHECK(holds(broken[0].warning, "The scene's size is 2000 m"));
+	CHECK(holds(broken[0].warning, "begin 0.1 m away"));
+	scene.scene.scene_size_m = 1e-4;
+	broken = find_broken(scene, {});
+	REQUIRE(broken.size() == 1);
+	CHECK(holds(broken[0].warning, "Set scene_size"));
+	CHECK(holds(broken[0].warning, "at least"));
 }
 
 TEST_CASE("[LightLimits] a caster is searched again only when it or the light moved") {

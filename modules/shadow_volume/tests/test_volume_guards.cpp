@@ -142,12 +142,12 @@ TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] an instance scaled flat has no volume, and the plan says so") {
+TEST_CASE("[GPU][ShadowVolume] an instance scaled to a line has no volume, and the plan says so") {
 	RenderFixture fixture;
 	SmallScene scene;
 	MeshInstance3D &flat =
 			add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.3f)), { 1, 0.5, 0 });
-	flat.parent_from_node = glm::scale(flat.parent_from_node, glm::dvec3(1, 0, 1));
+	flat.parent_from_node = glm::scale(flat.parent_from_node, glm::dvec3(1, 0, 0));
 	const RenderResult frame = render_volumes(fixture, scene);
 	CHECK(frame.plan.to_text().find("a scale of theirs is 0") != std::string::npos);
 }
