@@ -10,6 +10,7 @@ namespace gnomon {
 
 namespace {
 
+constexpr uint8_t MAGIC[] = { 0x76, 0x2f, 0x31, 0x01 };
 constexpr size_t FIRST_ATTRIBUTE = 8;			  // after magic, version and flags
 constexpr uint8_t DEEP_OR_MULTI_PART = 0x18;	  // of the second byte of version and flags
 constexpr size_t CHANNEL_BYTES = 16;			  // after its name
@@ -42,6 +43,10 @@ public:
 			bytes(p_bytes), name(p_name) {}
 
 	std::vector<uint8_t> walk() {
+		if (!std::equal(std::begin(MAGIC), std::end(MAGIC), bytes.begin(),
+					bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), std::size(MAGIC))))) {
+			fail("Mask ", name, ": not an OpenEXR file. Name one that `gnomon visibility` wrote.");
+		}
 		if (bytes.size() > FIRST_ATTRIBUTE && (bytes[5] & DEEP_OR_MULTI_PART) != 0) {
 			fail("Mask ", name, ": has several parts or deep pixels; a mask has one flat part.");
 		}

@@ -25,6 +25,12 @@ std::span<float, 3> to_span(glm::vec3 &r_color) {
 }
 
 void read_surface(const GltfObject &p_material, Material &r_material) {
+	const Json *alpha_mode = p_material.find("alphaMode");
+	if (alpha_mode != nullptr && *alpha_mode != "OPAQUE") {
+		p_material.get_messages().warn("alpha", p_material.get_path(),
+				"has an alphaMode, which is not read: it is opaque. Light goes through with "
+				"KHR_materials_transmission.");
+	}
 	r_material.base_color = glm::vec3(1.0f);
 	r_material.metallic = 1.0f;
 	if (const auto surface = p_material.find_object("pbrMetallicRoughness")) {

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -97,6 +98,12 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 			std::move(result.receiver) };
 		const fs::path out = moves ? number_path(p_options.out, index) : fs::path(p_options.out);
 		save_mask_exr(out, mask);
+		if (std::all_of(mask.receiver.begin(), mask.receiver.end(),
+					[](float p_receiver) { return p_receiver <= 0.0f; })) {
+			log_warning("Light \"", light.name, "\" lights nothing that camera \"", camera.name,
+					"\" sees: the mask has no receivers, and no error can be measured. Check ",
+					"their places and the light's range and cone.");
+		}
 		if (!p_options.png.empty()) {
 			save_mask_png(
 					moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);

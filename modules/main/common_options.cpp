@@ -61,6 +61,9 @@ glm::uvec2 parse_size(const std::string &p_text) {
 }
 
 glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path &p_scene_path) {
+	if (p_scene_path.empty()) {
+		fail("The scene's path is empty. Name a .gltf or .glb file, or a project's folder.");
+	}
 	if (p_text) {
 		return parse_size(*p_text);
 	}

@@ -23,7 +23,8 @@ using namespace gnomon;
 const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
 	{ "visibility", "error_report" }, { "compare", "error_report" }, { "report", "error_report" } };
 
-/// A command that this build lacks ends with the module's name, not with a riddle.
+/// A command that this build lacks ends with the module's name, not with a riddle, and one that no
+/// build has with those that there are.
 void check_command(const CLI::App &p_app, const std::string &p_command) {
 	for (const auto &[command, module] : MODULES_OF_COMMANDS) {
 		const auto has_name = [&](const CLI::App *p_found) {
@@ -33,6 +34,17 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 			throw UsageError(text("`gnomon ", command, "` needs the module ", module,
 					", which this build lacks. Build with module_", module, "_enabled=yes."));
 		}
+	}
+	std::string names;
+	for (const CLI::App *command : p_app.get_subcommands({})) {
+		if (command->get_name() == p_command) {
+			return;
+		}
+		names += (names.empty() ? "" : ", ") + command->get_name();
+	}
+	if (!p_command.starts_with('-')) {
+		throw UsageError(text("\"", p_command, "\" is no command, must be one of ", names,
+				". `gnomon --help` tells what they do."));
 	}
 }
 
@@ -55,7 +67,9 @@ int run_program(int p_argument_count, char **p_arguments) {
 		if (error.get_exit_code() == 0) {
 			return app.exit(error); // --help, --version
 		}
-		log_error(error.what(), " `gnomon --help` and `gnomon COMMAND --help` list what there is.");
+		const std::string problem = error.what();
+		log_error(problem, problem.ends_with('.') ? "" : ".",
+				" `gnomon --help` and `gnomon COMMAND --help` list what there is.");
 		return 2;
 	}
 	if (common.validation && RenderingDevice::get_validation_message_count() > 0) {

@@ -88,6 +88,19 @@ class BadScenes(CommandLineTest):
             del self.scene[member]
         self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "mesh")
 
+    def test_an_alpha_mode_is_told_to_be_unread(self):
+        self.scene["materials"][0]["alphaMode"] = "BLEND"
+        result = self.compute_mask(self.write_scene(self.scene))
+        self.assert_mask(result)
+        self.assertIn("materials[0] has an alphaMode", result.stderr)
+
+    def test_a_light_that_lights_nothing_in_view_says_so(self):
+        self.find_node("Light")["translation"] = [0, -50, 0]
+        self.find_node("Light").pop("rotation", None)
+        result = self.compute_mask(self.write_scene(self.scene))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("lights nothing that camera", result.stderr)
+
     def test_a_spot_light_without_a_spot_object_has_the_default_cone(self):
         del self.get_light()["spot"]
         self.assert_mask(self.compute_mask(self.write_scene(self.scene)))
@@ -213,10 +226,15 @@ class BadArguments(CommandLineTest):
             with self.subTest(arguments=arguments):
                 self.assert_refused(run(*arguments), code=2)
 
+    def test_an_unknown_command_and_an_empty_path_are_named(self):
+        self.assert_refused(run("rnu"), '"rnu" is no command', "run", "visibility", code=2)
+        self.assert_refused(run("run", "", "--headless"), "path is empty")
+
     def test_comparing_what_is_no_mask(self):
         self.assert_refused(run("compare", self.path("gone.exr"), self.path("gone.exr")), "gone.exr")
-        notes = self.write("notes.txt", "hello")
-        self.assert_refused(run("compare", notes, notes), "notes.txt")
+        for name, text in (("notes.txt", "hello"), ("picture.txt", "\x7fPNG\r\n\x1a\n" + 100 * " ")):
+            file = self.write(name, text)
+            self.assert_refused(run("compare", file, file), name, "not an OpenEXR file")
 
     def test_help_and_version_end_with_0(self):
         for arguments in (("--help",), ("--version",), ("visibility", "--help")):
