@@ -43,5 +43,9 @@ RGTexture add_count_debug_pass(
 
 /// Groups of 8 x 8 pixels along a block's side: such that all lists stay below 34 MB.
 uint32_t choose_groups_per_block_side(glm::uvec2 p_size_px, uint32_t p_budget);
+/// Edges that a block's list holds: the property's, or, where that is the default or more, as many
+/// of the scene's as fit into the same memory; the blocks of a small picture are few, and have
+/// many.
+uint32_t choose_budget(glm::uvec2 p_size_px, uint32_t p_budget, uint64_t p_edge_count);
 
 } // namespace gnomon

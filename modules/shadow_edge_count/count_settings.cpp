@@ -23,9 +23,10 @@ void add_count_properties(PropertyList &r_list) {
 			"Solids, one behind the other, that the map counts at most; so it takes less time and "
 			"memory. 0 counts all of them.",
 			"", group });
-	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(8192), "0,65536,1",
-			"Edges that one block of pixels may have. Where there are more, a filter of 64 taps "
-			"takes over. 0 counts nowhere.",
+	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(COUNT_DEFAULT_BUDGET), "0,65536,1",
+			"Edges that one block of pixels may have; from 8192 on more in small pictures, whose "
+			"blocks are few. Where there are more, a filter of 64 taps takes over. 0 counts "
+			"nowhere.",
 			"", group });
 }
 

@@ -7,13 +7,16 @@
 
 namespace gnomon {
 
+constexpr uint32_t COUNT_DEFAULT_BUDGET = 8192;
+constexpr uint32_t COUNT_MOST_BUDGET = 65536;
+
 /// The technique's properties of one light.
 struct CountSettings {
 	uint32_t sample_count = 64; // points of the light: 64 or 256
 	uint32_t map_size_px = 256;
-	uint32_t layer_count = 0; // solids per texel that the layer map counts; 0: all
-	uint32_t budget = 8192;	  // edges of one block of pixels
-	double disc_radius = 0;	  // R in metres; directional: a tangent
+	uint32_t layer_count = 0;				// solids per texel that the layer map counts; 0: all
+	uint32_t budget = COUNT_DEFAULT_BUDGET; // edges of one block of pixels
+	double disc_radius = 0;					// R in metres; directional: a tangent
 };
 
 void add_count_properties(PropertyList &r_list);

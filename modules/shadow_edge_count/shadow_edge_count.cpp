@@ -79,6 +79,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	check_device(p_inputs);
 	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
 			most_edges, fragment_bound, settings.layer_count);
+	settings.budget = choose_budget(p_inputs.size_px, settings.budget, edge_count);
 	const auto may_filter = [&](const CountCapacities &p_capacities) {
 		const bool may_lack_room = most_edges > p_capacities.records_per_view ||
 				(settings.layer_count == 0 && fragment_bound > p_capacities.fragments_per_view);

@@ -1,6 +1,7 @@
 // Where a block of pixels has more edges than its list holds, or the light more than its buffers
 // do.
 
+#include "modules/shadow_edge_count/block_passes.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
@@ -49,6 +50,24 @@ void add_plates_below(SmallScene &r_scene) {
 }
 
 } // namespace
+
+TEST_CASE("[EdgeCount] a small picture's few blocks share the memory of a large one's many") {
+	const uint32_t standard = COUNT_DEFAULT_BUDGET;
+	const glm::uvec2 small_px(128);
+	const glm::uvec2 large_px(1920, 1080);
+	CHECK(choose_budget(small_px, standard, 1000000) == COUNT_MOST_BUDGET);
+	CHECK(choose_budget(small_px, standard, 20000) == 20000); // no more than there are
+	CHECK(choose_budget(small_px, standard, 10) == standard);
+	CHECK(choose_budget(small_px, 100, 1000000) == 100); // wanted so
+	CHECK(choose_budget(small_px, 0, 1000000) == 0);
+	for (const glm::uvec2 size_px : { small_px, glm::uvec2(256), glm::uvec2(630, 393), large_px }) {
+		const uint32_t budget = choose_budget(size_px, standard, 1000000);
+		CAPTURE(size_px.x);
+		CHECK(budget >= standard);
+		CHECK(choose_groups_per_block_side(size_px, budget) ==
+				choose_groups_per_block_side(size_px, standard));
+	}
+}
 
 TEST_CASE("[GPU][EdgeCount] a block with more edges than its budget is filtered, and said to be") {
 	RenderFixture fixture;
