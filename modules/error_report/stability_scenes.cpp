@@ -1,8 +1,7 @@
 #include "modules/error_report/stability_scenes.h"
 
 #include "modules/core/error.h"
-#include "modules/error_report/stability_bodies.h"
-#include "modules/scene/box_mesh.h"
+#include "modules/error_report/stability_draft.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -14,47 +13,11 @@ namespace gnomon {
 
 namespace {
 
-// As the demo scenes have them, in metres.
-const double SCENE_SIZE_M = 4.0;
-const glm::dvec3 LIGHT_POSITION(1.8, 6.0, 1.2);
-const glm::dvec3 LIGHT_TARGET(0.0, 0.4, 0.0);
+// As the demo scenes have it, in metres.
 const glm::dvec3 CAMERA_POSITION(-3.2, 4.6, 4.6);
-const glm::dvec3 CAMERA_TARGET(-0.3, 0.45, -0.2);
-const double CAMERA_FOV_RAD = 0.64350110879; // 36.87 degrees
-const double LIGHT_SIZE_SIZES = 0.05;
+const double CAMERA_FOV_RAD = 0.64350110879;	  // 36.87 degrees
 const double WIDEST_LIGHT_DEGREES = 90.0;		  // of a directional light
 const glm::dvec3 OFFSET_WAY(0.64, -0.192, 0.744); // of length 1, along no axis
-
-struct Draft {
-	double light_size_m = LIGHT_SIZE_SIZES * SCENE_SIZE_M;
-	glm::dvec3 light_position = LIGHT_POSITION;
-	glm::dvec3 light_target = LIGHT_TARGET;
-	double cone_rad = std::atan(0.95);
-	glm::dvec3 camera_target = CAMERA_TARGET;
-	PropertyValues properties;
-	std::vector<StabilityBody> bodies;
-	double scale = 1.0;
-	glm::dvec3 offset_m = glm::dvec3(0.0);
-
-	double get_distance_m() const { return glm::length(light_target - light_position); }
-	/// Unit, from the target to the light.
-	glm::dvec3 get_way_to_light() const {
-		return (light_position - light_target) / get_distance_m();
-	}
-	/// Only the ground stays.
-	void clear_casters() { bodies.resize(1); }
-	StabilityBody &add_box(const char *p_name, const glm::dvec3 &p_center,
-			const glm::vec3 &p_half_size_m, double p_turn_rad = 0.0) {
-		bodies.push_back({ p_name, make_box_mesh(p_name, p_half_size_m),
-				glm::rotate(glm::translate(glm::dmat4(1.0), p_center), p_turn_rad,
-						glm::dvec3(0, 1, 0)) });
-		return bodies.back();
-	}
-	void add_mesh(
-			const char *p_name, std::shared_ptr<const Mesh> p_mesh, const glm::dvec3 &p_center) {
-		bodies.push_back({ p_name, std::move(p_mesh), glm::translate(glm::dmat4(1.0), p_center) });
-	}
-};
 
 glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
 	const glm::dvec3 way = glm::normalize(p_target - p_position);
@@ -63,8 +26,8 @@ glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
 }
 
 /// A floating box, a globe and a box that stands: contact, gap, edges and curves.
-Draft make_start() {
-	Draft draft;
+StabilityDraft make_start() {
+	StabilityDraft draft;
 	draft.add_box("ground", { 0, -0.2, 0 }, { 4.2f, 0.2f, 4.2f });
 	draft.add_box("block", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
 	draft.add_mesh("globe", make_globe(0.35), { -0.8, 0.9, -0.4 });
@@ -72,7 +35,7 @@ Draft make_start() {
 	return draft;
 }
 
-void change_depth_range(Draft &r_draft, double p_value) {
+void change_depth_range(StabilityDraft &r_draft, double p_value) {
 	r_draft.clear_casters();
 	const double near_m = r_draft.get_distance_m() / p_value;
 	r_draft.light_size_m = 0.02 * near_m;
@@ -84,7 +47,7 @@ void change_depth_range(Draft &r_draft, double p_value) {
 }
 
 /// A plate before the light, somewhat to the side, beside the casters that stay.
-void change_near_caster(Draft &r_draft, double p_radii) {
+void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 	StabilityBody body = { "near", make_box_mesh("near", { 0.12f, 0.1f, 0.01f }),
 		look_at(r_draft.light_position, r_draft.light_target) };
 	body.world_from_node = glm::translate(
@@ -92,7 +55,7 @@ void change_near_caster(Draft &r_draft, double p_radii) {
 	r_draft.bodies.push_back(body);
 }
 
-void change_slope(Draft &r_draft, double p_degrees) {
+void change_slope(StabilityDraft &r_draft, double p_degrees) {
 	const double angle = glm::radians(p_degrees);
 	r_draft.light_target = glm::dvec3(0.0);
 	r_draft.light_position = 6.3 *
@@ -101,7 +64,7 @@ void change_slope(Draft &r_draft, double p_degrees) {
 	r_draft.add_box("post", { 0.3, 0.25, 0.2 }, { 0.25f, 0.3f, 0.2f }, 0.4);
 }
 
-void change_end_on(Draft &r_draft, double p_degrees) {
+void change_end_on(StabilityDraft &r_draft, double p_degrees) {
 	r_draft.clear_casters();
 	const glm::dvec3 middle(0.0, 1.4, 0.0);
 	StabilityBody rod = { "rod", make_box_mesh("rod", { 0.06f, 0.05f, 0.7f }),
@@ -114,7 +77,7 @@ void change_end_on(Draft &r_draft, double p_degrees) {
 	r_draft.bodies.push_back(rod);
 }
 
-void change_layers(Draft &r_draft, double p_count) {
+void change_layers(StabilityDraft &r_draft, double p_count) {
 	r_draft.clear_casters();
 	for (int index = 0; index < int(p_count); ++index) {
 		const double height = 0.5 + 2.4 * index / p_count;
@@ -123,138 +86,73 @@ void change_layers(Draft &r_draft, double p_count) {
 	}
 }
 
-void change_inside(Draft &r_draft, double p_sizes) {
+void change_inside(StabilityDraft &r_draft, double p_sizes) {
 	r_draft.clear_casters();
 	const float half = 0.5f;
 	StabilityBody around = { "around", make_box_mesh("around", glm::vec3(half)),
 		look_at(r_draft.light_position, r_draft.light_target) };
-	around.world_from_node = glm::translate(
-			around.world_from_node, glm::dvec3(0.1, 0.05, half + p_sizes * SCENE_SIZE_M));
+	around.world_from_node = glm::translate(around.world_from_node,
+			glm::dvec3(0.1, 0.05, half + p_sizes * StabilityDraft::SCENE_SIZE_M));
 	r_draft.bodies.push_back(around);
 	r_draft.add_box("block", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
 }
 
-using Change = std::function<void(Draft &, double)>;
+using Change = std::function<void(StabilityDraft &, double)>;
 
 const std::map<std::string, Change> &get_changes() {
 	static const std::map<std::string, Change> CHANGES = {
 		{ "light_size",
-				[](Draft &r_draft, double p_sizes) {
-					r_draft.light_size_m = p_sizes * SCENE_SIZE_M;
+				[](StabilityDraft &r_draft, double p_sizes) {
+					r_draft.light_size_m = p_sizes * StabilityDraft::SCENE_SIZE_M;
 				} },
 		{ "depth_range", change_depth_range },
 		{ "near_caster", change_near_caster },
-		{ "scale", [](Draft &r_draft, double p_scale) { r_draft.scale = p_scale; } },
+		{ "scale", [](StabilityDraft &r_draft, double p_scale) { r_draft.scale = p_scale; } },
 		{ "offset",
-				[](Draft &r_draft, double p_metres) { r_draft.offset_m = p_metres * OFFSET_WAY; } },
+				[](StabilityDraft &r_draft, double p_metres) {
+					r_draft.offset_m = p_metres * OFFSET_WAY;
+				} },
 		{ "slope", change_slope },
 		{ "gap",
-				[](Draft &r_draft, double p_sizes) {
+				[](StabilityDraft &r_draft, double p_sizes) {
 					r_draft.clear_casters();
-					r_draft.add_box("block", { 0.2, 0.25 + p_sizes * SCENE_SIZE_M, 0.1 },
+					r_draft.add_box("block",
+							{ 0.2, 0.25 + p_sizes * StabilityDraft::SCENE_SIZE_M, 0.1 },
 							{ 0.35f, 0.25f, 0.35f }, 0.4);
 				} },
 		{ "thickness",
-				[](Draft &r_draft, double p_sizes) {
+				[](StabilityDraft &r_draft, double p_sizes) {
 					r_draft.clear_casters();
 					r_draft.add_box("plate", { 0, 0.8, 0 },
-							{ 0.6f, float(0.5 * p_sizes * SCENE_SIZE_M), 0.5f }, 0.4);
+							{ 0.6f, float(0.5 * p_sizes * StabilityDraft::SCENE_SIZE_M), 0.5f },
+							0.4);
 				} },
 		{ "aspect",
-				[](Draft &r_draft, double p_ratio) {
+				[](StabilityDraft &r_draft, double p_ratio) {
 					r_draft.clear_casters();
 					r_draft.add_mesh("cut box", make_cut_box(0.5, p_ratio), { 0, 0.9, 0 });
 				} },
 		{ "end_on", change_end_on },
 		{ "layers", change_layers },
 		{ "fin_width",
-				[](Draft &r_draft, double p_sizes) {
-					r_draft.properties["penumbra_outer_width"] = p_sizes * SCENE_SIZE_M;
-					r_draft.properties["penumbra_inner_width"] = p_sizes * SCENE_SIZE_M;
+				[](StabilityDraft &r_draft, double p_sizes) {
+					r_draft.properties["penumbra_outer_width"] =
+							p_sizes * StabilityDraft::SCENE_SIZE_M;
+					r_draft.properties["penumbra_inner_width"] =
+							p_sizes * StabilityDraft::SCENE_SIZE_M;
 				} },
 		{ "inside", change_inside },
 	};
 	return CHANGES;
 }
 
-struct Guard {
-	const char *name;
-	std::function<void(Draft &)> change;
-};
-
-const std::vector<Guard> &get_guards() {
-	static const std::vector<Guard> GUARDS = {
-		{ "as it is", [](Draft &) {} },
-		{ "R = 0", [](Draft &r_draft) { r_draft.light_size_m = 0; } },
-		{ "R = 2 S", [](Draft &r_draft) { r_draft.light_size_m = 2 * SCENE_SIZE_M; } },
-		{ "light on the receiver's plane",
-				[](Draft &r_draft) {
-					r_draft.light_position = { 2.5, 0, 1.7 };
-					r_draft.light_target = { 0, 0, 0 };
-				} },
-		{ "light below everything",
-				[](Draft &r_draft) {
-					r_draft.light_position = { 0.3, -5, 0.2 };
-					r_draft.light_target = { 0, 0, 0 };
-				} },
-		{ "light at a caster's corner",
-				[](Draft &r_draft) {
-					r_draft.add_box(
-							"corner", r_draft.light_position + glm::dvec3(0.3), glm::vec3(0.3f));
-				} },
-		{ "caster across the light's plane",
-				[](Draft &r_draft) {
-					r_draft.add_box("rod", r_draft.light_position + glm::dvec3(-0.35, 0, 0.3),
-							{ 0.05f, 1.2f, 0.05f });
-				} },
-		{ "sheet across the light's plane",
-				[](Draft &r_draft) {
-					r_draft.add_mesh("sheet", make_sheet(),
-							r_draft.light_position + glm::dvec3(-0.35, 0, 0.3));
-				} },
-		{ "zero areas, slivers, duplicates, zero normals",
-				[](Draft &r_draft) {
-					r_draft.add_mesh("odd", make_odd_mesh(), { 0.2, 1.6, 0.1 });
-				} },
-		{ "coincident casters",
-				[](Draft &r_draft) {
-					r_draft.add_box("twin", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
-				} },
-		{ "caster flush with its receiver",
-				[](Draft &r_draft) {
-					r_draft.add_box("flush", { 0.9, 0.2, 0.9 }, { 0.3f, 0.2f, 0.3f }, 0.3);
-				} },
-		{ "open sheet",
-				[](Draft &r_draft) {
-					r_draft.add_mesh("sheet", make_sheet(), { 0.6, 1.5, 0 });
-				} },
-		{ "box turned inside out",
-				[](Draft &r_draft) {
-					r_draft.clear_casters();
-					r_draft.add_mesh("inside out", make_turned_box(0.4), { 0, 1.0, 0 });
-				} },
-		{ "no casters",
-				[](Draft &r_draft) {
-					r_draft.bodies.resize(1);
-					r_draft.bodies[0].casts_shadow = false;
-				} },
-		{ "no receivers",
-				[](Draft &r_draft) {
-					r_draft.camera_target = { -3.2, 40, 4.7 };
-				} },
-		{ "cone of 0.001 rad", [](Draft &r_draft) { r_draft.cone_rad = 1e-3; } },
-		{ "cone of a half sphere", [](Draft &r_draft) { r_draft.cone_rad = 1.5707963; } },
-	};
-	return GUARDS;
-}
-
-std::unique_ptr<Scene> build_scene(const Draft &p_draft, LightType p_type) {
+std::unique_ptr<Scene> build_scene(const StabilityDraft &p_draft, LightType p_type) {
 	const double scale = p_draft.scale;
 	const auto place = [&](const glm::dvec3 &p_point) {
 		return p_draft.offset_m + scale * p_point;
 	};
 	auto scene = std::make_unique<Scene>();
-	scene->scene_size_m = SCENE_SIZE_M * scale;
+	scene->scene_size_m = StabilityDraft::SCENE_SIZE_M * scale;
 	const glm::dmat4 world_from_draft =
 			glm::scale(glm::translate(glm::dmat4(1.0), p_draft.offset_m), glm::dvec3(scale));
 	for (size_t index = 0; index < p_draft.bodies.size(); ++index) {
@@ -292,22 +190,11 @@ std::unique_ptr<Scene> build_scene(const Draft &p_draft, LightType p_type) {
 
 } // namespace
 
-const std::vector<const char *> &get_guard_names() {
-	static const std::vector<const char *> NAMES = [] {
-		std::vector<const char *> names;
-		for (const Guard &guard : get_guards()) {
-			names.push_back(guard.name);
-		}
-		return names;
-	}();
-	return NAMES;
-}
-
 std::unique_ptr<Scene> make_stability_scene(
 		const std::string &p_sweep, LightType p_type, double p_value) {
-	Draft draft = make_start();
+	StabilityDraft draft = make_start();
 	if (p_sweep == "guards") {
-		get_guards().at(static_cast<size_t>(p_value)).change(draft);
+		change_to_guard(draft, static_cast<size_t>(p_value));
 	} else if (const auto change = get_changes().find(p_sweep); change != get_changes().end()) {
 		change->second(draft, p_value);
 	}
