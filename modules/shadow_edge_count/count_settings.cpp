@@ -17,7 +17,8 @@ void add_count_properties(PropertyList &r_list) {
 			"steps there and cost time.",
 			"", group });
 	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,1024,16",
-			"Width and height of each map that counts solids. Has little effect on the picture.",
+			"Width and height of each map that counts solids. Matters where casters that stand close "
+			"together are as small as its texels.",
 			"px", group });
 	r_list.add({ "edge_count_layers", PropertyType::INT, int64_t(0), "0,16,1",
 			"Solids, one behind the other, that the map counts at most; so it takes less time and "
