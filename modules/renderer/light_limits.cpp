@@ -26,44 +26,6 @@ bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 	return glm::dot(farthest - p_light.position_world, direction) < -double(p_light.light_size_m);
 }
 
-/// Why shadows of the scene are not what they should be with its size S, of which all receivers are
-/// moved by the same part; empty: they are.
-std::string describe_unfit_size(const SceneSnapshot &p_scene) {
-	const InstanceSnapshot *largest = nullptr;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow &&
-				(largest == nullptr ||
-						instance.bounds_world.get_diagonal() >
-								largest->bounds_world.get_diagonal())) {
-			largest = &instance;
-		}
-	}
-	Bounds rest;
-	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (instance.casts_shadow && &instance != largest) {
-			rest.add(instance.bounds_world);
-		}
-	}
-	const double size_m = p_scene.scene_size_m;
-	const double rest_m = rest.get_diagonal();
-	if (rest_m > 0 && size_m > MOST_SIZE_PER_CASTERS * rest_m) {
-		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
-				largest->node_name, "\" lie within ", format_number(rest_m),
-				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
-				" m away from them. Set scene_size, in the scene's extras, to about ",
-				format_number(rest_m), ".");
-	}
-	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
-	if (all_m > MOST_CASTERS_PER_SIZE * size_m) {
-		return text("The scene's size is ", format_number(size_m),
-				" m, and its casters reach over ", format_number(all_m),
-				" m: rounding shows as false shadows. Set scene_size, in the "
-				"scene's extras, to at least ",
-				format_number(all_m / MOST_CASTERS_PER_SIZE), ".");
-	}
-	return {};
-}
-
 } // namespace
 
 const InstanceSnapshot *LightLimits::find_near_caster(
@@ -142,10 +104,43 @@ const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_
 			p_limits.most_outer_width_sizes);
 	check_width("penumbra_inner_width", p_light.penumbra_inner_width_m,
 			p_limits.most_inner_width_sizes);
-	if (std::string unfit = describe_unfit_size(p_scene); !unfit.empty()) {
-		broken.push_back({ "scene_size", std::move(unfit) });
-	}
 	return broken;
+}
+
+std::string describe_unfit_size(const SceneSnapshot &p_scene) {
+	const InstanceSnapshot *largest = nullptr;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (instance.casts_shadow &&
+				(largest == nullptr ||
+						instance.bounds_world.get_diagonal() >
+								largest->bounds_world.get_diagonal())) {
+			largest = &instance;
+		}
+	}
+	Bounds rest;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (instance.casts_shadow && &instance != largest) {
+			rest.add(instance.bounds_world);
+		}
+	}
+	const double size_m = p_scene.scene_size_m;
+	const double rest_m = rest.get_diagonal();
+	if (rest_m > 0 && size_m > MOST_SIZE_PER_CASTERS * rest_m) {
+		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
+				largest->node_name, "\" lie within ", format_number(rest_m),
+				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
+				" m away from them. Set scene_size, in the scene's extras, to about ",
+				format_number(rest_m), ".");
+	}
+	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
+	if (all_m > MOST_CASTERS_PER_SIZE * size_m) {
+		return text("The scene's size is ", format_number(size_m),
+				" m, and its casters reach over ", format_number(all_m),
+				" m: rounding shows as false shadows. Set scene_size, in the "
+				"scene's extras, to at least ",
+				format_number(all_m / MOST_CASTERS_PER_SIZE), ".");
+	}
+	return {};
 }
 
 } // namespace gnomon

@@ -40,4 +40,8 @@ private:
 	uint32_t search_count = 0;
 };
 
+/// Why shadows of the scene are not what they should be with its size S, of which all receivers are
+/// moved by the same part, and what to do; empty: they are.
+std::string describe_unfit_size(const SceneSnapshot &p_scene);
+
 } // namespace gnomon

@@ -121,6 +121,7 @@ void LightShadows::collect_garbage(const SceneSnapshot &p_scene) {
 			filters.push_back(info.make());
 		}
 	}
+	warn_once("scene_size", describe_unfit_size(p_scene));
 	++frame;
 	std::erase_if(slots, [&](const auto &p_slot) {
 		return frame - p_slot.second.last_frame > KEPT_FRAMES ||

@@ -82,11 +82,11 @@ class FailingReports(ReportCase):
         self.assertTrue(all(cell["status"] == "ok" for cell in self.load_done("report", resumed)["cells"]))
 
     def test_a_report_whose_device_is_lost_ends_and_goes_on_with_resume(self):
-        self.check_lost("device_lost@250")
+        self.check_lost("device_lost@500")
 
     @at_length
     def test_a_report_whose_device_hangs_ends_and_goes_on_with_resume(self):
-        self.check_lost("hang@250")
+        self.check_lost("hang@500")
 
 
 class FailingEditor(EditorCase):

@@ -73,18 +73,16 @@ TEST_CASE("[LightLimits] a width that was derived is told with the size that it 
 
 TEST_CASE("[LightLimits] a size of the scene that does not fit to its casters is told") {
 	SmallScene scene;
-	CHECK(find_broken(scene, {}).empty());
+	CHECK(describe_unfit_size(*scene.snap()).empty());
 	scene.scene.scene_size_m = 2000.0;
-	std::vector<BrokenLimit> broken = find_broken(scene, {});
-	REQUIRE(broken.size() == 1);
-	CAPTURE(broken[0].warning);
-	CHECK(holds(broken[0].warning, "The scene's size is 2000 m"));
-	CHECK(holds(broken[0].warning, "begin 0.1 m away"));
+	std::string problem = describe_unfit_size(*scene.snap());
+	CAPTURE(problem);
+	CHECK(holds(problem, "The scene's size is 2000 m"));
+	CHECK(holds(problem, "begin 0.1 m away"));
 	scene.scene.scene_size_m = 1e-4;
-	broken = find_broken(scene, {});
-	REQUIRE(broken.size() == 1);
-	CHECK(holds(broken[0].warning, "Set scene_size"));
-	CHECK(holds(broken[0].warning, "at least"));
+	problem = describe_unfit_size(*scene.snap());
+	CHECK(holds(problem, "Set scene_size"));
+	CHECK(holds(problem, "at least"));
 }
 
 TEST_CASE("[LightLimits] a caster is searched again only when it or the light moved") {
