@@ -5,6 +5,7 @@
 #include "modules/renderer/nearest_caster.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace gnomon {
 
@@ -143,8 +144,10 @@ uint32_t choose_budget(glm::uvec2 p_size_px, uint32_t p_budget, uint64_t p_edge_
 	const uint32_t side = choose_groups_per_block_side(p_size_px, p_budget);
 	const glm::uvec2 blocks = divide_up(divide_up(p_size_px, EDGE_COUNT_GROUP_PX), side);
 	const uint64_t room = MOST_LIST_BYTES / sizeof(uint32_t) / (uint64_t(blocks.x) * blocks.y);
-	return static_cast<uint32_t>(std::clamp<uint64_t>(
-			std::min(room, p_edge_count), p_budget, std::max(p_budget, COUNT_MOST_BUDGET)));
+	// Powers of two: few sizes of memory while the scene changes.
+	const uint64_t wanted = std::min(std::bit_floor(room), std::bit_ceil(p_edge_count));
+	return static_cast<uint32_t>(
+			std::clamp<uint64_t>(wanted, p_budget, std::max(p_budget, COUNT_MOST_BUDGET)));
 }
 
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes) {
