@@ -19,13 +19,24 @@ from page_style import SCRIPT, STYLE
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 # Colours that differ for colour-blind eyes too (Okabe, Ito 2008), told apart by shape as well.
 COLORS = ("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#7f7f7f", "#8a5a44", "#6a3d9a", "#1b9e77", "#e7298a")
+
+
+def get_error(row):
+    return row["error"]["penumbra"]["mae"]
+
+
+def get_gpu_ms(row):
+    return row["time"]["gpu_ms"]
+
+
 COLUMNS = (
-    ("penumbra MAE", lambda row: row["error"]["penumbra"]["mae"], "error"),
+    ("penumbra MAE", get_error, "error"),
     ("RMSE", lambda row: row["error"]["penumbra"]["rmse"], "error"),
     ("p99", lambda row: row["error"]["penumbra"]["p99"], "error"),
     ("bias", lambda row: row["error"]["penumbra"]["bias"], "bias"),
+    ("wrong", lambda row: row["error"]["penumbra"]["wrong"], "share"),
     ("too dark", lambda row: row["error"]["penumbra"]["umbra_over"], "share"),
-    ("GPU ms", lambda row: row["time"]["gpu_ms"], "time"),
+    ("GPU ms", get_gpu_ms, "time"),
     ("p90", lambda row: row["time"]["gpu_ms_p90"], "time"),
     ("wall ms", lambda row: row["time"]["wall_ms"], "time"),
     ("p90", lambda row: row["time"]["wall_ms_p90"], "time"),
@@ -102,7 +113,7 @@ class Page:
             errors, times = [], []
             for _, _, row in self.get_rows():
                 if row["id"] == name:
-                    error, milliseconds = get_value(row, COLUMNS[0][1]), get_value(row, COLUMNS[5][1])
+                    error, milliseconds = get_value(row, get_error), get_value(row, get_gpu_ms)
                     if error is not None and milliseconds is not None and milliseconds > 0.0:
                         errors.append(error)
                         times.append(milliseconds)
@@ -115,7 +126,7 @@ class Page:
         """Error against time, both logarithmic, as SVG: faint dots are single lights, big ones means."""
         points = []
         for _, _, row in self.get_rows():
-            error, milliseconds = get_value(row, COLUMNS[0][1]), get_value(row, COLUMNS[5][1])
+            error, milliseconds = get_value(row, get_error), get_value(row, get_gpu_ms)
             if error and milliseconds:
                 points.append((row["id"], max(error, 1e-5), milliseconds))
         if not points:
@@ -225,7 +236,7 @@ class Page:
             rows.append("<tr><td>%s</td>%s</tr>" % (label, cells))
         return (
             '<p class="soft">Tap a technique to see its mask. All errors over penumbra pixels;'
-            ' &ldquo;too dark&rdquo; = shown as umbra though lit by more than 5&thinsp;%%.</p>'
+            ' &ldquo;wrong&rdquo; = off by more than 0.2, &ldquo;too dark&rdquo; = shown as umbra though lit by more than 5&thinsp;%%.</p>'
             '<div class="table"><table><tr><th>technique</th>%s</tr>%s'
             "</table></div>" % (head, "".join(rows))
         )

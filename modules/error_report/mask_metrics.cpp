@@ -17,6 +17,7 @@ constexpr float PENUMBRA_MAXIMUM = 0.998f;
 constexpr float UMBRA_OVER_TRUTH = 0.05f;  // visibly lit in truth ...
 constexpr float UMBRA_OVER_RESULT = 0.01f; // ... and black in the result
 constexpr double PERCENTILE = 0.99;
+constexpr float WRONG_ERROR = 0.2f; // a float as masks are: 0.2f before 0 does not exceed it
 
 bool is_penumbra(float p_truth) {
 	return p_truth > PENUMBRA_MINIMUM && p_truth < PENUMBRA_MAXIMUM;
@@ -68,6 +69,7 @@ public:
 		sum += p_error;
 		absolute_sum += std::abs(p_error);
 		square_sum += p_error * p_error;
+		wrong_count += std::abs(p_error) > WRONG_ERROR ? 1 : 0;
 	}
 	ErrorMetrics finish() {
 		ErrorMetrics metrics;
@@ -79,6 +81,7 @@ public:
 		metrics.mae = absolute_sum / count;
 		metrics.rmse = std::sqrt(square_sum / count);
 		metrics.bias = sum / count;
+		metrics.wrong = static_cast<double>(wrong_count) / count;
 		const size_t rank = std::max<size_t>(1, static_cast<size_t>(std::ceil(PERCENTILE * count)));
 		const auto nth = absolute_errors.begin() + static_cast<ptrdiff_t>(rank - 1);
 		std::nth_element(absolute_errors.begin(), nth, absolute_errors.end());
@@ -91,7 +94,18 @@ private:
 	double sum = 0;
 	double absolute_sum = 0;
 	double square_sum = 0;
+	uint64_t wrong_count = 0;
 };
+
+void add_metrics(const ErrorMetrics &p_metrics, nlohmann::ordered_json &r_json) {
+	r_json["mae"] = p_metrics.mae;
+	r_json["rmse"] = p_metrics.rmse;
+	r_json["p99"] = p_metrics.p99;
+	r_json["bias"] = p_metrics.bias;
+	if (p_metrics.wrong) {
+		r_json["wrong"] = *p_metrics.wrong;
+	}
+}
 
 } // namespace
 
@@ -176,15 +190,9 @@ TemporalMetrics compute_temporal_metrics(
 std::string to_json(const MaskMetrics &p_metrics) {
 	nlohmann::ordered_json json;
 	json["pixels"] = p_metrics.receiver.pixel_count;
-	json["receiver"]["mae"] = p_metrics.receiver.mae;
-	json["receiver"]["rmse"] = p_metrics.receiver.rmse;
-	json["receiver"]["p99"] = p_metrics.receiver.p99;
-	json["receiver"]["bias"] = p_metrics.receiver.bias;
+	add_metrics(p_metrics.receiver, json["receiver"]);
 	json["penumbra"]["pixels"] = p_metrics.penumbra.pixel_count;
-	json["penumbra"]["mae"] = p_metrics.penumbra.mae;
-	json["penumbra"]["rmse"] = p_metrics.penumbra.rmse;
-	json["penumbra"]["p99"] = p_metrics.penumbra.p99;
-	json["penumbra"]["bias"] = p_metrics.penumbra.bias;
+	add_metrics(p_metrics.penumbra, json["penumbra"]);
 	json["penumbra"]["umbra_over"] = p_metrics.umbra_over;
 	return json.dump();
 }

@@ -3,6 +3,7 @@
 #include "modules/error_report/mask_image.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,6 +16,9 @@ struct ErrorMetrics {
 	double rmse = 0; // root of the mean square
 	double p99 = 0;	 // |error| that 99 % of the pixels do not exceed (nearest rank)
 	double bias = 0; // mean error: negative = too dark, positive = too light
+	/// Share 0..1 of the pixels whose |error| exceeds 0.2: large enough to be seen as a wrong
+	/// shadow. Absent only in what a report of an earlier version holds.
+	std::optional<double> wrong = 0.0;
 };
 
 /// A result against the truth. Both are linear visibility, before any tone mapping.
@@ -44,9 +48,9 @@ MaskMetrics compute_mask_metrics(const MaskImage &p_truth, const MaskImage &p_re
 TemporalMetrics compute_temporal_metrics(
 		std::span<const MaskImage> p_truth, std::span<const MaskImage> p_result);
 
-/// {"pixels", "receiver": {"mae","rmse","p99","bias"}, "penumbra": {"pixels","mae","rmse","p99",
-/// "bias","umbra_over"}} in this order, one line. "pixels" are those of the set: receivers,
-/// penumbra.
+/// {"pixels", "receiver": {"mae","rmse","p99","bias","wrong"}, "penumbra": {"pixels","mae","rmse",
+/// "p99","bias","wrong","umbra_over"}} in this order, one line. "pixels" are those of the set:
+/// receivers, penumbra. An absent "wrong" has no key.
 std::string to_json(const MaskMetrics &p_metrics);
 
 } // namespace gnomon

@@ -34,8 +34,12 @@ ErrorCause parse_cause(const std::string &p_name) {
 }
 
 ErrorMetrics read_metrics(const Json &p_json, uint64_t p_pixel_count) {
-	return { p_pixel_count, p_json.at("mae"), p_json.at("rmse"), p_json.at("p99"),
-		p_json.at("bias") };
+	ErrorMetrics metrics = { p_pixel_count, p_json.at("mae"), p_json.at("rmse"), p_json.at("p99"),
+		p_json.at("bias"), std::nullopt };
+	if (p_json.contains("wrong")) { // absent in older reports
+		metrics.wrong = p_json.at("wrong").get<double>();
+	}
+	return metrics;
 }
 
 MaskMetrics read_error(const Json &p_json) {

@@ -41,13 +41,14 @@ std::string join(const std::map<std::string, std::string> &p_properties) {
 void add_metrics(const ErrorMetrics *p_metrics, std::vector<std::string> &r_fields) {
 	r_fields.push_back(p_metrics ? text(p_metrics->pixel_count) : "");
 	if (!p_metrics || p_metrics->pixel_count == 0) {
-		r_fields.insert(r_fields.end(), 4, ""); // no pixels, no error
+		r_fields.insert(r_fields.end(), 5, ""); // no pixels, no error
 		return;
 	}
 	for (const double value :
 			{ p_metrics->mae, p_metrics->rmse, p_metrics->p99, p_metrics->bias }) {
 		r_fields.push_back(text(value));
 	}
+	r_fields.push_back(p_metrics->wrong ? text(*p_metrics->wrong) : "");
 }
 
 void add_times(const ReportCell &p_cell, std::vector<std::string> &r_fields) {
@@ -72,7 +73,7 @@ std::string to_csv(const Report &p_report) {
 		"light_angular_distance_deg", "light_count", "width_px", "height_px", "triangles", "edges",
 		"technique", "setting", "properties", "status", "message", "samples", "standard_error" };
 	for (const char *set : { "receiver", "penumbra", "whole_light_penumbra" }) {
-		for (const char *metric : { "pixels", "mae", "rmse", "p99", "bias" }) {
+		for (const char *metric : { "pixels", "mae", "rmse", "p99", "bias", "wrong" }) {
 			names.push_back(text(set, "_", metric));
 		}
 	}

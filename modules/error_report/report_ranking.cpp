@@ -28,12 +28,20 @@ double get_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
 
+/// The sum so far plus that part; absent as soon as one of both is.
+std::optional<double> add_share(
+		const std::optional<double> &p_sum, const std::optional<double> &p_value, double p_share) {
+	return p_sum && p_value ? std::optional(*p_sum + *p_value * p_share) : std::nullopt;
+}
+
 RankingRow summarize(const Report &p_report, const std::string &p_technique,
 		const std::string &p_setting, const std::vector<size_t> &p_cells) {
 	RankingRow row;
 	row.technique = p_technique;
 	row.setting = p_setting;
 	row.configuration_count = p_cells.size();
+	row.penumbra_wrong = 0;
+	row.receiver_wrong = 0;
 	std::vector<double> costs_ms;
 	std::vector<double> ratios;
 	double whole_light_sum = 0;
@@ -46,6 +54,8 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 		row.penumbra_rmse += all.penumbra.rmse * share;
 		row.penumbra_p99 += all.penumbra.p99 * share;
 		row.penumbra_bias += all.penumbra.bias * share;
+		row.penumbra_wrong = add_share(row.penumbra_wrong, all.penumbra.wrong, share);
+		row.receiver_wrong = add_share(row.receiver_wrong, all.receiver.wrong, share);
 		row.umbra_over += all.umbra_over * share;
 		if (cell.error->whole_light.penumbra.pixel_count > 0) {
 			whole_light_sum += cell.error->whole_light.penumbra.mae;
@@ -181,6 +191,12 @@ Json to_json(const std::vector<RankingRow> &p_rows) {
 				{ "penumbra_mae", row.penumbra_mae }, { "penumbra_rmse", row.penumbra_rmse },
 				{ "penumbra_p99", row.penumbra_p99 }, { "penumbra_bias", row.penumbra_bias },
 				{ "umbra_over", row.umbra_over }, { "cost_ms", row.cost_ms } });
+		if (row.penumbra_wrong) {
+			json.back()["penumbra_wrong"] = *row.penumbra_wrong;
+		}
+		if (row.receiver_wrong) {
+			json.back()["receiver_wrong"] = *row.receiver_wrong;
+		}
 		if (row.whole_light_penumbra_mae) {
 			json.back()["whole_light_penumbra_mae"] = *row.whole_light_penumbra_mae;
 		}

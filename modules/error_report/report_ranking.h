@@ -20,6 +20,9 @@ struct RankingRow {
 	double penumbra_rmse = 0;
 	double penumbra_p99 = 0;
 	double penumbra_bias = 0;
+	/// ErrorMetrics::wrong; absent where one of the cells is of a report without it.
+	std::optional<double> penumbra_wrong;
+	std::optional<double> receiver_wrong;
 	double umbra_over = 0;
 	std::optional<double> whole_light_penumbra_mae; // where such pixels are
 	double cost_ms = 0;

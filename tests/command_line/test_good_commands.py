@@ -34,14 +34,18 @@ class GoodCommands(CommandLineTest):
         self.assert_mask(result)
         found = load_json("compare", truth, mask)
         self.assertEqual(set(found), {"pixels", "receiver", "penumbra"})
-        self.assertEqual(set(found["receiver"]), {"mae", "rmse", "p99", "bias"})
-        self.assertEqual(set(found["penumbra"]), {"pixels", "mae", "rmse", "p99", "bias", "umbra_over"})
+        self.assertEqual(set(found["receiver"]), {"mae", "rmse", "p99", "bias", "wrong"})
+        self.assertEqual(set(found["penumbra"]), {"pixels", "mae", "rmse", "p99", "bias", "wrong", "umbra_over"})
+        # An error above 0.2 adds more than 0.2 to the sum of which MAE is the mean.
+        self.assertLess(0.2 * found["penumbra"]["wrong"], found["penumbra"]["mae"])
+        self.assertTrue(0.0 < found["receiver"]["wrong"] < found["penumbra"]["wrong"] <= 1.0)
         self.assertGreater(found["penumbra"]["pixels"], 100)
         self.assertLess(found["penumbra"]["pixels"], found["pixels"])
         self.assertTrue(0.0 < found["receiver"]["mae"] < found["penumbra"]["mae"] < 0.5)
         self.assertLessEqual(abs(found["penumbra"]["bias"]), found["penumbra"]["mae"])
         same = load_json("compare", truth, truth)
         self.assertEqual(same["penumbra"]["mae"], 0)
+        self.assertEqual(same["receiver"]["wrong"], 0)
         with open(times, encoding="utf-8") as file:
             cost = json.load(file)
         self.assertLessEqual(

@@ -15,7 +15,7 @@ sys.path.insert(0, PROJECT)
 import make_page  # noqa: E402
 import measure_demo  # noqa: E402
 
-ERROR = {"pixels": 10, "mae": 0.0123, "rmse": 0.02, "p99": 0.1, "bias": -0.005, "umbra_over": 0.25}
+ERROR = {"pixels": 10, "mae": 0.0123, "rmse": 0.02, "p99": 0.1, "bias": -0.005, "wrong": 0.375, "umbra_over": 0.25}
 TIME = {"gpu_ms": 1.5, "gpu_ms_p90": 1.75, "wall_ms": 12.3, "wall_ms_p90": 230.0}
 
 
@@ -43,7 +43,7 @@ def build(results):
 class PageText(unittest.TestCase):
     def test_errors_times_and_device_are_shown(self):
         page = build(make_results(make_row("first"), make_row("second")))
-        for text in ("0.0123", "-0.0050", "25.0&thinsp;%", "1.50", "230", "Some device", "First &amp; best (default)"):
+        for text in ("0.0123", "-0.0050", "25.0&thinsp;%", "37.5&thinsp;%", "1.50", "230", "Some device", "First &amp; best (default)"):
             self.assertIn(text, page)
 
     def test_a_failure_is_shown_and_escaped(self):

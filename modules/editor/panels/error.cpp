@@ -18,11 +18,14 @@ void draw_row(const char *p_name, const ErrorMetrics &p_metrics) {
 		ImGui::TableNextColumn();
 		ImGui::Text("%.4f", value);
 	}
+	ImGui::TableNextColumn();
+	ImGui::Text("%.1f %%", 100.0 * p_metrics.wrong.value_or(0.0)); // set by every measurement
 }
 
 void draw_metrics(const MaskMetrics &p_metrics) {
-	if (ImGui::BeginTable("metrics", 5, ImGuiTableFlags_RowBg)) {
-		for (const char *heading : { "", "mean", "RMSE", "99 %", "bias" }) {
+	const ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+	if (ImGui::BeginTable("metrics", 6, flags)) {
+		for (const char *heading : { "", "mean", "RMSE", "99 %", "bias", "wrong" }) {
 			ImGui::TableSetupColumn(heading);
 		}
 		ImGui::TableHeadersRow();
@@ -30,7 +33,7 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 		draw_row("receivers", p_metrics.receiver);
 		ImGui::EndTable();
 	}
-	ImGui::TextDisabled("%.0f penumbra pixels; umbra over-estimated: %.1f %%",
+	ImGui::TextDisabled("%.0f penumbra pixels; umbra over: %.1f %%",
 			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 

@@ -92,12 +92,13 @@
 
 	function makeMetrics(cell) {
 		const penumbra = cell.error?.all?.penumbra || {};
+		const receiver = cell.error?.all?.receiver || {};
 		const time = cell.time || {};
 		const entries = [
 			["penumbra MAE", report.showError(penumbra.mae)], ["RMSE", report.showError(penumbra.rmse)],
 			["p99", report.showError(penumbra.p99)], ["bias", report.showBias(penumbra.bias)],
-			["umbra over", report.showPercent(penumbra.umbra_over)],
-			["all receivers", report.showError(cell.error?.all?.receiver?.mae)],
+			["wrong", report.showPercent(penumbra.wrong)], ["umbra over", report.showPercent(penumbra.umbra_over)],
+			["all receivers", report.showError(receiver.mae)], ["wrong, receivers", report.showPercent(receiver.wrong)],
 			["whole light", report.showError(report.getWholeLight(cell)?.penumbra?.mae)],
 			...(cell.time ? [["cost", `${report.showMs(time.cost_ms)} ms (${report.showRatio(cell.time_ratio)})`],
 				["memory", report.showMebibytes(cell.bytes)]] : []),

@@ -179,6 +179,7 @@
 		["MAE, RMSE", "Mean absolute error; root of the mean squared error. Over penumbra pixels if nothing else is said."],
 		["Bias", "Mean signed error. Near 0 does not mean correct: too dark and too light cancel."],
 		["p99", "99 of 100 pixels have a smaller absolute error."],
+		["Wrong", "The share of the pixels whose absolute error exceeds 0.2."],
 		["Umbra over-estimation", "Of the penumbra pixels that see more than 5 % of the light, the share that is shown with less than 1 %."],
 		["Whole light", "The same over receivers that have the whole light above their own horizon."],
 		["cost_ms", "Time of the light's own passes, each submitted alone, median over frames: GPU time, or wall time of passes on the CPU. Nothing is kept between frames."],

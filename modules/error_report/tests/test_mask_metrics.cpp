@@ -32,6 +32,7 @@ TEST_CASE("[MaskMetrics] equal masks have no error") {
 	CHECK(metrics.receiver.mae == 0);
 	CHECK(metrics.receiver.p99 == 0);
 	CHECK(metrics.penumbra.rmse == 0);
+	CHECK(metrics.receiver.wrong == 0);
 	CHECK(metrics.umbra_over == 0);
 }
 
@@ -72,6 +73,16 @@ TEST_CASE("[MaskMetrics] 99 of 100 pixels do not exceed p99") {
 	CHECK(compute_mask_metrics(truth, make_row(values)).receiver.p99 == 0.5);
 }
 
+TEST_CASE("[MaskMetrics] wrong is the share of pixels whose error exceeds 0.2, of either sign") {
+	// Receivers: errors 0.2, 0.201, -1, 0; penumbra: -0.3 and -0.2.
+	const MaskImage reference = make_row({ 0, 0, 1, 1, 0.5f, 0.2f, -1 });
+	const MaskImage result = make_row({ 0.2f, 0.201f, 0, 1, 0.2f, 0, -1 });
+	const MaskMetrics metrics = compute_mask_metrics(reference, result);
+	CHECK(metrics.receiver.pixel_count == 6);
+	CHECK(metrics.receiver.wrong == 0.5);
+	CHECK(metrics.penumbra.wrong == 0.5);
+}
+
 TEST_CASE("[MaskMetrics] without receivers or penumbra all is 0, never NaN") {
 	const MaskImage none = make_row({ -1, -1 });
 	CHECK(compute_mask_metrics(none, none).receiver.rmse == 0);
@@ -79,6 +90,8 @@ TEST_CASE("[MaskMetrics] without receivers or penumbra all is 0, never NaN") {
 	const MaskMetrics metrics = compute_mask_metrics(make_row({ 0, 1 }), make_row({ 1, 1 }));
 	CHECK(metrics.penumbra.pixel_count == 0);
 	CHECK(metrics.penumbra.p99 == 0);
+	CHECK(metrics.penumbra.wrong == 0);
+	CHECK(metrics.receiver.wrong == 0.5);
 	CHECK(metrics.umbra_over == 0);
 }
 
@@ -129,11 +142,12 @@ TEST_CASE("[MaskMetrics] the temporal error sees flicker and is blind to a const
 
 TEST_CASE("[MaskMetrics] the JSON has the documented keys in their order") {
 	MaskMetrics metrics;
-	metrics.receiver = { 4, 0.5, 0.25, 1, -0.125 };
-	metrics.penumbra = { 2, 0, 0.5, 0.75, 0.1 };
+	metrics.receiver = { 4, 0.5, 0.25, 1, -0.125, 0.25 };
+	metrics.penumbra = { 2, 0, 0.5, 0.75, 0.1, 0.5 };
 	metrics.umbra_over = 0.5;
 	CHECK(to_json(metrics) ==
-			R"({"pixels":4,"receiver":{"mae":0.5,"rmse":0.25,"p99":1.0,"bias":-0.125},)"
-			R"("penumbra":{"pixels":2,"mae":0.0,"rmse":0.5,"p99":0.75,"bias":0.1,"umbra_over":0.5}})");
+			R"({"pixels":4,"receiver":{"mae":0.5,"rmse":0.25,"p99":1.0,"bias":-0.125,)"
+			R"("wrong":0.25},"penumbra":{"pixels":2,"mae":0.0,"rmse":0.5,"p99":0.75,"bias":0.1,)"
+			R"("wrong":0.5,"umbra_over":0.5}})");
 	CHECK(nlohmann::json::parse(to_json(MaskMetrics()))["pixels"] == 0);
 }

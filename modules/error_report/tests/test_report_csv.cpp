@@ -89,10 +89,10 @@ Report make_report() {
 	cell.setting = "32 taps";
 	cell.properties = { { "soft_bias", "0.5" }, { "soft_taps", "32" } };
 	cell.error = ReportError();
-	cell.error->all.receiver = { 100, 0.01, 0.02, 0.03, -0.04 };
-	cell.error->all.penumbra = { 50, 0.11, 0.12, 0.13, -0.14 };
+	cell.error->all.receiver = { 100, 0.01, 0.02, 0.03, -0.04, 0.05 };
+	cell.error->all.penumbra = { 50, 0.11, 0.12, 0.13, -0.14, 0.15 };
 	cell.error->all.umbra_over = 0.25;
-	cell.error->whole_light.penumbra = { 40, 0.21, 0.22, 0.23, -0.24 };
+	cell.error->whole_light.penumbra = { 40, 0.21, 0.22, 0.23, -0.24, 0.26 };
 	cell.time = { 20, {}, { 9, 10, 11, 12 }, 8 };
 	cell.bytes = 9314128000;
 	report.cells.push_back(cell);
@@ -101,9 +101,10 @@ Report make_report() {
 
 void check_no_numbers(const std::map<std::string, std::string> &p_row) {
 	for (const char *name : { "receiver_mae", "receiver_rmse", "receiver_p99", "receiver_bias",
-				 "penumbra_mae", "penumbra_bias", "whole_light_penumbra_mae",
-				 "whole_light_penumbra_bias", "umbra_over", "frames", "cost_ms", "gpu_ms",
-				 "gpu_ms_p90", "wall_ms", "wall_ms_p90", "bytes", "time_ratio" }) {
+				 "receiver_wrong", "penumbra_wrong", "whole_light_penumbra_wrong", "penumbra_mae",
+				 "penumbra_bias", "whole_light_penumbra_mae", "whole_light_penumbra_bias",
+				 "umbra_over", "frames", "cost_ms", "gpu_ms", "gpu_ms_p90", "wall_ms",
+				 "wall_ms_p90", "bytes", "time_ratio" }) {
 		CAPTURE(name);
 		CHECK(p_row.at(name).empty());
 	}
@@ -124,8 +125,9 @@ TEST_CASE("[ErrorReport] a row of the CSV has each number under its name") {
 		{ "samples", "1024" }, { "standard_error", "0.0021" }, { "receiver_pixels", "100" },
 		{ "penumbra_pixels", "50" }, { "whole_light_penumbra_pixels", "40" },
 		{ "receiver_mae", "0.01" }, { "receiver_rmse", "0.02" }, { "receiver_p99", "0.03" },
-		{ "receiver_bias", "-0.04" }, { "penumbra_mae", "0.11" }, { "penumbra_rmse", "0.12" },
-		{ "penumbra_p99", "0.13" }, { "penumbra_bias", "-0.14" },
+		{ "receiver_bias", "-0.04" }, { "receiver_wrong", "0.05" }, { "penumbra_wrong", "0.15" },
+		{ "whole_light_penumbra_wrong", "0.26" }, { "penumbra_mae", "0.11" },
+		{ "penumbra_rmse", "0.12" }, { "penumbra_p99", "0.13" }, { "penumbra_bias", "-0.14" },
 		{ "whole_light_penumbra_mae", "0.21" }, { "whole_light_penumbra_rmse", "0.22" },
 		{ "whole_light_penumbra_p99", "0.23" }, { "whole_light_penumbra_bias", "-0.24" },
 		{ "umbra_over", "0.25" }, { "frames", "20" }, { "cost_ms", "8" }, { "gpu_ms", "9" },
@@ -137,6 +139,15 @@ TEST_CASE("[ErrorReport] a row of the CSV has each number under its name") {
 	}
 	CHECK(rows[0].at("penumbra_mae").empty()); // no error was measured
 	CHECK(rows[0].at("time_ratio") == "1");
+}
+
+TEST_CASE("[ErrorReport] an error of a report without `wrong` has an empty field for it") {
+	Report report = make_report();
+	report.cells[1].error->all.penumbra.wrong.reset();
+	const auto row = read_rows(report)[1];
+	CHECK(row.at("penumbra_wrong").empty());
+	CHECK(row.at("penumbra_bias") == "-0.14");
+	CHECK(row.at("receiver_wrong") == "0.05");
 }
 
 TEST_CASE("[ErrorReport] commas, quotes and line ends in the CSV are quoted, nothing else is") {

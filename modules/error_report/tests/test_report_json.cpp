@@ -37,6 +37,30 @@ TEST_CASE("[ErrorReport] report.json is read back whole") {
 	CHECK(json.at("configurations")[0].at("pareto").size() == 1);
 }
 
+TEST_CASE("[ErrorReport] a report of an earlier version, without `wrong`, is read without it") {
+	TemporaryFolder folder;
+	const Json json = to_json(make_report(folder.path));
+	CHECK(json.at("cells")[0].at("error").at("all").at("receiver").contains("wrong"));
+	CHECK(json.at("ranking")[0].contains("penumbra_wrong"));
+	Json older = json;
+	for (Json &cell : older["cells"]) {
+		for (Json &population : cell["error"]) {
+			population["receiver"].erase("wrong");
+			population["penumbra"].erase("wrong");
+		}
+	}
+	for (const char *list : { "ranking", "best_settings" }) {
+		for (Json &row : older[list]) {
+			row.erase("penumbra_wrong");
+			row.erase("receiver_wrong");
+		}
+	}
+	save_file_atomically(folder.path / "report.json", older.dump());
+	const Report report = load_report(folder.path / "report.json");
+	CHECK_FALSE(report.cells[0].error->all.receiver.wrong);
+	CHECK(to_json(report) == older);
+}
+
 TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";

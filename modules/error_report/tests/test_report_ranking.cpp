@@ -29,7 +29,8 @@ ReportCell &add_cell(Report &r_report, size_t p_configuration, const std::string
 	cell.status = ReportStatus::OK;
 	cell.time.cost_ms = p_cost_ms;
 	cell.error = ReportError();
-	cell.error->all.penumbra = { 100, p_mae, p_mae * 2, p_mae * 4, -p_mae };
+	cell.error->all.penumbra = { 100, p_mae, p_mae * 2, p_mae * 4, -p_mae, p_mae / 4 };
+	cell.error->all.receiver = { 400, p_mae / 4, p_mae / 2, p_mae, -p_mae / 4, p_mae / 8 };
 	cell.error->all.umbra_over = p_mae / 2;
 	cell.error->whole_light.penumbra = { 50, p_mae * 3, 0, 0, 0 };
 	r_report.cells.push_back(cell);
@@ -100,11 +101,23 @@ TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians o
 	CHECK(rows[1].penumbra_p99 == doctest::Approx(0.8));
 	CHECK(rows[1].penumbra_bias == doctest::Approx(-0.2));
 	CHECK(rows[1].umbra_over == doctest::Approx(0.1));
+	CHECK(rows[1].penumbra_wrong == doctest::Approx(0.05));
+	CHECK(rows[1].receiver_wrong == doctest::Approx(0.025));
 	REQUIRE(rows[1].whole_light_penumbra_mae);
 	CHECK(*rows[1].whole_light_penumbra_mae == doctest::Approx(0.75)); // of 0.6 and 0.9
 	CHECK(rows[1].cost_ms == 6);									   // of 2, 6, 40
 	CHECK(rows[1].time_ratio == 3);									   // of 2, 3, 4
 	CHECK(rows[2].technique == "hard");
+}
+
+TEST_CASE("[ErrorReport] where one cell has no `wrong`, its setting's mean has none") {
+	Report report = make_report(2);
+	add_cell(report, 0, "soft", 1, 0.4);
+	add_cell(report, 1, "soft", 1, 0.4).error->all.penumbra.wrong.reset();
+	const std::vector<RankingRow> rows = rank_settings(report);
+	REQUIRE(rows.size() == 1);
+	CHECK_FALSE(rows[0].penumbra_wrong);
+	CHECK(rows[0].receiver_wrong == doctest::Approx(0.05));
 }
 
 TEST_CASE("[ErrorReport] the best setting is chosen anew in each configuration") {
@@ -190,14 +203,17 @@ TEST_CASE("[ErrorReport] scaling curves rise in their group's value and lack wha
 }
 
 TEST_CASE("[ErrorReport] rows of the ranking have the documented keys, a ratio only where it is") {
-	RankingRow row = { "soft", "32 taps", 33, 0.5, 0.25, 1, -0.5, 0.125, 0.75, 12, 2.5 };
+	RankingRow row = { "soft", "32 taps", 33, 0.5, 0.25, 1, -0.5, 0.25, 0.5, 0.125, 0.75, 12, 2.5 };
 	const std::string expected =
 			R"([{"technique":"soft","setting":"32 taps","configuration_count":33,)"
 			R"("penumbra_mae":0.5,"penumbra_rmse":0.25,"penumbra_p99":1.0,"penumbra_bias":-0.5,)"
 			R"("umbra_over":0.125,"cost_ms":12.0)";
 	CHECK(to_json(std::vector<RankingRow>{ row }).dump() ==
-			expected + R"(,"whole_light_penumbra_mae":0.75,"time_ratio":2.5}])");
+			expected + R"(,"penumbra_wrong":0.25,"receiver_wrong":0.5,)" +
+					R"("whole_light_penumbra_mae":0.75,"time_ratio":2.5}])");
 	row.time_ratio.reset();
+	row.penumbra_wrong.reset();
+	row.receiver_wrong.reset();
 	row.whole_light_penumbra_mae.reset();
 	CHECK(to_json(std::vector<RankingRow>{ row }).dump() == expected + "}]");
 }
