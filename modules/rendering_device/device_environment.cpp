@@ -44,20 +44,31 @@ InjectedFault read_fault() {
 		{ "out_of_memory", Fault::OUT_OF_MEMORY },
 		{ "hang", Fault::HANG },
 	};
+	static constexpr std::string_view PASS = "@pass:";
+	static constexpr std::string_view FILE = "@file:";
 	const std::string_view written(value);
 	const size_t at = std::min(written.find('@'), written.size());
-	const char *end = written.data() + written.size();
+	const std::string_view event = written.substr(at);
 	for (const auto &[name, fault] : KINDS) {
-		uint64_t number = 0;
-		if (name == written.substr(0, at) && at < written.size()) {
-			const auto result = std::from_chars(written.data() + at + 1, end, number);
-			if (result.ec == std::errc() && result.ptr == end && number > 0) {
-				return { fault, number };
-			}
+		if (name != written.substr(0, at)) {
+			continue;
+		}
+		if (event.empty()) {
+			return { fault, {}, {} };
+		}
+		if (event.starts_with(PASS) && event.size() > PASS.size()) {
+			return { fault, std::string(event.substr(PASS.size())), {} };
+		}
+		if (event.starts_with(FILE) && event.size() > FILE.size()) {
+			return { fault, {}, event.substr(FILE.size()) };
 		}
 	}
-	fail("GNOMON_INJECT_FAULT is \"", written, "\", must be device_lost@N, out_of_memory@N or ",
-			"hang@N, N the number of a submission from 1. It is for tests: unset it.");
+	fail("GNOMON_INJECT_FAULT is \"", written, "\", must be device_lost, out_of_memory or hang, ",
+			"alone (the first submission) or with @pass:NAME (the first one with a pass whose "
+			"name ",
+			"contains NAME) or @file:PATH (the first one after that file exists). It is for "
+			"tests: ",
+			"unset it.");
 }
 
 } // namespace

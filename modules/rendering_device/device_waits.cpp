@@ -124,7 +124,7 @@ void RenderingDevice::wait_idle() {
 }
 
 void RenderingDevice::inject_fault(Fault p_fault) {
-	impl->injected_fault = { p_fault, impl->submitted_number + 1 };
+	impl->injected_fault = { p_fault, {}, {} };
 }
 
 void RenderingDevice::release_injected_hang() {

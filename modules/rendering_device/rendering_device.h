@@ -75,7 +75,8 @@ struct MemoryUse {
 	uint64_t peak_bytes = 0; // highest used_bytes since the device began
 };
 
-/// What tests can let happen to a submission; $GNOMON_INJECT_FAULT likewise, "device_lost@12".
+/// What tests can let happen to a submission; $GNOMON_INJECT_FAULT does the same to a program, at
+/// an event that does not depend on its speed: "device_lost@pass:resolve", see doc/testing.md.
 enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
 
 /// Commands recorded since the device began; those under a condition count too.

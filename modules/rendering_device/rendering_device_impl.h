@@ -12,6 +12,7 @@
 #include "modules/rendering_device/vulkan_instance.h"
 
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <variant>
@@ -109,9 +110,14 @@ struct SubmissionSlot {
 	BufferResource breadcrumbs; // word i: the submission in which span i began last
 };
 
+/// Happens once, to the first submission for which all conditions hold that are set.
 struct InjectedFault {
 	Fault fault = Fault::NONE;
-	uint64_t submission_number = 0; // that it happens to
+	std::string pass;			// contained in the name of one of its passes
+	std::filesystem::path file; // exists when it is submitted
+
+	/// The pass that meets the condition, else the last one; nothing where it is not due.
+	std::optional<std::string> find_pass(const std::vector<std::string> &p_pass_names) const;
 };
 
 /// State of the recording between begin_commands and submit_commands.

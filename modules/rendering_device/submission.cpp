@@ -169,13 +169,28 @@ void RenderingDevice::submit_commands(SubmitMode p_mode) {
 	}
 }
 
+std::optional<std::string> InjectedFault::find_pass(
+		const std::vector<std::string> &p_pass_names) const {
+	std::error_code ignored; // a file that cannot be looked at is none
+	if (fault == Fault::NONE || (!file.empty() && !std::filesystem::exists(file, ignored))) {
+		return std::nullopt;
+	}
+	if (pass.empty()) {
+		return p_pass_names.empty() ? std::string() : p_pass_names.back();
+	}
+	const auto found = std::find_if(p_pass_names.begin(), p_pass_names.end(),
+			[&](const std::string &p_name) { return p_name.find(pass) != std::string::npos; });
+	return found != p_pass_names.end() ? std::optional(*found) : std::nullopt;
+}
+
 bool RenderingDevice::Impl::meet_fault(const SubmissionSlot &p_slot) {
-	if (injected_fault.submission_number != p_slot.number) {
+	const std::optional<std::string> pass = injected_fault.find_pass(p_slot.span_names);
+	if (!pass) {
 		return false;
 	}
 	const Fault fault = std::exchange(injected_fault, {}).fault;
 	if (fault == Fault::DEVICE_LOST) {
-		fail_as_lost(p_slot.span_names.empty() ? "" : p_slot.span_names.back());
+		fail_as_lost(*pass);
 	}
 	if (fault == Fault::OUT_OF_MEMORY) {
 		throw std::bad_alloc();

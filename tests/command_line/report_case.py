@@ -17,6 +17,16 @@ def load_report(folder):
         return json.load(file)
 
 
+def get_record_path(folder, record):
+    """The file that is there as soon as a cell, or a configuration's reference, is measured."""
+    return os.path.join(folder, "cells", record + ".json")
+
+
+def stop_after(path):
+    """Environment of a program whose device does nothing more, for ever, once that file is there."""
+    return {"GNOMON_INJECT_FAULT": "hang@file:" + path, "GNOMON_DEVICE_TIMEOUT_S": "0"}
+
+
 def drop_times(value):
     """A copy without what two measurements never have in common."""
     if isinstance(value, dict):

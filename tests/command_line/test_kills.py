@@ -16,7 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from check_report_page import check_page  # noqa: E402
 from command_line_case import GNOMON, SCENES, at_length, find_technique, run  # noqa: E402
 from editor_case import EditorCase, load  # noqa: E402
-from report_case import PROJECT, QUICK, ReportCase, drop_times, load_report  # noqa: E402
+from report_case import PROJECT, QUICK, ReportCase, drop_times, get_record_path, load_report, stop_after  # noqa: E402
 
 SEED = 20100901
 TIMEOUT_S = 180
@@ -34,10 +34,10 @@ def list_unfinished(folder):
     return glob.glob(os.path.join(folder, "**", UNFINISHED), recursive=True)
 
 
-def kill_sometime(process, folders, chance, most_skipped=3):
+def kill_sometime(process, folders, chance, most_skipped=3, stop=None):
     """Every other time as soon as, or shortly after, a file is begun in one of the folders; else at a random time.
 
-    True: it was killed; False: it had ended before.
+    stop: a file with which the process comes to a stop, or None. True: it was killed; False: it had ended before.
     """
     delay_s = chance.uniform(0, LONGEST_DELAY_S)
     waits_for_file = chance.random() < 0.5
@@ -48,7 +48,7 @@ def kill_sometime(process, folders, chance, most_skipped=3):
         begun = {path for folder in folders for path in list_unfinished(folder)} - seen if waits_for_file else set()
         seen |= begun
         skipped_count -= len(begun)
-        if skipped_count < 0:
+        if skipped_count < 0 or (waits_for_file and stop and os.path.exists(stop)):
             time.sleep(chance.choice((0, 0, 0.001)))
             break
         time.sleep(0 if begun else 0.001)
@@ -61,17 +61,22 @@ class KilledReports(ReportCase):
         chance = random.Random(SEED)
         techniques = ("--techniques", self.report_techniques())
         whole = self.load_done("whole", run("report", PROJECT, "--out", self.path("whole"), *REPORT, *techniques))
+        records = [cell["record"] for cell in load_report(self.path("whole"))["cells"]]
         cache = self.path("cache")
         killed_count = left_count = done_count = 0
         for index in range(get_kill_count(3)):
             out = self.path("report_%d" % done_count)
             arguments = ["report", PROJECT, "--out", out, *REPORT, *techniques, "--resume"]
-            environment = {**os.environ, "GNOMON_CACHE_DIR": cache}
+            left = [path for path in (get_record_path(out, record) for record in records) if not os.path.exists(path)]
+            # It stops before its end, so that it is killed however fast it is, unless its last record alone is left.
+            stop = chance.choice(left[:-1]) if len(left) > 1 else None
+            environment = {**os.environ, "GNOMON_CACHE_DIR": cache, **(stop_after(stop) if stop else {})}
             with self.subTest(kill=index, seed=SEED):
                 process = subprocess.Popen(
                     [GNOMON, *arguments], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
                 )
-                was_killed = kill_sometime(process, (out, cache), chance)
+                was_killed = kill_sometime(process, (out, cache), chance, stop=stop)
+                self.assertTrue(was_killed or stop is None, "it went on after it had stopped")
                 errors = process.stderr.read()
                 process.stderr.close()
                 self.assertNotIn("damaged", errors)

@@ -11,25 +11,25 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from check_report_page import check_page  # noqa: E402
 from command_line_case import GNOMON, SCENES, run  # noqa: E402
-from report_case import PROJECT, QUICK, ReportCase, drop_times, load_report  # noqa: E402
+from report_case import PROJECT, QUICK, ReportCase, drop_times, get_record_path, load_report, stop_after  # noqa: E402
 
 STOP_TIMEOUT_S = 120
 POLL_S = 0.01
 
 
 class StoppedReports(ReportCase):
-    def stop_half_way(self, name, cell_count):
-        """Kills a run as soon as it has kept that many records."""
+    def stop_half_way(self, name, record):
+        """Kills a run that has written that record, and goes no further."""
         techniques = ("--techniques", self.report_techniques())
         options = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *techniques, *QUICK)
         command = [GNOMON, "report", PROJECT, "--out", self.path(name), *options]
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        cells = self.path(name + "/cells")
+        path = get_record_path(self.path(name), record)
+        environment = {**os.environ, **stop_after(path)}
+        process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end = time.monotonic() + STOP_TIMEOUT_S
-        while process.poll() is None and time.monotonic() < end:
-            if os.path.isdir(cells) and sum(item.endswith(".json") for item in os.listdir(cells)) >= cell_count:
-                break
+        while process.poll() is None and time.monotonic() < end and not os.path.exists(path):
             time.sleep(POLL_S)
+        self.assertTrue(os.path.exists(path), "the run did not get to its record")
         process.send_signal(signal.SIGKILL)
         self.assertEqual(process.wait(), -signal.SIGKILL, "the run ended before it was killed")
 
@@ -42,10 +42,13 @@ class StoppedReports(ReportCase):
 
     def test_a_killed_run_goes_on_where_it_was(self):
         whole = self.load_done("whole", self.small("whole"))
-        self.stop_half_way("report", 6)
+        half_count = len(whole["cells"]) // 2
+        self.stop_half_way("report", whole["cells"][half_count - 1]["record"])
         kept = {name: data for name, data in self.load_records("report").items() if not name.endswith(".tmp")}
         self.assertFalse(os.path.exists(self.path("report/index.html")))
-        resumed = self.load_done("report", self.small("report", "--resume"))
+        result = self.small("report", "--resume")
+        self.assertIn("Resuming: %d cells are there, %d are left" % (half_count, len(whole["cells"]) - half_count), result.stderr)
+        resumed = self.load_done("report", result)
         self.assertEqual(drop_times(resumed)["configurations"], drop_times(whole)["configurations"])
         self.assertEqual(drop_times(resumed)["cells"], drop_times(whole)["cells"])
         after = self.load_records("report")

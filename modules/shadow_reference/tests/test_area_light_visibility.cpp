@@ -250,13 +250,17 @@ TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop t
 	CHECK(is_rising);
 	CHECK(last == 1.0f);
 
-	options.sample_count = 4096; // so much that no other thread ends before this one speaks
-	std::atomic<bool> is_cancelled = false;
+	std::atomic<bool> is_cancelled = true;
 	options.is_cancelled = &is_cancelled;
+	CHECK_FALSE(truth.compute(points, SIZE_PX, LIGHT, options).is_complete); // by all threads
+
+	is_cancelled = false;
+	options.thread_count = 1; // others might have traced all tiles before this one is called
 	options.progress = [&](float) { is_cancelled = true; };
 	CHECK_FALSE(truth.compute(points, SIZE_PX, LIGHT, options).is_complete);
 
 	options.is_cancelled = nullptr;
+	options.thread_count = 0;
 	options.progress = [](float) { fail("stop"); };
 	CHECK_THROWS_AS(truth.compute(points, SIZE_PX, LIGHT, options), Error);
 }
