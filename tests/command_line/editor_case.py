@@ -16,6 +16,8 @@ from display_case import TIMEOUT_S, DisplayTest
 LIGHT = "Spot"
 NOWHERE = ("1100", "17")  # in the tool bar, where nothing answers to the mouse
 DRAG_STEPS = 12
+SETTLED_FRAMES = 4  # in which what opens gets its size and position
+HAND = "0.15"  # seconds; faster ones in a row are double clicks
 
 
 def load(path):
@@ -62,29 +64,38 @@ class EditorCase(DisplayTest):
             time.sleep(0.05)
         self.fail("the editor did not get there: %s" % json.dumps(self.get_state()))
 
+    def wait_frames(self, count=2, is_wanted=lambda state: True):
+        """What was pressed last has arrived two frames later, however long they take."""
+        frame = self.get_state()["frame"]
+        return self.wait_for(lambda state: state["frame"] > frame + count and is_wanted(state))
+
     def find_middle(self, name):
-        place, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
-        while place != before:  # what opens finds its place first
-            time.sleep(0.3)
-            before, place = place, self.wait_for(lambda state: name in state["items"])["items"][name]
-        left, top, right, bottom = place
+        bounds, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
+        while bounds != before:  # what opens finds its position first
+            before, bounds = bounds, self.wait_frames(SETTLED_FRAMES, lambda state: name in state["items"])["items"][name]
+        left, top, right, bottom = bounds
         return str(int((left + right) / 2)), str(int((top + bottom) / 2))
 
+    def press_button(self, name):
+        self.press("mousemove", *self.find_middle(name))
+        self.wait_frames()  # what is under the mouse is known a frame later
+        self.press("sleep", HAND, "mousedown", "1")
+        self.wait_frames()
+
     def click(self, name):
-        # As long as a hand takes: what is under the mouse is known a frame later.
-        self.press("mousemove", *self.find_middle(name), "sleep", "0.3", "mousedown", "1", "sleep", "0.2", "mouseup", "1")
+        self.press_button(name)
+        self.press("sleep", HAND, "mouseup", "1")
 
     def drag(self, name, step_px):
-        self.press("mousemove", *self.find_middle(name), "sleep", "0.3", "mousedown", "1", "sleep", "0.3")
+        self.press_button(name)
         for _ in range(DRAG_STEPS):
             self.press("mousemove_relative", "--", str(step_px), "0", "sleep", "0.02")
-        self.press("sleep", "0.3", "mouseup", "1")
+        self.wait_frames()
+        self.press("mouseup", "1")
 
     def rest(self):
         """Waits until the window shows all that there is, and sharply."""
-        frame = self.get_state()["frame"]
-        # What was pressed last has arrived two frames later, however long they take.
-        self.wait_for(lambda state: state["frame"] > frame + 2 and state["is_resting"])
+        self.wait_frames(is_wanted=lambda state: state["is_resting"])
 
     def photograph(self, begin=0.0, end=1.0):
         """What the viewport shows between two shares of its width, as raw bytes; not what the mouse calls up there."""

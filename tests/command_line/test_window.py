@@ -8,36 +8,60 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command_line_case import THREE_LIGHTS, read_png_size, run  # noqa: E402
-from display_case import DisplayTest  # noqa: E402
+from display_case import TIMEOUT_S, DisplayTest  # noqa: E402
 
 FRAMES = "12"
 WINDOW_NAME = "Gnomon"
 
 
+TEXT = "200x100+60+60"  # what the text covers, as ImageMagick writes it
+NO_TEXT = "200x260+500+0"  # right of the text
+
+
 class WindowTest(DisplayTest):
     def inputs(self):
-        return super().inputs() + ("window.png", "headless.png")
+        return super().inputs() + ("window.png", "headless.png", "shown.png")
 
-    def crop(self, name):
-        """The part of a picture that the text does not cover, as raw bytes."""
-        command = ["convert", self.path(name), "-crop", "256x100+100+150", "+repage", "-depth", "8", "rgb:-"]
+    def crop(self, name, part):
+        """A part of a picture, as raw bytes."""
+        command = ["convert", self.path(name), "-crop", part, "+repage", "-depth", "8", "rgb:-"]
         return subprocess.run(command, capture_output=True, check=True).stdout
 
-    def test_the_window_shows_what_a_headless_run_draws(self):
-        size = ("--size", "400x260")
-        process = self.start("run", THREE_LIGHTS, *size, "--frames", FRAMES, "--capture", self.path("window.png"), "--validation")
-        time.sleep(0.5)
-        self.press("search", "--sync", "--name", WINDOW_NAME, "key", "F1")  # text off
-        self.finish(process)
-        self.assertEqual(read_png_size(self.path("window.png")), (400, 260))
+    def draw_headless(self, size):
         result = run("run", THREE_LIGHTS, "--headless", *size, "--capture", self.path("headless.png"))
         self.assertEqual(result.returncode, 0, result.stderr)
-        shown, drawn = self.crop("window.png"), self.crop("headless.png")
+
+    def is_as_headless(self, name, part):
+        shown, drawn = self.crop(name, part), self.crop("headless.png", part)
         self.assertEqual(len(shown), len(drawn))
-        # The window's camera is made of angles: pixels on edges may differ, no more.
-        different = sum(abs(a - b) > 8 for a, b in zip(shown, drawn))
-        self.assertLess(different, len(drawn) // 100)
         self.assertGreater(len(set(drawn)), 30)
+        # The window's camera is made of angles: pixels on edges may differ, no more.
+        return sum(abs(a - b) > 8 for a, b in zip(shown, drawn)) < len(drawn) // 100
+
+    def test_the_last_frame_of_a_window_is_what_a_headless_run_draws(self):
+        size = ("--size", "700x260")
+        self.finish(self.start("run", THREE_LIGHTS, *size, "--frames", FRAMES, "--capture", self.path("window.png"), "--validation"))
+        self.assertEqual(read_png_size(self.path("window.png")), (700, 260))
+        self.draw_headless(size)
+        self.assertTrue(self.is_as_headless("window.png", NO_TEXT))
+        self.assertFalse(self.is_as_headless("window.png", TEXT), "the text covers it")
+
+    def test_the_window_shows_what_a_headless_run_draws_once_its_text_is_off(self):
+        size = ("--size", "700x260")
+        self.draw_headless(size)
+        process = self.start("run", THREE_LIGHTS, *size, "--validation")
+        self.press("search", "--sync", "--name", WINDOW_NAME, "windowmove", "0", "0", "key", "F1")
+        environment = {**os.environ, "DISPLAY": self.display}
+        end = time.monotonic() + TIMEOUT_S
+        is_alike = False
+        while not is_alike:
+            self.assertLess(time.monotonic(), end, "the window does not show the picture without text")
+            self.assertIsNone(process.poll(), "the window ended")
+            subprocess.run(["import", "-silent", "-window", "root", self.path("shown.png")], env=environment, check=True)
+            is_alike = self.is_as_headless("shown.png", TEXT)
+        self.assertTrue(self.is_as_headless("shown.png", NO_TEXT))
+        self.press("search", "--name", WINDOW_NAME, "key", "Escape")
+        self.finish(process)
 
     def test_keys_change_technique_and_view_and_escape_ends(self):
         process = self.start("run", THREE_LIGHTS, "--size", "320x240", "--validation")
