@@ -1,20 +1,10 @@
 #include "modules/mesh_tools/convexity.h"
 
-#include <numeric>
-
 namespace gnomon {
 
 namespace {
 
 const double FLATNESS = 1e-6;
-
-uint32_t find_root(std::vector<uint32_t> &r_parents, uint32_t p_face) {
-	while (r_parents[p_face] != p_face) {
-		r_parents[p_face] = r_parents[r_parents[p_face]];
-		p_face = r_parents[p_face];
-	}
-	return p_face;
-}
 
 glm::dvec3 get_corner(const MeshTopology &p_topology, uint32_t p_vertex) {
 	return p_topology.welded_positions_node[p_vertex];
@@ -39,21 +29,12 @@ uint32_t count_convex_parts(const MeshTopology &p_topology) {
 	if (p_topology.mesh_class != MeshClass::CLOSED || p_topology.signed_volume_m3 <= 0) {
 		return 0;
 	}
-	std::vector<uint32_t> parents(p_topology.get_face_count());
-	std::iota(parents.begin(), parents.end(), 0u);
-	uint32_t part_count = p_topology.get_face_count();
 	for (const MeshEdge &edge : p_topology.edges) {
 		if (!edge.is_coplanar && is_hollow(p_topology, edge)) {
 			return 0;
 		}
-		const uint32_t first = find_root(parents, edge.face0);
-		const uint32_t second = find_root(parents, edge.face1);
-		if (first != second) {
-			parents[first] = second;
-			--part_count;
-		}
 	}
-	return part_count;
+	return p_topology.counts.part_count;
 }
 
 } // namespace gnomon

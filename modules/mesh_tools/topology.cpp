@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/mesh_tools/edge_pairing.h"
+#include "modules/mesh_tools/mesh_parts.h"
 
 #include <glm/glm.hpp>
 #include <meshoptimizer.h>
@@ -292,6 +293,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 		}
 	}
 	builder.write_adjacency();
+	find_mesh_parts(topology);
 
 	const TopologyCounts &counts = topology.counts;
 	if (counts.non_manifold_edge_count > 0 || counts.inconsistent_edge_count > 0) {

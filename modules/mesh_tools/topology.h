@@ -48,6 +48,16 @@ struct FacePlane {
 	float offset_m = 0.0f;
 };
 
+/// Faces connected through edges, as build_topology pairs the faces of an edge. Parts that share an
+/// edge or duplicate each other can each be closed although the mesh is not.
+struct MeshPart {
+	/// Every edge has two faces that run along it in opposite directions.
+	bool is_closed = true;
+	uint32_t face_count = 0;
+	/// Volume inside; negative when the part is inside out. Means little unless closed.
+	double signed_volume_m3 = 0;
+};
+
 /// What was found in a mesh, for the validation at import and for the frame plan.
 struct TopologyCounts {
 	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; left out of the topology
@@ -57,6 +67,8 @@ struct TopologyCounts {
 	uint32_t inconsistent_edge_count = 0;
 	uint32_t non_manifold_edge_count = 0; // pairs of vertices joined by more than two faces
 	uint32_t zero_normal_count = 0;		  // welded vertices whose face normals cancel
+	uint32_t part_count = 0;
+	uint32_t closed_part_count = 0;
 };
 
 /// Edges and neighbours of a mesh. "Face" and triangle index mean the kept triangles, in the mesh's
@@ -76,6 +88,8 @@ struct MeshTopology {
 	/// boundary edge the face's own opposite vertex is repeated: the neighbour is then the face
 	/// itself turned over, so that every viewpoint sees a silhouette there.
 	std::vector<uint32_t> adjacency_indices;
+	std::vector<MeshPart> parts;		// ordered by their first face
+	std::vector<uint32_t> part_indices; // one per face, into parts
 	TopologyCounts counts;
 	MeshClass mesh_class = MeshClass::CLOSED;
 	/// Volume inside; negative when the mesh is inside out. Means little unless CLOSED.
@@ -86,6 +100,8 @@ struct MeshTopology {
 	uint32_t get_face_count() const { return static_cast<uint32_t>(planes.size()); }
 	/// Edges of such a mesh count for both sides, see build_silhouette.
 	bool is_double_sided() const { return mesh_class != MeshClass::CLOSED; }
+	/// The face belongs to a part that is not closed.
+	bool is_double_sided(uint32_t p_face) const { return !parts[part_indices[p_face]].is_closed; }
 };
 
 /// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0). An edge of
