@@ -45,14 +45,13 @@ std::vector<uint8_t> compute_facing(
 	return is_facing;
 }
 
-int compute_edge_weight(
-		const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing, MeshClass p_class) {
+int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing) {
 	int weight = p_is_facing[p_edge.face0] != 0 ? 1 : -1;
 	if (p_edge.face1 != NO_FACE) {
 		const int side = p_is_facing[p_edge.face1] != 0 ? 1 : -1;
 		weight += p_edge.is_inconsistent ? side : -side;
 	}
-	return p_class == MeshClass::CLOSED ? weight / 2 : weight;
+	return weight;
 }
 
 Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node) {
@@ -64,7 +63,8 @@ Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_
 	silhouette.is_facing = compute_facing(p_topology, p_light_node);
 	for (uint32_t i = 0; i < p_topology.edges.size(); ++i) {
 		const MeshEdge &edge = p_topology.edges[i];
-		const int weight = compute_edge_weight(edge, silhouette.is_facing, p_topology.mesh_class);
+		const int sum = compute_edge_weight(edge, silhouette.is_facing);
+		const int weight = p_topology.is_double_sided(edge.face0) ? sum : sum / 2;
 		if (weight != 0) {
 			silhouette.edges.push_back({ i, weight > 0 ? edge.a : edge.b,
 					weight > 0 ? edge.b : edge.a, static_cast<uint32_t>(std::abs(weight)) });

@@ -16,7 +16,7 @@ struct SilhouetteEdge {
 	/// light.
 	uint32_t from = 0;
 	uint32_t to = 0;
-	/// How often a shadow volume counts here: 1, or 2 for an interior edge of a double-sided mesh.
+	/// How often a shadow volume counts here: 1, or 2 for an interior edge of a double-sided part.
 	uint32_t weight = 0;
 };
 
@@ -30,15 +30,14 @@ struct Silhouette {
 std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 /// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
-/// else -1); half of it for a closed mesh. So 0 or +-1 when closed, else 0, +-1 or +-2. The sign
-/// says whether the silhouette runs a -> b or b -> a.
-int compute_edge_weight(
-		const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing, MeshClass p_class);
+/// else -1): 0, +-1 or +-2, for a closed part to be halved. The sign says whether the silhouette
+/// runs a -> b or b -> a.
+int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing);
 
-/// All edges with a weight. At every vertex as many (by weight) arrive as leave: closed loops. Open
-/// and non-manifold meshes are double-sided: every face counts as turned to the light. The result
-/// is a matter of node space: a transform that mirrors the mesh turns from -> to around in the
-/// world. A light that is not finite has no silhouette and faces nothing.
+/// All edges with a weight. At every vertex as many (by weight) arrive as leave: closed loops.
+/// Parts that are not closed are double-sided: each of their faces counts as light-facing. The
+/// result is a matter of node space: a transform that mirrors the mesh turns from -> to around in
+/// the world. A light that is not finite has no silhouette and faces nothing.
 Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 /// The same edges as the shaders find, bit for bit: silhouette_inc.glsl in C++, float32 in the same

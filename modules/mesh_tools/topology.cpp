@@ -269,7 +269,7 @@ uint32_t MeshTopology::find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b
 }
 
 MeshTopology build_topology(const Mesh &p_mesh) {
-	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 2,
+	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 4,
 			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(), " indices");
 	MeshTopology topology;
 	weld(p_mesh, topology);

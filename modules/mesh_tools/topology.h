@@ -56,6 +56,9 @@ struct MeshPart {
 	uint32_t face_count = 0;
 	/// Volume inside; negative when the part is inside out. Means little unless closed.
 	double signed_volume_m3 = 0;
+
+	/// Seen from outside, its front faces alone hide all that it hides.
+	bool is_solid() const { return is_closed && signed_volume_m3 >= 0; }
 };
 
 /// What was found in a mesh, for the validation at import and for the frame plan.
@@ -98,10 +101,11 @@ struct MeshTopology {
 	/// The vertex of a face that is neither of these two of its vertices.
 	uint32_t find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b) const;
 	uint32_t get_face_count() const { return static_cast<uint32_t>(planes.size()); }
-	/// Edges of such a mesh count for both sides, see build_silhouette.
+	const MeshPart &get_part(uint32_t p_face) const { return parts[part_indices[p_face]]; }
+	/// Not all of the mesh is CLOSED.
 	bool is_double_sided() const { return mesh_class != MeshClass::CLOSED; }
-	/// The face belongs to a part that is not closed.
-	bool is_double_sided(uint32_t p_face) const { return !parts[part_indices[p_face]].is_closed; }
+	/// The face's part is not closed. Its edges count for both sides, see build_silhouette.
+	bool is_double_sided(uint32_t p_face) const { return !get_part(p_face).is_closed; }
 };
 
 /// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0). An edge of

@@ -40,7 +40,8 @@ std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topol
 		record.opposite1 = edge.face1 == NO_FACE
 				? TOPOLOGY_NO_VERTEX
 				: p_topology.find_opposite(edge.face1, edge.a, edge.b) |
-						(edge.is_inconsistent ? TOPOLOGY_EDGE_INCONSISTENT : 0);
+						(edge.is_inconsistent ? TOPOLOGY_EDGE_INCONSISTENT : 0) |
+						(p_topology.get_part(edge.face0).is_solid() ? 0 : TOPOLOGY_EDGE_NOT_SOLID);
 		records.push_back(record);
 	}
 	return records;
@@ -48,6 +49,9 @@ std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topol
 
 std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology) {
 	std::vector<uint32_t> flags(p_topology.get_face_count(), 0);
+	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
+		flags[face] |= p_topology.get_part(face).is_solid() ? 0 : TOPOLOGY_FACE_NOT_SOLID;
+	}
 	for (const MeshEdge &edge : p_topology.edges) {
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(edge.face0)];
 		for (uint32_t corner = 0; corner < 3; ++corner) {

@@ -33,7 +33,7 @@ std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology);
 /// The edges as the shaders read them, in that order.
 std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topology);
 /// Per face: which of its edges (0: corners 0 1, 1: 1 2, 2: 2 0) are its own, and which have no
-/// other face. An edge is the own one of its face0.
+/// other face, and whether its part is solid. An edge is the own one of its face0.
 std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology);
 
 } // namespace gnomon

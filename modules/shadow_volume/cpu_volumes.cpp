@@ -33,7 +33,7 @@ struct VolumeBuilder {
 } // namespace
 
 std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
-		const glm::dvec4 &p_light_node, bool p_is_robust, bool p_has_near_cap, bool p_has_far_cap) {
+		const glm::dvec4 &p_light_node, const VolumeShape &p_shape) {
 	VolumeBuilder builder{ p_topology, {} };
 	if (!std::isfinite(glm::dot(p_light_node, glm::dvec4(1.0)))) {
 		return {};
@@ -41,22 +41,24 @@ std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
 	const Silhouette silhouette = build_silhouette(p_topology, p_light_node);
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
 		const bool is_facing = silhouette.is_facing[face] != 0;
-		if (!is_facing && !p_is_robust) {
+		const bool is_solid = p_topology.get_part(face).is_solid();
+		if (!is_facing && !includes(p_shape.robust, is_solid)) {
 			continue;
 		}
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
 		const uint32_t b = corners[is_facing ? 1 : 2];
 		const uint32_t c = corners[is_facing ? 2 : 1];
-		if (p_has_near_cap) {
+		if (includes(p_shape.near_capped, is_solid)) {
 			builder.add_triangle(corners[0], b, c, false);
 		}
-		if (p_has_far_cap) {
+		if (p_shape.has_far_cap) {
 			builder.add_triangle(corners[0], c, b, true);
 		}
 	}
-	// A closed mesh that is taken as open has both sides of each edge.
-	const uint32_t times = p_is_robust && p_topology.mesh_class == MeshClass::CLOSED ? 2 : 1;
 	for (const SilhouetteEdge &edge : silhouette.edges) {
+		const MeshPart &part = p_topology.get_part(p_topology.edges[edge.edge_index].face0);
+		// A closed part that is robust has both sides of each edge.
+		const uint32_t times = part.is_closed && includes(p_shape.robust, part.is_solid()) ? 2 : 1;
 		for (uint32_t i = 0; i < edge.weight * times; ++i) {
 			builder.add_side(edge.from, edge.to);
 		}

@@ -19,10 +19,22 @@ const uint32_t MOST_LAYERS = 32;
 const uint32_t MOST_FACES_FOR_GEOMETRY_SHADER = 4096;
 const double BOX_GROWTH = 1e-3; // of its size: a light so near is taken to be inside
 
-/// Kept for each mesh.
-struct MeshLayers {
-	uint32_t count = 0;
+/// Cached for each mesh.
+struct MeshSolids {
+	uint32_t layer_count = 0;
+	VolumeFaces robust = VolumeFaces::NONE; // seen from outside
 };
+
+MeshSolids find_solids(const MeshTopology &p_topology) {
+	MeshSolids solids;
+	solids.layer_count = estimate_layers(p_topology);
+	const auto solid_count = std::count_if(p_topology.parts.begin(), p_topology.parts.end(),
+			[](const MeshPart &p_part) { return p_part.is_solid(); });
+	solids.robust = solid_count == 0						? VolumeFaces::ALL
+			: size_t(solid_count) < p_topology.parts.size() ? VolumeFaces::NOT_SOLID
+															: VolumeFaces::NONE;
+	return solids;
+}
 
 bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_light) {
 	if (p_light.type == LightType::DIRECTIONAL) {
@@ -113,32 +125,33 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		}
 		const MeshTopology &topology = *caster.gpu->topology;
 		caster.is_mirrored = instance.is_mirrored();
-		caster.is_robust = p_settings.is_always_robust || topology.is_double_sided() ||
-				topology.signed_volume_m3 < 0 || is_light_within(instance, p_inputs.light);
+		const MeshSolids &solids = p_inputs.meshes.get_derived<MeshSolids>(
+				instance.mesh, [&] { return find_solids(topology); });
+		caster.shape.robust =
+				p_settings.is_always_robust || is_light_within(instance, p_inputs.light)
+				? VolumeFaces::ALL
+				: solids.robust;
 		caster.count = p_settings.count.value_or(!p_inputs.may_leave_out ||
 								may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
 						? VolumeCount::Z_FAIL
 						: VolumeCount::Z_PASS);
-		caster.has_far_cap = caster.count == VolumeCount::Z_FAIL;
+		caster.shape.has_far_cap = caster.count == VolumeCount::Z_FAIL;
 		// Where the camera sees a face it hides what lies behind its cap. Faces that are culled do
 		// not.
-		caster.has_near_cap =
-				caster.has_far_cap || (caster.is_robust && !instance.material->is_double_sided);
-		const uint32_t layer_count =
-				p_inputs.meshes
-						.get_derived<MeshLayers>(instance.mesh,
-								[&] { return MeshLayers{ estimate_layers(topology) }; })
-						.count;
+		caster.shape.near_capped = caster.shape.has_far_cap ? VolumeFaces::ALL
+				: instance.material->is_double_sided		? VolumeFaces::NONE
+															: caster.shape.robust;
 		// A robust volume counts every solid twice.
-		caster.group = groups.place(caster.area, caster.is_robust ? 2 * layer_count : layer_count);
+		const bool is_robust = caster.shape.robust != VolumeFaces::NONE;
+		caster.group = groups.place(caster.area, (is_robust ? 2 : 1) * solids.layer_count);
 		caster.maker = p_settings.maker.value_or(p_inputs.device.get_features().geometry_shader &&
 								topology.get_face_count() <= MOST_FACES_FOR_GEOMETRY_SHADER
 						? VolumeMaker::GEOMETRY_SHADER
 						: VolumeMaker::COMPUTE);
 		result.geometry_shader_count += caster.maker == VolumeMaker::GEOMETRY_SHADER ? 1 : 0;
-		result.z_fail_count += caster.has_far_cap ? 1 : 0;
-		result.spared_caps_count += !p_settings.count && !caster.has_far_cap ? 1 : 0;
-		result.robust_count += caster.is_robust ? 1 : 0;
+		result.z_fail_count += caster.shape.has_far_cap ? 1 : 0;
+		result.spared_caps_count += !p_settings.count && !caster.shape.has_far_cap ? 1 : 0;
+		result.robust_count += is_robust ? 1 : 0;
 		result.group_count = caster.group + 1;
 		result.casters.push_back(caster);
 	}

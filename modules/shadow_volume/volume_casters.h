@@ -3,6 +3,7 @@
 #include "modules/renderer/silhouette_lists.h"
 #include "modules/shadow_volume/volume_area.h"
 #include "modules/shadow_volume/volume_settings.h"
+#include "modules/shadow_volume/volume_shape.h"
 
 #include <vector>
 
@@ -14,9 +15,7 @@ struct VolumeCaster {
 	const GpuTopology *gpu = nullptr;
 	glm::vec4 light_node = glm::vec4(0.0f); // as VolumePush::light_node
 	VolumeCount count = VolumeCount::Z_PASS;
-	bool is_robust = false;
-	bool has_near_cap = false;
-	bool has_far_cap = false;
+	VolumeShape shape;
 	bool is_mirrored = false;
 	VolumeMaker maker = VolumeMaker::COMPUTE;
 	uint32_t group = 0; // those of one group share a stencil
@@ -28,16 +27,16 @@ struct VolumeCasters {
 	uint32_t group_count = 0;
 	// For the frame plan.
 	uint32_t z_fail_count = 0;
-	uint32_t robust_count = 0;
+	uint32_t robust_count = 0; // with robust faces
 	uint32_t geometry_shader_count = 0;
 	uint32_t flat_count = 0;		// with a singular transform: they have no inside
 	uint32_t spared_caps_count = 0; // counted by z-pass, as it is safe
 	uint32_t unseen_count = 0;		// whose shadow lies outside the picture
 };
 
-/// Decides for every caster of p_instances (ascending) how it is drawn. A caster is robust when its
-/// mesh is open, not manifold or inside out, or when the light is within its box. A stencil counts
-/// to 255: where more volumes may lie over one another, the casters are split into groups.
+/// Decides for every caster of p_instances (ascending) how it is drawn. Robust are the faces of
+/// parts that are not solid, and all when the light is within the caster's box. A stencil counts to
+/// 255: where more volumes may lie over one another, the casters are split into groups.
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
 

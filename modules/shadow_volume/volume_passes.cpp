@@ -14,6 +14,9 @@ namespace gnomon {
 namespace {
 
 const uint32_t CORNERS_PER_CAP = 3;
+static_assert(VOLUMES_FACES_NONE == uint32_t(VolumeFaces::NONE) &&
+		VOLUMES_FACES_NOT_SOLID == uint32_t(VolumeFaces::NOT_SOLID) &&
+		VOLUMES_FACES_ALL == uint32_t(VolumeFaces::ALL));
 
 /// What is drawn of one caster, and with which pipelines.
 struct VolumeDraw {
@@ -43,9 +46,9 @@ StencilTest make_count_test(VolumeCount p_count) {
 RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::string &p_what) {
 	RasterPipelineDesc desc;
 	desc.name = text("volumes, ", p_what);
-	desc.constants = { { VOLUMES_CONSTANT_IS_ROBUST, p_caster.is_robust ? 1u : 0u },
-		{ VOLUMES_CONSTANT_HAS_NEAR_CAP, p_caster.has_near_cap ? 1u : 0u },
-		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.has_far_cap ? 1u : 0u } };
+	desc.constants = { { VOLUMES_CONSTANT_ROBUST_FACES, uint32_t(p_caster.shape.robust) },
+		{ VOLUMES_CONSTANT_NEAR_CAPPED_FACES, uint32_t(p_caster.shape.near_capped) },
+		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.shape.has_far_cap ? 1u : 0u } };
 	desc.has_stencil = true;
 	desc.stencil = make_count_test(p_caster.count);
 	desc.writes_depth = false;
@@ -85,9 +88,8 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
 		} else if (caster.maker == VolumeMaker::CPU) {
-			const std::vector<glm::vec4> corners =
-					build_cpu_volume(*caster.gpu->topology, glm::dvec4(caster.light_node),
-							caster.is_robust, caster.has_near_cap, caster.has_far_cap);
+			const std::vector<glm::vec4> corners = build_cpu_volume(
+					*caster.gpu->topology, glm::dvec4(caster.light_node), caster.shape);
 			if (corners.empty()) {
 				continue;
 			}
@@ -100,7 +102,8 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			draw.draw_index = static_cast<uint32_t>(listed - p_listed.casters.data());
 			draw.push.first_in_list = listed->first_in_list;
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "sides");
-			const uint32_t cap_count = (caster.has_near_cap ? 1 : 0) + (caster.has_far_cap ? 1 : 0);
+			const uint32_t cap_count = (caster.shape.near_capped != VolumeFaces::NONE ? 1 : 0) +
+					(caster.shape.has_far_cap ? 1 : 0);
 			draw.cap_vertex_count =
 					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
 			if (draw.cap_vertex_count > 0) {
@@ -142,7 +145,8 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 	if (p_draw.cap_vertex_count > 0) {
 		commands.bind_pipeline(p_draw.caps_pipeline);
 		commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
-				{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() } });
+				{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() },
+				{ VOLUMES_BINDING_FACE_FLAGS, gpu.face_flags.get() } });
 		commands.push_constants(p_draw.push);
 		commands.draw(p_draw.cap_vertex_count);
 	}
@@ -174,7 +178,8 @@ SilhouetteCasters list_compute_casters(
 	for (const VolumeCaster &caster : p_casters.casters) {
 		if (caster.maker == VolumeMaker::COMPUTE) {
 			instances.push_back(caster.instance_index);
-			vertices_per_edge.push_back(VOLUMES_VERTICES_PER_SIDE * (caster.is_robust ? 2 : 1));
+			vertices_per_edge.push_back(
+					VOLUMES_VERTICES_PER_SIDE * (caster.shape.robust != VolumeFaces::NONE ? 2 : 1));
 		}
 	}
 	SilhouetteCasters listed =

@@ -21,8 +21,9 @@ void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyLi
 			"alone is wrong where the camera is in a shadow.",
 			"", GROUP });
 	r_list.add({ p_id + "_robust", PropertyType::ENUM, {}, "auto,always",
-			"Meshes that are open, not manifold or inside out have the shadow of each of their "
-			"triangles; auto does that for those alone, always for all.",
+			"Connected parts of a mesh that are open, not manifold or inside out have the shadow "
+			"of "
+			"each of their triangles; auto does that for those alone, always for all.",
 			"", GROUP });
 	r_list.add({ p_id + "_scissor", PropertyType::BOOL, true, "",
 			"Draw each volume only where its shadow can be seen. The picture is the same.", "",

@@ -44,7 +44,7 @@ bool is_edge_silhouette(vec4 p_light, bool p_is_first_turned, uvec3 p_ids, vec3 
 
 /// The vertex of the edge's second face; of a boundary no vertex, to be asked for first.
 uint get_second_opposite(TopologyEdge p_edge) {
-	return p_edge.opposite1 & ~uint(TOPOLOGY_EDGE_INCONSISTENT);
+	return p_edge.opposite1 & ~uint(TOPOLOGY_EDGE_INCONSISTENT | TOPOLOGY_EDGE_NOT_SOLID);
 }
 
 /// Is an edge with two faces a silhouette? The positions of its a, b, opposite0 and second opposite.
@@ -54,7 +54,7 @@ bool is_edge_record_silhouette(
 			p_light, uvec3(p_edge.a, p_edge.b, p_edge.opposite0), p_a, p_b, p_first);
 	const uint second = get_second_opposite(p_edge);
 	return is_edge_silhouette(p_light, is_first_turned, uvec3(p_edge.a, p_edge.b, second), p_a, p_b, p_second,
-			second != p_edge.opposite1);
+			(p_edge.opposite1 & TOPOLOGY_EDGE_INCONSISTENT) != 0u);
 }
 
 /// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:

@@ -17,9 +17,14 @@
 #define VOLUMES_BINDING_TRIANGLES 4
 
 // Specialization constants of the same
-#define VOLUMES_CONSTANT_IS_ROBUST 0
-#define VOLUMES_CONSTANT_HAS_NEAR_CAP 1
+#define VOLUMES_CONSTANT_ROBUST_FACES 0
+#define VOLUMES_CONSTANT_NEAR_CAPPED_FACES 1
 #define VOLUMES_CONSTANT_HAS_FAR_CAP 2
+
+// Values of the first two, as VolumeFaces of volume_shape.h
+#define VOLUMES_FACES_NONE 0
+#define VOLUMES_FACES_NOT_SOLID 1
+#define VOLUMES_FACES_ALL 2
 
 // Vertices of one side: two triangles from the edge to where the light's rays through it end.
 #define VOLUMES_VERTICES_PER_SIDE 6

@@ -8,9 +8,14 @@
 layout(push_constant) uniform Push {
 	VolumePush push;
 };
-layout(constant_id = VOLUMES_CONSTANT_IS_ROBUST) const bool IS_ROBUST = false;
-layout(constant_id = VOLUMES_CONSTANT_HAS_NEAR_CAP) const bool HAS_NEAR_CAP = true;
+// As VolumeShape: VOLUMES_FACES_*.
+layout(constant_id = VOLUMES_CONSTANT_ROBUST_FACES) const uint ROBUST_FACES = VOLUMES_FACES_NONE;
+layout(constant_id = VOLUMES_CONSTANT_NEAR_CAPPED_FACES) const uint NEAR_CAPPED_FACES = VOLUMES_FACES_ALL;
 layout(constant_id = VOLUMES_CONSTANT_HAS_FAR_CAP) const bool HAS_FAR_CAP = true;
+
+bool volume_includes(uint p_faces, bool p_is_solid) {
+	return p_faces == VOLUMES_FACES_ALL || (p_faces == VOLUMES_FACES_NOT_SOLID && !p_is_solid);
+}
 
 /// A vertex of the caster, or where the light's ray through it ends: at infinity, w = 0. With
 /// reversed depth and the far plane at infinity its depth is 0 exactly, so that nothing is clipped

@@ -45,17 +45,19 @@ void main() {
 	}
 	const bool is_turned = is_turned_to_light(push.light_node, uvec3(ids[0], ids[2], ids[4]),
 			positions[0], positions[2], positions[4]);
-	if (is_turned || IS_ROBUST) {
+	const uint flags = face_flags[gl_PrimitiveIDIn];
+	const bool is_solid = (flags & TOPOLOGY_FACE_NOT_SOLID) == 0u;
+	const bool is_robust = volume_includes(ROBUST_FACES, is_solid);
+	if (is_turned || is_robust) {
 		const uint b = is_turned ? 2u : 4u;
 		const uint c = is_turned ? 4u : 2u;
-		if (HAS_NEAR_CAP) {
+		if (volume_includes(NEAR_CAPPED_FACES, is_solid)) {
 			emit_triangle(0u, b, c, false);
 		}
 		if (HAS_FAR_CAP) {
 			emit_triangle(0u, c, b, true);
 		}
 	}
-	const uint flags = face_flags[gl_PrimitiveIDIn];
 	const uint found = find_own_silhouettes(push.light_node, flags, ids, positions);
 	for (uint edge = 0u; edge < 3u; ++edge) {
 		if ((found & (1u << edge)) == 0u) {
@@ -66,7 +68,7 @@ void main() {
 		const uint a = is_turned ? first : second;
 		const uint b = is_turned ? second : first;
 		emit_side(a, b);
-		if (IS_ROBUST && (flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) == 0u) {
+		if (is_robust && (flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) == 0u) {
 			emit_side(a, b);
 		}
 	}

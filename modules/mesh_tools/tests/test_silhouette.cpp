@@ -15,14 +15,15 @@ namespace {
 
 using DirectedEdges = std::map<std::pair<uint32_t, uint32_t>, int>;
 
-/// The definition, from triangles alone: the boundary of the light-facing surface (closed) or of
-/// the whole surface with every triangle turned to the light (double-sided). Opposite edges cancel.
+/// The definition, from triangles alone: the boundary of the light-facing surface (closed part) or
+/// of the whole part with every triangle turned to face the light (double-sided). Opposite edges
+/// cancel.
 DirectedEdges find_silhouette_by_brute_force(
 		const MeshTopology &p_topology, const glm::dvec4 &p_light) {
 	const std::vector<uint8_t> is_facing = compute_facing(p_topology, p_light);
 	DirectedEdges edges;
 	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
-		if (!p_topology.is_double_sided() && is_facing[face] == 0) {
+		if (!p_topology.is_double_sided(face) && is_facing[face] == 0) {
 			continue;
 		}
 		for (int k = 0; k < 3; ++k) {
@@ -106,9 +107,27 @@ TEST_CASE("[Silhouette] agrees with the boundary of the lit surface, for every l
 			CHECK(sum_up(silhouette) == find_silhouette_by_brute_force(topology, light));
 			check_loops(silhouette);
 			for (const SilhouetteEdge &edge : silhouette.edges) {
-				CHECK(edge.weight <= (topology.is_double_sided() ? 2u : 1u));
+				const uint32_t face = topology.edges[edge.edge_index].face0;
+				CHECK(edge.weight <= (topology.is_double_sided(face) ? 2u : 1u));
 			}
 		}
+	}
+}
+
+TEST_CASE("[Silhouette] of a closed part is the same whether the mesh has an open part or not") {
+	Mesh quad = make_quad();
+	for (glm::vec3 &position : quad.positions_node) {
+		position += glm::vec3(9, 0, 0);
+	}
+	const MeshTopology sphere = build_topology(make_sphere(2));
+	const MeshTopology both = build_topology(join(make_sphere(2), quad));
+	for (const glm::dvec4 &light : make_lights()) {
+		DirectedEdges expected = sum_up(build_silhouette(sphere, light));
+		DirectedEdges found = sum_up(build_silhouette(both, light));
+		const uint32_t first_of_quad = uint32_t(sphere.welded_positions_node.size());
+		std::erase_if(
+				found, [&](const auto &p_item) { return p_item.first.first >= first_of_quad; });
+		CHECK(found == expected);
 	}
 }
 

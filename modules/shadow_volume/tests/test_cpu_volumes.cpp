@@ -21,7 +21,10 @@ std::map<std::string, Mesh> make_meshes() {
 	return { { "cube", test_meshes::make_cube() }, { "sphere", test_meshes::make_sphere(3) },
 		{ "torus", test_meshes::make_torus(12, 8) }, { "quad", test_meshes::make_quad() },
 		{ "moebius", test_meshes::make_moebius(9) }, { "soup", test_meshes::make_soup(3, 30, 60) },
-		{ "flipped face", flipped }, { "fan", fan } };
+		{ "flipped face", flipped }, { "fan", fan },
+		{ "cube and quad", test_meshes::join(test_meshes::make_cube(), test_meshes::make_quad()) },
+		{ "cube and Moebius strip",
+				test_meshes::join(test_meshes::make_moebius(9), test_meshes::make_cube()) } };
 }
 
 using Corner = std::array<float, 4>;
@@ -61,16 +64,18 @@ TEST_CASE("[ShadowVolume] the volume of every kind of mesh is closed, from every
 					 glm::dvec4(0.1, -0.2, 0.15, 1), glm::dvec4(0, 1, 0, 0),
 					 glm::dvec4(0.3, -0.5, 0.8, 0), glm::dvec4(2, 1, 0.5, 1) }) {
 			CAPTURE(light.x);
-			const bool is_robust = topology.is_double_sided();
-			const auto corners = build_cpu_volume(topology, light, is_robust, true, true);
+			const VolumeFaces all = VolumeFaces::ALL;
+			const VolumeFaces not_solid = VolumeFaces::NOT_SOLID;
+			const auto corners = build_cpu_volume(topology, light, { not_solid, all, true });
 			CHECK(corners.size() % 3 == 0);
 			CHECK(count_open_edges(corners, light.w == 0) == 0);
 			// Taken as open, every mesh has a closed volume too.
-			const auto robust = build_cpu_volume(topology, light, true, true, true);
+			const auto robust = build_cpu_volume(topology, light, { all, all, true });
 			CHECK(robust.size() > 0);
 			CHECK(count_open_edges(robust, light.w == 0) == 0);
 			// Without caps it has the same sides.
-			const auto sides = build_cpu_volume(topology, light, is_robust, false, false);
+			const auto sides =
+					build_cpu_volume(topology, light, { not_solid, VolumeFaces::NONE, false });
 			CHECK((sides.size() < corners.size() || corners.empty())); // empty: seen from inside
 			CHECK(sides.size() % 6 == 0);
 		}
@@ -80,16 +85,53 @@ TEST_CASE("[ShadowVolume] the volume of every kind of mesh is closed, from every
 TEST_CASE("[ShadowVolume] a cube seen from a corner has six sides and three faces") {
 	const MeshTopology topology = build_topology(test_meshes::make_cube());
 	const glm::dvec4 light(4, 5, 6, 1);
-	CHECK(build_cpu_volume(topology, light, false, false, false).size() == 6 * 6);
-	CHECK(build_cpu_volume(topology, light, false, true, false).size() == 6 * 6 + 6 * 3);
-	CHECK(build_cpu_volume(topology, light, false, true, true).size() == 6 * 6 + 2 * 6 * 3);
+	const auto count = [&](VolumeFaces p_robust, VolumeFaces p_near_capped, bool p_has_far_cap) {
+		return build_cpu_volume(topology, light, { p_robust, p_near_capped, p_has_far_cap }).size();
+	};
+	const VolumeFaces all = VolumeFaces::ALL;
+	for (const VolumeFaces robust : { VolumeFaces::NONE, VolumeFaces::NOT_SOLID }) {
+		CHECK(count(robust, VolumeFaces::NONE, false) == 6 * 6);
+		CHECK(count(robust, VolumeFaces::NOT_SOLID, false) == 6 * 6);
+		CHECK(count(robust, all, false) == 6 * 6 + 6 * 3);
+		CHECK(count(robust, all, true) == 6 * 6 + 2 * 6 * 3);
+	}
 	// Robust: both sides of each edge, all faces.
-	CHECK(build_cpu_volume(topology, light, true, true, true).size() == 2 * 6 * 6 + 2 * 12 * 3);
+	CHECK(count(all, all, true) == 2 * 6 * 6 + 2 * 12 * 3);
+}
+
+TEST_CASE("[ShadowVolume] only the open part of a mesh has a volume for each of its faces") {
+	Mesh quad = test_meshes::make_quad();
+	for (glm::vec3 &position : quad.positions_node) {
+		position += glm::vec3(5, 0, 0);
+	}
+	const Mesh cube = test_meshes::make_cube();
+	Mesh inside_out = test_meshes::make_cube({ 0, 9, 0 });
+	for (size_t first = 0; first < inside_out.indices.size(); first += 3) {
+		std::swap(inside_out.indices[first], inside_out.indices[first + 1]);
+	}
+	const glm::dvec4 light(4, 5, -6, 1); // behind the quad
+	const VolumeFaces all = VolumeFaces::ALL;
+	const VolumeFaces not_solid = VolumeFaces::NOT_SOLID;
+	for (const VolumeShape &shape : { VolumeShape{ not_solid, VolumeFaces::NONE, false },
+				 VolumeShape{ not_solid, not_solid, false },
+				 VolumeShape{ not_solid, all, true } }) {
+		const auto count = [&](const Mesh &p_mesh) {
+			return build_cpu_volume(build_topology(p_mesh), light, shape).size();
+		};
+		CHECK(count(quad) > 0);
+		CHECK(count(test_meshes::join(cube, quad)) == count(cube) + count(quad));
+		CHECK(count(test_meshes::join(cube, inside_out)) == count(cube) + count(inside_out));
+		VolumeShape robust = shape;
+		robust.robust = all;
+		CHECK(count(inside_out) ==
+				build_cpu_volume(build_topology(inside_out), light, robust).size());
+	}
 }
 
 TEST_CASE("[ShadowVolume] a light that is nowhere has no volume") {
 	const MeshTopology topology = build_topology(test_meshes::make_cube());
 	for (const double value : { double(NAN), double(INFINITY) }) {
-		CHECK(build_cpu_volume(topology, glm::dvec4(value, 0, 0, 1), true, true, true).empty());
+		const VolumeShape shape = { VolumeFaces::ALL, VolumeFaces::ALL, true };
+		CHECK(build_cpu_volume(topology, glm::dvec4(value, 0, 0, 1), shape).empty());
 	}
 }
