@@ -57,6 +57,17 @@ inline void add_meshes(SmallScene &r_scene) {
 		std::swap(inside_out.indices[first], inside_out.indices[first + 1]);
 	}
 	add("inside out", inside_out, { -1.4, 0.5, -0.2 }, 0.2);
+	// Closed, duplicate, inside-out and open parts of one mesh, which pierce each other.
+	using namespace test_meshes;
+	Mesh mixed = join(join(make_cube(), make_cube()), join(make_cube({ 2, 2, 0 }), make_quad()));
+	for (glm::vec3 &position : inside_out.positions_node) {
+		position = position * 0.7f + glm::vec3(0.0f, 2.2f, 0.3f);
+	}
+	mixed = join(mixed, join(inside_out, make_moebius(12)));
+	for (size_t i = 24; i < 28; ++i) {
+		mixed.positions_node[i] = mixed.positions_node[i] * 4.0f - glm::vec3(1.9f, 1.7f, -0.4f);
+	}
+	add("mixed", mixed, { 0.6, 0.5, 1.1 }, 0.15);
 }
 
 inline MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
