@@ -48,9 +48,7 @@ std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
 		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
 		const uint32_t b = corners[is_facing ? 1 : 2];
 		const uint32_t c = corners[is_facing ? 2 : 1];
-		if (includes(p_shape.near_capped, is_solid)) {
-			builder.add_triangle(corners[0], b, c, false);
-		}
+		builder.add_triangle(corners[0], b, c, false);
 		if (p_shape.has_far_cap) {
 			builder.add_triangle(corners[0], c, b, true);
 		}

@@ -49,7 +49,7 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	edges.plan(p_inputs, list_compute_casters(p_inputs, casters), !culling.decides_draws(p_inputs),
 			r_plan);
 	if (casters.spared_caps_count > 0) {
-		r_plan.leave_out(text("caps of ", casters.spared_caps_count, " casters"),
+		r_plan.leave_out(text("far caps of ", casters.spared_caps_count, " casters"),
 				"z-pass is safe: the camera's near plane is outside their volumes");
 	}
 	if (casters.unseen_count > 0) {

@@ -4,6 +4,9 @@
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/mesh_store.h"
 
+#include "shadow_volume/shadow_volume_shared.h"
+#include "shared/light_shared.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,9 +97,16 @@ uint32_t estimate_layers(const MeshTopology &p_topology) {
 	return std::clamp(layers, 1u, MOST_LAYERS);
 }
 
+LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs) {
+	CameraSnapshot camera = p_inputs.scene.camera;
+	camera.position_world[VOLUMES_MOVED_AXIS] +=
+			double(RECEIVER_OFFSET) * p_inputs.scene.scene_size_m;
+	return make_camera_view(camera, p_inputs.size_px);
+}
+
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances) {
-	const LightView camera = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
+	const LightView camera = make_volume_camera(p_inputs);
 	VolumeArea whole;
 	whole.size_px = p_inputs.size_px;
 	GroupSplitter groups(p_inputs.size_px);
@@ -136,11 +146,6 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 						? VolumeCount::Z_FAIL
 						: VolumeCount::Z_PASS);
 		caster.shape.has_far_cap = caster.count == VolumeCount::Z_FAIL;
-		// Where the camera sees a face it hides what lies behind its cap. Faces that are culled do
-		// not.
-		caster.shape.near_capped = caster.shape.has_far_cap ? VolumeFaces::ALL
-				: instance.material->is_double_sided		? VolumeFaces::NONE
-															: caster.shape.robust;
 		// A robust volume counts every solid twice.
 		const bool is_robust = caster.shape.robust != VolumeFaces::NONE;
 		caster.group = groups.place(caster.area, (is_robust ? 2 : 1) * solids.layer_count);

@@ -34,6 +34,9 @@ struct VolumeCasters {
 	uint32_t unseen_count = 0;		// whose shadow lies outside the picture
 };
 
+/// The camera that volumes are drawn for: moved by the receivers' offset, see VOLUMES_MOVED_AXIS.
+LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs);
+
 /// Decides for every caster of p_instances (ascending) how it is drawn. Robust are the faces of
 /// parts that are not solid, and all when the light is within the caster's box. A stencil counts to
 /// 255: where more volumes may lie over one another, the casters are split into groups.

@@ -47,7 +47,6 @@ RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::str
 	RasterPipelineDesc desc;
 	desc.name = text("volumes, ", p_what);
 	desc.constants = { { VOLUMES_CONSTANT_ROBUST_FACES, uint32_t(p_caster.shape.robust) },
-		{ VOLUMES_CONSTANT_NEAR_CAPPED_FACES, uint32_t(p_caster.shape.near_capped) },
 		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.shape.has_far_cap ? 1u : 0u } };
 	desc.has_stencil = true;
 	desc.stencil = make_count_test(p_caster.count);
@@ -77,7 +76,7 @@ PipelineRID get_pipeline(const ShadowTechnique::Inputs &p_inputs, const VolumeSe
 std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const SilhouetteCasters &p_listed) {
-	const LightView camera = make_camera_view(p_inputs.scene.camera, p_inputs.size_px);
+	const LightView camera = make_volume_camera(p_inputs);
 	std::vector<VolumeDraw> draws;
 	for (const VolumeCaster &caster : p_casters.casters) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
@@ -102,13 +101,10 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			draw.draw_index = static_cast<uint32_t>(listed - p_listed.casters.data());
 			draw.push.first_in_list = listed->first_in_list;
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "sides");
-			const uint32_t cap_count = (caster.shape.near_capped != VolumeFaces::NONE ? 1 : 0) +
-					(caster.shape.has_far_cap ? 1 : 0);
+			const uint32_t cap_count = caster.shape.has_far_cap ? 2 : 1;
 			draw.cap_vertex_count =
 					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
-			if (draw.cap_vertex_count > 0) {
-				draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
-			}
+			draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
 		}
 		draws.push_back(draw);
 	}
@@ -142,14 +138,12 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 	commands.push_constants(p_draw.push);
 	commands.draw_indirect(
 			r_context.get(p_lists.draws), p_draw.draw_index * sizeof(shader::SilhouetteDraw));
-	if (p_draw.cap_vertex_count > 0) {
-		commands.bind_pipeline(p_draw.caps_pipeline);
-		commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
-				{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() },
-				{ VOLUMES_BINDING_FACE_FLAGS, gpu.face_flags.get() } });
-		commands.push_constants(p_draw.push);
-		commands.draw(p_draw.cap_vertex_count);
-	}
+	commands.bind_pipeline(p_draw.caps_pipeline);
+	commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
+			{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() },
+			{ VOLUMES_BINDING_FACE_FLAGS, gpu.face_flags.get() } });
+	commands.push_constants(p_draw.push);
+	commands.draw(p_draw.cap_vertex_count);
 }
 
 void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,

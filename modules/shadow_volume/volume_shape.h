@@ -16,14 +16,13 @@ constexpr bool includes(VolumeFaces p_faces, bool p_is_solid) {
 	return p_faces == VolumeFaces::ALL || (p_faces == VolumeFaces::NOT_SOLID && !p_is_solid);
 }
 
-/// Which polygons a caster's shadow volume has. Sides along the silhouette edges it always has.
+/// Which polygons a caster's shadow volume has: always sides along the silhouette edges and a cap
+/// at the caster, for each face that has a volume.
 struct VolumeShape {
 	/// Each of these faces has a volume of its own, whichever of its sides faces the light. Of the
 	/// others those that face the light have one volume together.
 	VolumeFaces robust = VolumeFaces::NONE;
-	/// Of the faces that have a volume, those that close it at the caster.
-	VolumeFaces near_capped = VolumeFaces::NONE;
-	bool has_far_cap = false; // at infinity, for all faces
+	bool has_far_cap = false; // at infinity
 };
 
 } // namespace gnomon

@@ -3,8 +3,8 @@
 #include "common/silhouette_inc.glsl"
 #include "shadow_volume/volume_inc.glsl"
 
-// Caps without a geometry shader: per face its near one, then its far one, as far as any face has them.
-// The cap of a face that has none collapses; that of a back-facing robust one is turned round.
+// Caps without a geometry shader: per face its near one, then its far one where there are such. Those of a
+// back-facing face collapse; where it is robust they wind the other way.
 layout(std430, set = 0, binding = VOLUMES_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];
 };
@@ -17,18 +17,16 @@ layout(std430, set = 0, binding = VOLUMES_BINDING_FACE_FLAGS) readonly buffer Fa
 };
 
 void main() {
-	const bool has_near_cap = NEAR_CAPPED_FACES != VOLUMES_FACES_NONE;
-	const uint per_face = 3u * ((has_near_cap ? 1u : 0u) + (HAS_FAR_CAP ? 1u : 0u));
+	const uint per_face = HAS_FAR_CAP ? 6u : 3u;
 	const uint index = uint(gl_VertexIndex);
 	const uint first = 6u * (index / per_face);
 	const uvec3 ids = uvec3(triangles[first], triangles[first + 2u], triangles[first + 4u]);
 	const bool is_turned = is_turned_to_light(push.light_node, ids, positions_node[ids.x].xyz,
 			positions_node[ids.y].xyz, positions_node[ids.z].xyz);
-	const bool is_far = !has_near_cap || index % per_face >= 3u;
+	const bool is_far = index % per_face >= 3u;
 	const bool is_solid = (face_flags[index / per_face] & TOPOLOGY_FACE_NOT_SOLID) == 0u;
 	const bool has_volume = is_turned || volume_includes(ROBUST_FACES, is_solid);
-	const bool has_cap = has_volume && (is_far || volume_includes(NEAR_CAPPED_FACES, is_solid));
-	uint corner = has_cap ? index % 3u : 0u;
+	uint corner = has_volume ? index % 3u : 0u;
 	if (is_far == is_turned) { // the far cap, and a face that is turned round, wind the other way
 		corner = (3u - corner) % 3u;
 	}

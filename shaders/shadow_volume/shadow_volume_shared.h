@@ -9,6 +9,10 @@
 #define RECEIVERS_BINDING_RECEIVERS 3
 #define RECEIVERS_BINDING_LIGHT 4
 
+// Volumes are drawn for a camera that is moved by the receivers' offset along this axis of the world, Y: so
+// what is compared is exact for receivers with that normal, floors, and as near as otherwise for the rest.
+#define VOLUMES_MOVED_AXIS 1
+
 // volumes.geom, sides.vert, caps.vert
 #define VOLUMES_BINDING_FACE_FLAGS 0
 #define VOLUMES_BINDING_POSITIONS 1
@@ -18,10 +22,9 @@
 
 // Specialization constants of the same
 #define VOLUMES_CONSTANT_ROBUST_FACES 0
-#define VOLUMES_CONSTANT_NEAR_CAPPED_FACES 1
-#define VOLUMES_CONSTANT_HAS_FAR_CAP 2
+#define VOLUMES_CONSTANT_HAS_FAR_CAP 1
 
-// Values of the first two, as VolumeFaces of volume_shape.h
+// Values of the first, as VolumeFaces of volume_shape.h
 #define VOLUMES_FACES_NONE 0
 #define VOLUMES_FACES_NOT_SOLID 1
 #define VOLUMES_FACES_ALL 2

@@ -8,9 +8,8 @@
 layout(push_constant) uniform Push {
 	VolumePush push;
 };
-// As VolumeShape: VOLUMES_FACES_*.
+// As VolumeShape. VOLUMES_FACES_*
 layout(constant_id = VOLUMES_CONSTANT_ROBUST_FACES) const uint ROBUST_FACES = VOLUMES_FACES_NONE;
-layout(constant_id = VOLUMES_CONSTANT_NEAR_CAPPED_FACES) const uint NEAR_CAPPED_FACES = VOLUMES_FACES_ALL;
 layout(constant_id = VOLUMES_CONSTANT_HAS_FAR_CAP) const bool HAS_FAR_CAP = true;
 
 bool volume_includes(uint p_faces, bool p_is_solid) {

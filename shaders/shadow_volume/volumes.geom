@@ -51,9 +51,7 @@ void main() {
 	if (is_turned || is_robust) {
 		const uint b = is_turned ? 2u : 4u;
 		const uint c = is_turned ? 4u : 2u;
-		if (volume_includes(NEAR_CAPPED_FACES, is_solid)) {
-			emit_triangle(0u, b, c, false);
-		}
+		emit_triangle(0u, b, c, false);
 		if (HAS_FAR_CAP) {
 			emit_triangle(0u, c, b, true);
 		}

@@ -26,7 +26,7 @@ const VolumeWishes COMPUTE = { { "extrusion", std::string("compute") } };
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowVolume] caps are left out where z-pass is safe, and nowhere else") {
+TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and nowhere else") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		SmallScene scene(type);
@@ -36,8 +36,8 @@ TEST_CASE("[GPU][ShadowVolume] caps are left out where z-pass is safe, and nowhe
 		const RenderResult all =
 				render_volumes(fixture, scene, {}, "shadow_volume", size_px, false);
 		CHECK(lean.visibility == all.visibility);
-		CHECK(lean.plan.is_left_out("Light", "caps of 1 casters"));
-		CHECK_FALSE(all.plan.is_left_out("Light", "caps of 1 casters"));
+		CHECK(lean.plan.is_left_out("Light", "far caps of 1 casters"));
+		CHECK_FALSE(all.plan.is_left_out("Light", "far caps of 1 casters"));
 		// In the box's shadow the near plane is hidden: caps are needed.
 		scene.camera->parent_from_node = look_at({ -0.05, 0.5, -0.05 }, { -0.6, 0.1, -0.5 });
 		const RenderResult within = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
