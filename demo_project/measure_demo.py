@@ -5,6 +5,7 @@ A scene or technique that fails is written down as such and the rest goes on; ex
 """
 
 import argparse
+import fnmatch
 import json
 import os
 import re
@@ -236,6 +237,7 @@ class Measurement:
 def select_scenes(project, options):
     """(name, path) of the scenes to do; one that is missing is skipped with a warning."""
     wanted = [name for name in options.scenes.split(",") if name]
+    skipped = [pattern for pattern in options.skip.split(",") if pattern]
     selected = []
     names = []
     for item in project["project"]["scenes"]:
@@ -243,6 +245,8 @@ def select_scenes(project, options):
         names.append(name)
         path = os.path.join(PROJECT, item)
         if wanted and name not in wanted:
+            continue
+        if any(fnmatch.fnmatchcase(name, pattern) for pattern in skipped):
             continue
         if not os.path.isfile(path):
             print("WARNING: %s does not exist, skipped." % path, file=sys.stderr)
@@ -262,6 +266,7 @@ def main():
     parser.add_argument("--samples", type=int, default=0, help="light samples of the reference (0 = its default)")
     parser.add_argument("--frames", type=int, default=0, help="frames that are timed (0 = the program's default)")
     parser.add_argument("--scenes", default="", help="A,B: these scenes only")
+    parser.add_argument("--skip", default="", help="A,B*: all scenes but these")
     parser.add_argument("--quick", action="store_true", help="the first %d scenes only" % QUICK_SCENE_COUNT)
     parser.add_argument("--device", default="", help="Vulkan device, by name or index")
     options = parser.parse_args()

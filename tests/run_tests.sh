@@ -184,7 +184,8 @@ if is_wanted layers; then
     run_part "layers canary" python3 tests/layers/test_layers.py --self-test
 fi
 if is_wanted scenes; then
-    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_page.py
+    run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
+        tests/demo/test_page.py
 fi
 # Every later part runs what this one builds.
 if is_wanted build; then
@@ -209,7 +210,9 @@ if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
     run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
 fi
 if is_wanted demo; then
-    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
+    # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
+    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo" \
+        --skip kitbash,rigging,grass
 fi
 if is_wanted stability; then
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py

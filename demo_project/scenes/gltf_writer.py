@@ -1,7 +1,7 @@
 """Triangles and a small glTF 2.0 writer for the demo scenes. Standard library only.
 
-A mesh is checked before it is written: float32 positions, no degenerate triangle, and, where it
-should be closed, an oriented 2-manifold with outward faces after welding by position.
+A mesh is checked before it is written: float32 positions, no degenerate triangle, unless it says otherwise an
+oriented 2-manifold after welding by position, and, where it should be closed, one with outward faces.
 """
 
 import json
@@ -89,11 +89,12 @@ def rotate(quaternion, v):
 class Mesh:
     """Positions, normals and triangles; positions are rounded to float32 when they are added."""
 
-    def __init__(self, is_closed=True):
+    def __init__(self, is_closed=True, is_manifold=True):
         self.positions = []
         self.normals = []
         self.triangles = []
         self.is_closed = is_closed
+        self.is_manifold = is_manifold
 
     def add_vertex(self, position, normal):
         self.positions.append(tuple(to_float32(value) for value in position))
@@ -144,6 +145,8 @@ class Mesh:
             for edge in ((a, b), (b, c), (c, a)):
                 directed[edge] = directed.get(edge, 0) + 1
                 parent[find(edge[0])] = find(edge[1])
+        if not self.is_manifold:
+            return
         for (a, b), count in directed.items():
             if count > 1:
                 raise ValueError("mesh %s: edge %s-%s is run %d times in one direction" % (name, points[a], points[b], count))

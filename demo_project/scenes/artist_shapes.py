@@ -1,0 +1,233 @@
+"""Meshes as artists leave them: parts merged into one mesh that pierce each other, open, doubled, non-manifold.
+
+Every function takes its random numbers from a generator with a seed and returns a gltf_writer.Mesh in metres whose
+ground is y = 0. A mesh of this kind only promises finite positions, unit normals and triangles of some area.
+"""
+
+import math
+
+from gltf_writer import Mesh, add, cross, dot, normalize, quaternion_about, quaternion_from_y, rotate, scale, subtract
+from shapes import make_box, make_sheet
+
+
+def make_open_tube(points, radius, side_count, angle_rad=0.0):
+    """A tube without caps along a polyline that never runs along +Y for long; smooth normals."""
+    mesh = Mesh(is_closed=False)
+    for i, point in enumerate(points):
+        along = normalize(subtract(points[min(i + 1, len(points) - 1)], points[max(i - 1, 0)]))
+        helper = (1.0, 0.0, 0.0) if abs(along[0]) < 0.8 else (0.0, 0.0, 1.0)
+        right = normalize(cross(along, helper))
+        up = cross(right, along)
+        for j in range(side_count):
+            angle = angle_rad + 2.0 * math.pi * j / side_count
+            normal = add(scale(right, math.cos(angle)), scale(up, math.sin(angle)))
+            mesh.add_vertex(add(point, scale(normal, radius)), normal)
+    for i in range(len(points) - 1):
+        for j in range(side_count):
+            k = (j + 1) % side_count
+            first, second = i * side_count, (i + 1) * side_count
+            mesh.add_quad(first + j, second + j, second + k, first + k)
+    return mesh
+
+
+def make_strip(left, right):
+    """Quads between two polylines, front where the right one is to the right of the left one's way; flat normals."""
+    mesh = Mesh(is_closed=False)
+    for i in range(len(left) - 1):
+        corners = (left[i], right[i], right[i + 1], left[i + 1])
+        normal = cross(subtract(corners[2], corners[0]), subtract(corners[3], corners[1]))
+        mesh.add_quad(*(mesh.add_vertex(corner, normal) for corner in corners))
+    return mesh
+
+
+def mix(a, b, t):
+    return add(scale(a, 1.0 - t), scale(b, t))
+
+
+def pick_turn(generator):
+    """Mostly upright with some yaw, as a level editor's snapping leaves things; one in four any way."""
+    yaw = quaternion_about((0.0, 1.0, 0.0), 2.0 * math.pi * generator.random())
+    if generator.random() < 0.75:
+        return yaw
+    direction = normalize((generator.uniform(-1.0, 1.0), generator.uniform(0.1, 1.0), generator.uniform(-1.0, 1.0)))
+    return quaternion_from_y(direction)
+
+
+def make_kitbash_part(generator):
+    """A box, an open tube, a plank or a card about the origin."""
+    kind = generator.choice(("box", "tube", "plank", "card"))
+    if kind == "box":
+        mesh = make_box([generator.uniform(0.05, 0.16) for _ in range(3)])
+        if generator.random() < 0.3:  # its last face deleted, since no camera was meant to see it
+            mesh.triangles = mesh.triangles[:-2]
+        return mesh
+    if kind == "tube":
+        half = generator.uniform(0.15, 0.5)
+        side_count = generator.choice((8, 12, 24))
+        return make_open_tube([(0.0, -half, 0.0), (0.0, half, 0.0)], generator.uniform(0.02, 0.09), side_count)
+    if kind == "plank":
+        return make_box((generator.uniform(0.2, 0.5), generator.uniform(0.005, 0.015), generator.uniform(0.04, 0.1)))
+    return make_sheet(generator.uniform(0.1, 0.3), generator.uniform(0.1, 0.3))
+
+
+# Of the parts: one in that many is there twice, or has a third face on one of its edges.
+DUPLICATE_STEP, FIN_STEP = 30, 20
+
+
+def make_kitbash(generator, part_count):
+    """Parts in a mound, one mesh: closed and open, pierced by others and by the ground, some doubled, some with edges
+    of three faces. The first ones are broad slabs and cards on which the others cast."""
+    mesh = Mesh(is_closed=False, is_manifold=False)
+    for index in range(part_count):
+        # Denser in the middle, and the nearer to it the higher.
+        distance = 1.55 * math.sqrt(generator.random())
+        angle = 2.0 * math.pi * generator.random()
+        height = (1.75 - distance) * generator.random()
+        place = (distance * math.cos(angle), height, distance * math.sin(angle))
+        if index < part_count // 20:
+            part = make_box((generator.uniform(0.3, 0.5), 0.03, generator.uniform(0.25, 0.4))) if index % 2 else make_sheet(0.45, 0.35)
+            turn = quaternion_about((1.0, 0.0, 0.3), -0.5 * math.pi + generator.uniform(-0.3, 0.3))
+            if index % 2:
+                turn = quaternion_about((1.0, 0.0, 0.6), generator.uniform(-0.3, 0.3))
+        else:
+            part, turn = make_kitbash_part(generator), pick_turn(generator)
+        first_vertex = len(mesh.positions)
+        mesh.add_mesh(part, turn, place)
+        if index % DUPLICATE_STEP == 0:
+            mesh.triangles += [tuple(corner + first_vertex for corner in triangle) for triangle in part.triangles]
+        if index % FIN_STEP == 0:
+            add_fin(mesh, mesh.triangles[-1], generator.uniform(0.05, 0.2))
+    return mesh
+
+
+def add_fin(mesh, triangle, height):
+    """A third face on the triangle's first edge, along its normal."""
+    a, b, c = (mesh.positions[index] for index in triangle)
+    face_normal = normalize(cross(subtract(b, a), subtract(c, a)))
+    fin_normal = cross(subtract(b, a), face_normal)
+    corners = (b, a, add(a, scale(face_normal, height)))
+    if dot(cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])), fin_normal) < 0.0:
+        fin_normal = scale(fin_normal, -1.0)
+    mesh.add_triangle(*(mesh.add_vertex(corner, fin_normal) for corner in corners))
+
+
+def make_rope_points(start, end, sag, segment_count):
+    """From start to end, hanging through by sag in the middle (a parabola)."""
+    points = []
+    for i in range(segment_count + 1):
+        t = i / segment_count
+        points.append(subtract(mix(start, end, t), (0.0, 4.0 * sag * t * (1.0 - t), 0.0)))
+    return points
+
+
+HULL_HALF_LENGTH, HULL_HALF_BEAM, DECK_HEIGHT, KEEL_HEIGHT = 1.6, 0.45, 0.55, 0.03
+MASTS = ((-0.85, 1.75), (0.05, 2.1), (0.9, 1.6))  # x, height of the top
+YARD_HALF_WIDTH = 0.6
+
+
+def find_rail(x, side):
+    """The hull's upper edge at x."""
+    t = x / HULL_HALF_LENGTH
+    return (x, DECK_HEIGHT + 0.12 * t * t, side * HULL_HALF_BEAM * math.sqrt(max(0.0, 1.0 - t**4)))
+
+
+def make_hull(strake_count=6, station_count=24):
+    """Strakes that lie side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
+    mesh = Mesh(is_closed=False, is_manifold=False)
+    stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
+
+    def find_point(x, side, t):
+        # From keel (t = 0) to rail (t = 1), round below.
+        rail = find_rail(x, side)
+        return (x, KEEL_HEIGHT + (rail[1] - KEEL_HEIGHT) * (1.0 - math.cos(0.5 * math.pi * t)), rail[2] * math.sin(0.5 * math.pi * t))
+
+    for side in (-1.0, 1.0):
+        for strake in range(strake_count):
+            lower = [find_point(x, side, strake / strake_count) for x in stations]
+            # Each laps over the next by a little, as clinker planks do.
+            upper = [find_point(x, side, min(1.0, (strake + 1.08) / strake_count)) for x in stations]
+            mesh.add_mesh(make_strip(upper, lower) if side < 0.0 else make_strip(lower, upper))
+    for i in range(station_count):
+        if i % 7 == 3:
+            continue  # a hatch
+        port, starboard = ([find_point(x, side, 0.8) for x in stations[i : i + 2]] for side in (-1.0, 1.0))
+        mesh.add_mesh(make_strip(starboard, port))
+    for x, top in MASTS:
+        mesh.add_mesh(make_open_tube([(x, 0.1, 0.0), (x, top, 0.0)], 0.028, 10))
+        for share in (0.62, 0.88):
+            y = top * share
+            mesh.add_mesh(make_open_tube([(x, y, -YARD_HALF_WIDTH), (x, y, YARD_HALF_WIDTH)], 0.015, 6))
+    bow = find_rail(0.98 * HULL_HALF_LENGTH, 1.0)
+    mesh.add_mesh(make_open_tube([(1.35, bow[1] - 0.1, 0.0), (1.95, bow[1] + 0.2, 0.0)], 0.02, 6))
+    return mesh
+
+
+LADDER_STEP = 7  # one rope in that many is a ladder
+
+
+def make_rigging(generator, rope_count):
+    """Thin open tubes from rails to masts and yards, and between them; ladders of two ropes and rungs."""
+    mesh = Mesh(is_closed=False, is_manifold=False)
+    for index in range(rope_count):
+        mast_x, mast_top = generator.choice(MASTS)
+        side = generator.choice((-1.0, 1.0))
+        foot_x = max(-1.5, min(1.5, mast_x + generator.uniform(-0.45, 0.45)))
+        foot = find_rail(foot_x, side)
+        head = (mast_x, mast_top * generator.uniform(0.55, 0.98), 0.0)
+        if index % LADDER_STEP == 0:
+            add_ladder(mesh, foot, head, generator.uniform(0.05, 0.12))
+            continue
+        kind = generator.random()
+        if kind < 0.3:  # from mast to mast
+            other_x, other_top = generator.choice([mast for mast in MASTS if mast[0] != mast_x])
+            foot = (other_x, other_top * generator.uniform(0.45, 0.98), 0.0)
+        elif kind < 0.6:  # from a yard down to the rail
+            head = (mast_x, mast_top * generator.choice((0.62, 0.88)), side * generator.uniform(0.1, YARD_HALF_WIDTH))
+        elif kind < 0.7:  # to the ground, through which it goes
+            foot = (foot_x + generator.uniform(-0.4, 0.4), -0.05, side * generator.uniform(0.7, 1.3))
+        sag = generator.uniform(0.0, 0.12)
+        mesh.add_mesh(make_open_tube(make_rope_points(foot, head, sag, 12), generator.uniform(0.003, 0.007), 4, generator.random()))
+    return mesh
+
+
+def add_ladder(mesh, foot, head, half_width):
+    rung_step = 0.09
+    rails = [
+        make_rope_points((foot[0] + offset, foot[1], foot[2]), (head[0] + 0.25 * offset, head[1], head[2]), 0.02, 6)
+        for offset in (-half_width, half_width)
+    ]
+    for rail in rails:
+        mesh.add_mesh(make_open_tube(rail, 0.005, 4))
+    rung_count = int(math.dist(foot, head) / rung_step)
+    for i in range(1, rung_count):
+        at = 6.0 * i / rung_count
+        segment = min(int(at), 5)
+        ends = [mix(rail[segment], rail[segment + 1], at - segment) for rail in rails]
+        mesh.add_mesh(make_open_tube(ends, 0.004, 3))
+
+
+GRASS_RADIUS = 1.5
+BLADE_ROOT_DEPTH = 0.04
+
+
+def make_grass(generator, blade_count):
+    """Bent blades of two quads and a tip, each an open sheet that begins below the ground."""
+    mesh = Mesh(is_closed=False, is_manifold=False)
+    for _ in range(blade_count):
+        distance, angle = GRASS_RADIUS * math.sqrt(generator.random()), 2.0 * math.pi * generator.random()
+        root = (distance * math.cos(angle), -BLADE_ROOT_DEPTH, distance * math.sin(angle))
+        height, half_width = generator.uniform(0.12, 0.45), generator.uniform(0.008, 0.02)
+        bend = generator.uniform(0.0, 0.35) * height
+        yaw = quaternion_about((0.0, 1.0, 0.0), 2.0 * math.pi * generator.random())
+        slope = 2.0 * bend / height  # of the bend at the tip; the normal leans back by it
+        corners = []
+        for t in (0.0, 0.45, 0.8, 1.0):
+            center = (0.0, t * (height + BLADE_ROOT_DEPTH), bend * t * t)
+            normal = rotate(yaw, normalize((0.0, -slope * t, 1.0)))
+            width = half_width * (1.0 - t) ** 0.5
+            for x in (-width, width) if t < 1.0 else (0.0,):
+                corners.append(mesh.add_vertex(add(root, rotate(yaw, add(center, (x, 0.0, 0.0)))), normal))
+        mesh.add_quad(corners[0], corners[1], corners[3], corners[2])
+        mesh.add_quad(corners[2], corners[3], corners[5], corners[4])
+        mesh.add_triangle(corners[4], corners[5], corners[6])
+    return mesh
