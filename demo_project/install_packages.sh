@@ -9,11 +9,11 @@ BUILD_PACKAGES=(
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libmeshoptimizer-dev libembree-dev
     libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev libxxhash-dev
 )
-# The mesh of the bunny scene.
-DEMO_PACKAGES=(glmark2-data)
+# Meshes of the bunny and of scenes/make_package_meshes.py, and what converts them.
+DEMO_PACKAGES=(glmark2-data assimp-testmodels assimp-utils)
 # What the tests use beside that.
 TEST_PACKAGES=(
-    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps assimp-testmodels chromium
+    git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium
 )
 # What tests/run_tests.sh --full uses beside that, to download meshes.
 LARGE_MESH_PACKAGES=(npm)

@@ -10,43 +10,15 @@ self-shadow is what it is about.
 
 import argparse
 import os
-import subprocess
 import sys
 
 from gltf_writer import Document, Mesh, save_files
 from make_scenes import CORAL, FOLDER, SCENE_SIZE_M, add_ground, add_translucent_set, make_document, make_scatter_extras
+from package_files import MeshUnavailable, find_package_file, load_obj
 
 PACKAGE = "glmark2-data"
 HEIGHT_M = 1.9
 TRIANGLE_COUNT = 69666
-
-
-def find_mesh_file():
-    try:
-        result = subprocess.run(["dpkg", "-L", PACKAGE], capture_output=True, text=True, check=False)
-    except FileNotFoundError:
-        raise SystemExit("ERROR: bunny: dpkg is missing, so package %s cannot be asked. Give the .obj with --mesh." % PACKAGE)
-    for line in result.stdout.splitlines():
-        if line.endswith("/bunny.obj"):
-            return line
-    raise SystemExit("ERROR: bunny: package %s is not installed. Install it, or give the .obj with --mesh." % PACKAGE)
-
-
-def load_obj(path):
-    """Vertices and triangles of a Wavefront OBJ of triangles or convex polygons."""
-    points, triangles = [], []
-    with open(path, encoding="ascii") as file:
-        for line in file:
-            words = line.split()
-            if not words:
-                continue
-            if words[0] == "v":
-                points.append(tuple(float(word) for word in words[1:4]))
-            elif words[0] == "f":
-                corners = [int(word.split("/")[0]) for word in words[1:]]
-                corners = [corner - 1 if corner > 0 else len(points) + corner for corner in corners]
-                triangles += [(corners[0], corners[k], corners[k + 1]) for k in range(1, len(corners) - 1)]
-    return points, triangles
 
 
 def make_bunny(points, triangles):
@@ -87,7 +59,10 @@ def main():
     stem, extension = os.path.splitext(os.path.basename(arguments.out))
     if extension != ".gltf":
         raise SystemExit("ERROR: bunny: output %s must end in .gltf." % arguments.out)
-    path = arguments.mesh or find_mesh_file()
+    try:
+        path = arguments.mesh or find_package_file(PACKAGE, "/bunny.obj")
+    except MeshUnavailable as error:
+        raise SystemExit("ERROR: bunny: %s. Or give the .obj with --mesh." % error)
     try:
         points, triangles = load_obj(path)
     except (OSError, ValueError, IndexError) as error:
