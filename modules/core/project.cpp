@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 
+#include <set>
 #include <sstream>
 
 namespace gnomon {
@@ -130,19 +131,28 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 		} else if (section == "project" && key == "start_scene") {
 			project.start_scene = project.folder / unquote(entry.value);
 		} else if (section == "project" && key == "scenes" && entry.is_list()) {
-			for (const std::string &scene : parse_list(entry.value)) {
-				const fs::path scene_path = project.folder / scene;
-				std::error_code code; // a name that no file can have is missing too
-				const bool is_there = fs::exists(scene_path, code);
-				(is_there ? project.scenes : project.missing_scenes).push_back(scene_path);
-			}
+			project.add_scenes(parse_list(entry.value), project.scenes);
+		} else if (section == "project" && key == "stability_scenes" && entry.is_list()) {
+			project.add_scenes(parse_list(entry.value), project.stability_scenes);
 		} else if (section == "modules" && key == "disabled" && entry.is_list()) {
 			project.disabled_modules = parse_list(entry.value);
 		} else if (section == "defaults") {
 			project.defaults[key] = unquote(entry.value);
 		}
 	}
+	std::set<fs::path> seen;
+	std::erase_if(project.missing_scenes,
+			[&](const fs::path &p_missing) { return !seen.insert(p_missing).second; });
 	return project;
+}
+
+void Project::add_scenes(const std::vector<std::string> &p_names, std::vector<fs::path> &r_scenes) {
+	for (const std::string &scene : p_names) {
+		const fs::path path = folder / scene;
+		std::error_code code; // a name that no file can have is missing too
+		const bool is_there = fs::exists(path, code);
+		(is_there ? r_scenes : missing_scenes).push_back(path);
+	}
 }
 
 void Project::save_disabled_modules() const {

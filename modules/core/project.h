@@ -13,9 +13,11 @@ class Project {
 public:
 	std::filesystem::path folder; // everything a project uses lies below it
 	std::string name;
-	std::filesystem::path start_scene;				   // absolute; empty = none named
-	std::vector<std::filesystem::path> scenes;		   // absolute; those that exist
-	std::vector<std::filesystem::path> missing_scenes; // absolute; listed, but not there
+	std::filesystem::path start_scene;		   // absolute; empty = none named
+	std::vector<std::filesystem::path> scenes; // absolute; those that exist
+	/// Absolute; those that exist of what a report also draws with its stability sweeps.
+	std::vector<std::filesystem::path> stability_scenes;
+	std::vector<std::filesystem::path> missing_scenes; // absolute; listed, but not there; each once
 	std::vector<std::string> disabled_modules;
 	std::map<std::string, std::string> defaults; // [defaults] as written, quotes removed
 
@@ -33,6 +35,10 @@ public:
 			const std::vector<std::string> &p_modules, const std::filesystem::path &p_path);
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
 	static std::filesystem::path find_folder(const std::filesystem::path &p_scene_path);
+
+private:
+	void add_scenes(
+			const std::vector<std::string> &p_names, std::vector<std::filesystem::path> &r_scenes);
 };
 
 } // namespace gnomon

@@ -39,10 +39,6 @@ PropertyValues derive_widths() {
 	return { { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } };
 }
 
-bool casts_shadow(const Light3D &p_light) {
-	return get_bool(Light3D::get_property_list(), p_light.properties, "shadow_enabled");
-}
-
 class Planner {
 public:
 	Planner(const ReportOptions &p_options, const std::vector<TechniqueSource> &p_techniques) :
@@ -57,12 +53,8 @@ public:
 	}
 
 	void add_scene(const ReportScene &p_scene) {
-		if (!p_scene.scene) {
-			add_failure(p_scene.name, p_scene.failure);
-			return;
-		}
 		try {
-			add_lights(p_scene.name, p_scene.scene);
+			add_lights(p_scene);
 		} catch (const Error &error) {
 			add_failure(p_scene.name, error.what());
 		}
@@ -103,18 +95,9 @@ private:
 		add_failure(std::move(configuration), p_message);
 	}
 
-	void add_lights(const std::string &p_name, const std::shared_ptr<const Scene> &p_scene) {
-		const std::vector<Camera3D *> cameras = p_scene->find_nodes<Camera3D>();
-		if (cameras.empty()) {
-			fail("Scene \"", p_name, "\" has no perspective camera. Add one, and export it too.");
-		}
-		std::vector<Light3D *> lights = p_scene->find_nodes<Light3D>();
-		std::erase_if(lights, [](const Light3D *p_light) { return !casts_shadow(*p_light); });
-		if (lights.empty()) {
-			fail("Scene \"", p_name, "\" has no light that casts shadows. Add one ",
-					"(KHR_lights_punctual) with extras.shadow_enabled true.");
-		}
-		const double scene_size_m = build_snapshot(*p_scene, *cameras[0])->scene_size_m;
+	void add_lights(const ReportScene &p_scene) {
+		const ReportView view = find_report_view(p_scene);
+		const double scene_size_m = build_snapshot(*p_scene.scene, *view.camera)->scene_size_m;
 		std::vector<double> sizes_m = options.sizes_m;
 		if (sizes_m.empty()) {
 			for (const double size : DEFAULT_SIZES) {
@@ -122,12 +105,12 @@ private:
 			}
 		}
 		if (options.light_types.empty()) {
-			for (Light3D *light : lights) {
-				add_sizes(p_name, p_scene, *cameras[0], *light, light->type, sizes_m);
+			for (Light3D *light : view.lights) {
+				add_sizes(p_scene.name, p_scene.scene, *view.camera, *light, light->type, sizes_m);
 			}
 		}
 		for (const LightType type : options.light_types) {
-			add_sizes(p_name, p_scene, *cameras[0], *lights[0], type, sizes_m);
+			add_sizes(p_scene.name, p_scene.scene, *view.camera, *view.lights[0], type, sizes_m);
 		}
 	}
 
@@ -288,6 +271,11 @@ private:
 };
 
 } // namespace
+
+bool ReportOptions::has_sweep(const std::string &p_id) const {
+	return stability != StabilityExtent::NONE &&
+			(sweeps.empty() || std::find(sweeps.begin(), sweeps.end(), p_id) != sweeps.end());
+}
 
 ReportPlan make_report_plan(const ReportOptions &p_options,
 		const std::vector<ReportScene> &p_scenes,

@@ -3,6 +3,7 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/error_report/mask_source.h"
 #include "modules/error_report/report.h"
+#include "modules/error_report/report_scene.h"
 #include "modules/error_report/scaling_scenes.h"
 #include "modules/error_report/stability_sweeps.h"
 
@@ -27,14 +28,10 @@ struct ReportOptions {
 	uint64_t filter_hash = 0;	  // see MaskQuestion
 	ScalingExtent scaling = ScalingExtent::QUICK;
 	StabilityExtent stability = StabilityExtent::QUICK;
-	std::vector<std::string> sweeps; // of stability; empty: all
-};
+	std::vector<std::string> sweeps;		   // of stability; empty: all
+	std::vector<ReportScene> stability_scenes; // of the sweep "scenes"
 
-/// A scene of the matrix, or why it could not be loaded.
-struct ReportScene {
-	std::string name;
-	std::shared_ptr<const Scene> scene;
-	std::string failure;
+	bool has_sweep(const std::string &p_id) const;
 };
 
 /// What is to be measured: a report whose truths and cells are still missing, and how to ask for

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace gnomon {
 
@@ -43,11 +44,25 @@ std::optional<double> find_break(
 	return std::nullopt;
 }
 
+/// In the order of the curve; those of a project's scenes are what the report has.
+std::vector<double> find_values(const Report &p_report, const StabilitySweep &p_sweep) {
+	if (!p_sweep.has_project_scenes) {
+		return p_sweep.values;
+	}
+	std::set<double> values;
+	for (const ReportConfiguration &at : p_report.configurations) {
+		if (at.is_stability() && at.sweep == p_sweep.id) {
+			values.insert(at.value);
+		}
+	}
+	return { values.begin(), values.end() };
+}
+
 StabilityCurve make_curve(const Report &p_report, const std::string &p_technique,
 		const StabilitySweep &p_sweep, const std::string &p_light_type) {
 	StabilityCurve curve;
 	curve.technique = p_technique;
-	for (const double value : p_sweep.values) {
+	for (const double value : find_values(p_report, p_sweep)) {
 		for (size_t index = 0; index < p_report.cells.size(); ++index) {
 			const ReportCell &cell = p_report.cells[index];
 			const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
@@ -56,14 +71,17 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 				continue;
 			}
 			const std::optional<size_t> center = find_stability_center(p_report, cell);
-			curve.points.push_back({ value, index,
+			curve.points.push_back({ value,
+					p_sweep.has_project_scenes ? at.scene + "/" + at.light
+											   : p_sweep.describe_value(value),
+					index,
 					judge_stability(cell, at.truth, center ? &p_report.cells[*center] : nullptr),
 					get_stability_error(cell) });
 		}
 	}
 	curve.is_complete = std::none_of(curve.points.begin(), curve.points.end(),
 			[](const StabilityPoint &p_point) { return p_point.state == StabilityState::MISSING; });
-	if (p_sweep.labels.empty()) { // cases have no order to break in
+	if (!p_sweep.has_cases()) { // cases have no order to break in
 		curve.break_before = find_break(curve.points, p_sweep.center, -1);
 		curve.break_after = find_break(curve.points, p_sweep.center, 1);
 	}
@@ -156,9 +174,8 @@ Json to_json(const std::vector<StabilityPlot> &p_plots) {
 		for (const StabilityCurve &curve : plot.curves) {
 			Json points = Json::array();
 			for (const StabilityPoint &point : curve.points) {
-				points.push_back(
-						{ { "value", point.value }, { "label", sweep.describe_value(point.value) },
-								{ "cell", point.cell }, { "state", get_state_name(point.state) } });
+				points.push_back({ { "value", point.value }, { "label", point.label },
+						{ "cell", point.cell }, { "state", get_state_name(point.state) } });
 				if (point.error) {
 					points.back()["mae"] = point.error->mae;
 					points.back()["is_of_penumbra"] = point.error->is_of_penumbra;
@@ -174,8 +191,9 @@ Json to_json(const std::vector<StabilityPlot> &p_plots) {
 			}
 		}
 		json.push_back({ { "sweep", plot.sweep }, { "quantity", sweep.quantity },
-				{ "light_type", plot.light_type }, { "center", sweep.describe_value(sweep.center) },
-				{ "has_cases", !sweep.labels.empty() }, { "series", series } });
+				{ "light_type", plot.light_type },
+				{ "center", sweep.has_project_scenes ? "" : sweep.describe_value(sweep.center) },
+				{ "has_cases", sweep.has_cases() }, { "series", series } });
 	}
 	return json;
 }

@@ -38,7 +38,8 @@ std::optional<size_t> find_stability_center(const Report &p_report, const Report
 
 struct StabilityPoint {
 	double value = 0;
-	size_t cell = 0; // index
+	std::string label; // "1e-06", the case's name, or scene/light
+	size_t cell = 0;   // index
 	StabilityState state = StabilityState::MISSING;
 	std::optional<StabilityError> error;
 };

@@ -1,5 +1,6 @@
 #include "modules/error_report/stability_plan.h"
 
+#include "modules/core/error.h"
 #include "modules/core/text.h"
 
 #include <algorithm>
@@ -36,18 +37,50 @@ private:
 	MaskQuestion question;
 };
 
+/// The lights of the project's own scenes, as they are.
+void plan_project_scenes(const ReportOptions &p_options,
+		const std::function<void(ReportConfiguration, ReportPlan::Ask)> &p_add) {
+	ReportConfiguration configuration;
+	configuration.group = STABILITY_GROUP;
+	configuration.sweep = PROJECT_SCENES_SWEEP;
+	configuration.size_px = glm::uvec2(get_stability_size_px(p_options.stability));
+	for (const ReportScene &item : p_options.stability_scenes) {
+		configuration.scene = item.name;
+		try {
+			const ReportView view = find_report_view(item);
+			const auto snapshot = build_snapshot(*item.scene, *view.camera);
+			configuration.light_count = uint32_t(snapshot->lights.size());
+			for (const Light3D *light : view.lights) {
+				configuration.light = light->name;
+				configuration.id = text("stability/", PROJECT_SCENES_SWEEP, "/",
+						get_light_type_name(light->type), "/", item.name, "/", light->name);
+				const MaskQuestion question = { snapshot, light->name, configuration.size_px,
+					p_options.filter_hash };
+				p_add(configuration, [=](const PropertyValues &) { return question; });
+				configuration.value += 1;
+			}
+		} catch (const Error &error) {
+			configuration.light.clear();
+			configuration.id = text("stability/", PROJECT_SCENES_SWEEP, "/", item.name);
+			p_add(configuration,
+					[message = std::string(error.what())](
+							const PropertyValues &) -> MaskQuestion { fail(message); });
+		}
+	}
+}
+
 } // namespace
 
 void plan_stability(const ReportOptions &p_options,
 		const std::function<void(ReportConfiguration, ReportPlan::Ask)> &p_add) {
-	if (p_options.stability == StabilityExtent::NONE) {
-		return;
-	}
 	const bool is_quick = p_options.stability == StabilityExtent::QUICK;
 	const auto cache = std::make_shared<QuestionCache>();
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
-		const auto &wanted = p_options.sweeps;
-		if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), sweep.id) == wanted.end()) {
+		if (!p_options.has_sweep(sweep.id)) {
+			continue;
+		}
+		if (sweep.has_project_scenes) {
+			plan_project_scenes(p_options, p_add);
 			continue;
 		}
 		std::vector<double> values = is_quick ? sweep.quick_values : sweep.values;

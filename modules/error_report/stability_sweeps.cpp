@@ -59,6 +59,7 @@ std::vector<StabilitySweep> build_sweeps() {
 	}
 	guards.quick_values = guards.values;
 	sweeps.push_back(std::move(guards));
+	sweeps.push_back({ PROJECT_SCENES_SWEEP, "scenes of the project", ALL, {}, -1, {}, {}, true });
 	return sweeps;
 }
 
@@ -89,11 +90,15 @@ const StabilitySweep *find_stability_sweep(const std::string &p_id) {
 	return nullptr;
 }
 
+uint32_t get_stability_size_px(StabilityExtent p_extent) {
+	return p_extent == StabilityExtent::QUICK ? QUICK_SIZE_PX : FULL_SIZE_PX;
+}
+
 StabilityCase make_stability_case(
 		const StabilitySweep &p_sweep, LightType p_type, double p_value, StabilityExtent p_extent) {
 	StabilityCase result;
 	result.light = STABILITY_LIGHT_NAME;
-	result.size_px = glm::uvec2(p_extent == StabilityExtent::QUICK ? QUICK_SIZE_PX : FULL_SIZE_PX);
+	result.size_px = glm::uvec2(get_stability_size_px(p_extent));
 	if (is_generated_knot(p_sweep)) {
 		ScalingScene description;
 		description.light_size_m = 0.2;

@@ -119,15 +119,9 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 }
 
-void run_report_command(const ReportArguments &p_arguments, const CommonOptions &p_common) {
-	const RunOptions run_options = parse_run_options(p_arguments);
-	const std::optional<Report> old_report = load_old_report(p_arguments);
-	fs::path folder;
-	std::string project;
-	const auto files = select_scenes(p_arguments, folder, project);
-	const ReportOptions options = make_report_options(p_arguments, project);
+std::vector<ReportScene> load_scenes(const NamedFiles &p_files) {
 	std::vector<ReportScene> scenes;
-	for (const auto &[name, path] : files) {
+	for (const auto &[name, path] : p_files) {
 		ReportScene scene = { name, nullptr, {} };
 		try {
 			scene.scene = load_scene(path);
@@ -137,14 +131,26 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 		}
 		scenes.push_back(std::move(scene));
 	}
+	return scenes;
+}
+
+void run_report_command(const ReportArguments &p_arguments, const CommonOptions &p_common) {
+	const RunOptions run_options = parse_run_options(p_arguments);
+	const std::optional<Report> old_report = load_old_report(p_arguments);
+	const SelectedScenes selected = select_scenes(p_arguments);
+	ReportOptions options = make_report_options(p_arguments, selected.project);
+	const std::vector<ReportScene> scenes = load_scenes(selected.scenes);
+	if (options.has_sweep(PROJECT_SCENES_SWEEP)) {
+		options.stability_scenes = load_scenes(selected.stability_scenes);
+	}
 	if (std::none_of(scenes.begin(), scenes.end(),
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {
 		fail("No scene of ", p_arguments.project, " can be loaded; the lines above say why.");
 	}
 	const std::vector<TechniqueSource> techniques =
 			RenderedMasks::find_techniques(p_arguments.techniques);
-	const fs::path out =
-			p_arguments.out.empty() ? folder / "out" / "report" : fs::path(p_arguments.out);
+	const fs::path out = p_arguments.out.empty() ? selected.folder / "out" / "report"
+												 : fs::path(p_arguments.out);
 	const ReportPlan plan = make_report_plan(options, scenes, techniques);
 	if (run_options.resumes) {
 		check_resumable(out, plan.report);

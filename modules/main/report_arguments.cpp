@@ -28,6 +28,20 @@ LightType parse_light_type(const std::string &p_name) {
 			"\" must be own, or of spot, omni and directional, comma separated."));
 }
 
+NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_folder) {
+	NamedFiles named;
+	std::map<std::string, fs::path> by_name;
+	for (const fs::path &file : p_files) {
+		const std::string name = file.stem().string();
+		if (!by_name.insert({ name, file }).second) {
+			fail("Project ", p_folder, ": two scenes are named \"", name, "\", ", by_name[name],
+					" and ", file, ". Rename one: the report tells scenes apart by their names.");
+		}
+		named.push_back({ name, file });
+	}
+	return named;
+}
+
 } // namespace
 
 RunOptions parse_run_options(const ReportArguments &p_arguments) {
@@ -97,49 +111,46 @@ ReportOptions make_report_options(
 	return options;
 }
 
-std::vector<std::pair<std::string, fs::path>> select_scenes(
-		const ReportArguments &p_arguments, fs::path &r_folder, std::string &r_project) {
+SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	const fs::path path = p_arguments.project;
 	std::error_code code;
 	if (!fs::exists(path, code)) {
 		fail("Project ", path, " does not exist. Name a folder with project.cfg, or a scene file.");
 	}
-	std::vector<fs::path> files = { path };
+	SelectedScenes selected;
+	NamedFiles all;
 	if (fs::is_directory(path, code) || path.extension() == ".cfg") {
 		const Project project = Project::load(path);
-		r_folder = project.folder;
-		r_project = project.name.empty() ? fs::absolute(project.folder).filename().string()
-										 : project.name;
-		files = project.scenes;
+		selected.folder = project.folder;
+		selected.project = project.name.empty() ? fs::absolute(project.folder).filename().string()
+												: project.name;
 		for (const fs::path &missing : project.missing_scenes) {
 			log_warning("Scene ", missing, " does not exist and is left out.");
 		}
+		all = name_files(project.scenes, project.folder);
+		selected.stability_scenes = name_files(project.stability_scenes, project.folder);
 	} else {
-		r_folder = fs::absolute(path).parent_path();
-		r_project = path.stem().string();
+		selected.folder = fs::absolute(path).parent_path();
+		selected.project = path.stem().string();
+		all = { { selected.project, path } };
 	}
-	std::map<std::string, fs::path> by_name;
+	const auto &wanted = p_arguments.scenes;
 	std::string names;
-	std::vector<std::pair<std::string, fs::path>> selected;
-	for (const fs::path &file : files) {
-		const std::string name = file.stem().string();
+	for (const auto &[name, file] : all) {
 		names += (names.empty() ? "" : ", ") + name;
-		if (!by_name.insert({ name, file }).second) {
-			fail("Project ", r_folder, ": two scenes are named \"", name, "\", ", by_name[name],
-					" and ", file, ". Rename one: the report tells scenes apart by their names.");
-		}
-		const auto &wanted = p_arguments.scenes;
 		if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
-			selected.push_back({ name, file });
+			selected.scenes.push_back({ name, file });
 		}
 	}
-	for (const std::string &name : p_arguments.scenes) {
-		if (by_name.count(name) == 0) {
+	for (const std::string &name : wanted) {
+		if (std::none_of(all.begin(), all.end(),
+					[&](const auto &p_named) { return p_named.first == name; })) {
 			throw UsageError(text("--scenes: there is no \"", name, "\", must be of ", names, "."));
 		}
 	}
-	if (selected.empty()) {
-		fail("Project ", r_folder, " names no scene that exists. Set scenes in its project.cfg.");
+	if (selected.scenes.empty()) {
+		fail("Project ", selected.folder,
+				" names no scene that exists. Set scenes in its project.cfg.");
 	}
 	return selected;
 }

@@ -35,9 +35,16 @@ struct ReportArguments {
 // Each throws a UsageError that names the option, the value and what is allowed.
 RunOptions parse_run_options(const ReportArguments &p_arguments);
 ReportOptions make_report_options(const ReportArguments &p_arguments, const std::string &p_project);
-/// Names and files of the scenes to do, the project's folder and its name.
-std::vector<std::pair<std::string, std::filesystem::path>> select_scenes(
-		const ReportArguments &p_arguments, std::filesystem::path &r_folder,
-		std::string &r_project);
+
+using NamedFiles = std::vector<std::pair<std::string, std::filesystem::path>>;
+
+/// What a project or a single scene's file names.
+struct SelectedScenes {
+	std::string project; // its name
+	std::filesystem::path folder;
+	NamedFiles scenes; // of the matrix; at least one
+	NamedFiles stability_scenes;
+};
+SelectedScenes select_scenes(const ReportArguments &p_arguments);
 
 } // namespace gnomon

@@ -38,6 +38,17 @@ TEST_CASE("[Project] names, lists over several lines, comments and defaults are 
 	CHECK(Project::find_folder(folder.path / "scenes" / "a.gltf") == folder.path);
 }
 
+TEST_CASE(
+		"[Project] scenes of the stability sweeps are a list of their own, missing ones are named "
+		"once") {
+	const ProjectFolder folder("[project]\nscenes=[\"scenes/b.gltf\"]\n"
+							   "stability_scenes=[\"scenes/a.gltf\", \"scenes/b.gltf\"]\n");
+	const Project project = Project::load(folder.path);
+	CHECK(project.scenes.empty());
+	CHECK(project.stability_scenes == std::vector<fs::path>{ folder.path / "scenes/a.gltf" });
+	CHECK(project.missing_scenes == std::vector<fs::path>{ folder.path / "scenes/b.gltf" });
+}
+
 TEST_CASE("[Project] a line that is nothing and a list without end are errors with the line") {
 	const ProjectFolder nothing("[project]\nname=\"Demo\"\nwhat is this\n");
 	CHECK_THROWS_WITH_AS(Project::load(nothing.path), doctest::Contains(":3:"), Error);

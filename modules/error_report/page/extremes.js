@@ -94,7 +94,8 @@
 		const columns = [{ title: "scene", isText: true, value: (label) => label, show: (label) => label },
 			...plot.series.map((series) => ({ title: series.technique, help: report.getTechnique(series.technique).name,
 				value: (label) => find(label, series.technique)?.mae, show: (label) => show(find(label, series.technique)) }))];
-		return report.makeTable(`Hostile scenes, ${plot.light_type}: MAE`, columns, labels, -1);
+		const title = plot.quantity[0].toUpperCase() + plot.quantity.slice(1);
+		return report.makeTable(`${title}, ${plot.light_type}: MAE`, columns, labels, -1);
 	}
 
 	/* drawOnEverySize(host, draw): see report.js. */

@@ -70,6 +70,10 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 		CAPTURE(sweep.id);
 		CHECK(ids.insert(sweep.id).second);
 		CHECK(find_stability_sweep(sweep.id) == &sweep);
+		if (sweep.has_project_scenes) {
+			CHECK(sweep.values.empty());
+			continue;
+		}
 		CHECK(contains(sweep.values, sweep.center));
 		CHECK(contains(sweep.quick_values, sweep.center));
 		CHECK_FALSE(sweep.quantity.empty());
@@ -264,4 +268,47 @@ TEST_CASE("[Stability] shards take whole curves, whose centres they need") {
 	for (const auto &[curve, own] : shards) {
 		CHECK(own.size() == 1);
 	}
+}
+
+TEST_CASE("[Stability] scenes of the project are drawn with each of their lights, as they are") {
+	ReportOptions options = make_options({ PROJECT_SCENES_SWEEP });
+	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
+		{ "gone", nullptr, "the file is not there" },
+		{ "hall", make_scaling_scene({ 1100, 1, 0.3 }), {} } };
+	ScriptedMasks masks;
+	const Report report = run(options, masks);
+	REQUIRE(report.configurations.size() == 4);
+	CHECK(report.configurations[0].id == "stability/scenes/spot/yard/Light 1");
+	CHECK(report.configurations[1].light == "Light 2");
+	CHECK(report.configurations[1].light_size_m == doctest::Approx(0.4));
+	CHECK(report.configurations[2].message == "the file is not there");
+	CHECK(report.configurations[2].status == ReportStatus::FAILED);
+	CHECK(report.configurations[3].light_size_m == doctest::Approx(0.3));
+	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and truths
+
+	// Without a centre an error alone is no break; nonsense still is.
+	const std::vector<StabilityPlot> plots = find_stability_plots(report);
+	REQUIRE(plots.size() == 1);
+	REQUIRE(plots[0].curves.size() == 2);
+	std::vector<std::string> labels;
+	for (const StabilityPoint &point : plots[0].curves[0].points) {
+		CHECK(point.state == StabilityState::OK);
+		labels.push_back(point.label);
+	}
+	CHECK(labels == std::vector<std::string>{ "yard/Light 1", "yard/Light 2", "hall/Light 1" });
+	const nlohmann::ordered_json json = to_json(plots);
+	CHECK(json[0]["has_cases"] == true);
+	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
+}
+
+TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is asked for") {
+	ReportOptions options = make_options({ "scale" });
+	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} } };
+	for (const ReportConfiguration &configuration :
+			make_report_plan(options, {}, make_scripted_techniques()).report.configurations) {
+		CHECK(configuration.sweep == "scale");
+	}
+	options.stability = StabilityExtent::NONE;
+	options.sweeps = {};
+	CHECK(make_report_plan(options, {}, make_scripted_techniques()).report.configurations.empty());
 }
