@@ -215,7 +215,7 @@ if is_wanted demo; then
         --skip 'kitbash,rigging,grass,package_*'
 fi
 if is_wanted stability; then
-    run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py
+    run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py tests/stability/test_untuned_meshes.py
 fi
 if is_wanted removal; then
     if [ "$is_full" = yes ]; then
@@ -260,7 +260,8 @@ if [ "$is_full" = yes ]; then
         run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
     fi
     if is_wanted extremes; then
-        STABILITY_EXTENT=full run_part extremes python3 tests/run_unittest.py tests/stability/test_stability.py
+        STABILITY_EXTENT=full run_part extremes python3 tests/run_unittest.py tests/stability/test_stability.py \
+            tests/stability/test_untuned_meshes.py
     fi
     if is_wanted kills; then
         GNOMON_KILL_COUNT=200 run_part "kills, engine" bin/gnomon_tests '--test-case=*killed at a random time*'

@@ -85,10 +85,12 @@ def make_kitbash(generator, part_count):
         height = (1.75 - distance) * generator.random()
         place = (distance * math.cos(angle), height, distance * math.sin(angle))
         if index < part_count // 20:
-            part = make_box((generator.uniform(0.3, 0.5), 0.03, generator.uniform(0.25, 0.4))) if index % 2 else make_sheet(0.45, 0.35)
-            turn = quaternion_about((1.0, 0.0, 0.3), -0.5 * math.pi + generator.uniform(-0.3, 0.3))
+            tilt = generator.uniform(-0.3, 0.3)
             if index % 2:
-                turn = quaternion_about((1.0, 0.0, 0.6), generator.uniform(-0.3, 0.3))
+                part = make_box((generator.uniform(0.3, 0.5), 0.03, generator.uniform(0.25, 0.4)))
+                turn = quaternion_about((1.0, 0.0, 0.6), tilt)
+            else:
+                part, turn = make_sheet(0.45, 0.35), quaternion_about((1.0, 0.0, 0.3), tilt - 0.5 * math.pi)
         else:
             part, turn = make_kitbash_part(generator), pick_turn(generator)
         first_vertex = len(mesh.positions)
@@ -139,7 +141,8 @@ def make_hull(strake_count=6, station_count=24):
     def find_point(x, side, t):
         # From keel (t = 0) to rail (t = 1), round below.
         rail = find_rail(x, side)
-        return (x, KEEL_HEIGHT + (rail[1] - KEEL_HEIGHT) * (1.0 - math.cos(0.5 * math.pi * t)), rail[2] * math.sin(0.5 * math.pi * t))
+        angle = 0.5 * math.pi * t
+        return (x, KEEL_HEIGHT + (rail[1] - KEEL_HEIGHT) * (1.0 - math.cos(angle)), rail[2] * math.sin(angle))
 
     for side in (-1.0, 1.0):
         for strake in range(strake_count):
@@ -185,8 +188,8 @@ def make_rigging(generator, rope_count):
             head = (mast_x, mast_top * generator.choice((0.62, 0.88)), side * generator.uniform(0.1, YARD_HALF_WIDTH))
         elif kind < 0.7:  # to the ground, through which it goes
             foot = (foot_x + generator.uniform(-0.4, 0.4), -0.05, side * generator.uniform(0.7, 1.3))
-        sag = generator.uniform(0.0, 0.12)
-        mesh.add_mesh(make_open_tube(make_rope_points(foot, head, sag, 12), generator.uniform(0.003, 0.007), 4, generator.random()))
+        points = make_rope_points(foot, head, generator.uniform(0.0, 0.12), 12)
+        mesh.add_mesh(make_open_tube(points, generator.uniform(0.003, 0.007), 4, generator.random()))
     return mesh
 
 

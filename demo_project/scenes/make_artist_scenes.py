@@ -69,10 +69,14 @@ SCENES = {
 }
 
 
+def build_scene(name, seed=DEFAULT_SEED, count=None):
+    build, default_count = SCENES[name]
+    return build(random.Random(seed), count or default_count)
+
+
 def build_scene_files(name, seed=DEFAULT_SEED, count=None):
     """File name -> bytes."""
-    build, default_count = SCENES[name]
-    return build(random.Random(seed), count or default_count).build_files(name)
+    return build_scene(name, seed, count).build_files(name)
 
 
 def main():

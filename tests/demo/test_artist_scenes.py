@@ -119,8 +119,8 @@ class ArtistScenes(unittest.TestCase):
                 self.assertNotEqual(files[name + ".bin"], make_artist_scenes.build_scene_files(name, 4, 20)[name + ".bin"])
 
     def test_default_scenes_keep_their_triangle_budgets(self):
-        for name, (build, count) in make_artist_scenes.SCENES.items():
-            root = build(random.Random(1), count).root
+        for name in make_artist_scenes.SCENES:
+            root = make_artist_scenes.build_scene(name).root
             triangles = sum(
                 root["accessors"][mesh["primitives"][0]["indices"]]["count"] // 3
                 for mesh in root["meshes"] if mesh["name"] != "Ground"
@@ -129,11 +129,12 @@ class ArtistScenes(unittest.TestCase):
             self.assertGreater(triangles, 3000, name)
 
     def test_each_scene_has_three_lights_of_a_tenth_of_its_size(self):
-        for name, (build, _) in make_artist_scenes.SCENES.items():
-            root = build(random.Random(1), 20).root
+        for name in make_artist_scenes.SCENES:
+            root = make_artist_scenes.build_scene(name, count=20).root
             size_m = root["scenes"][0]["extras"]["scene_size"]
             lights = {light["name"]: light for light in root["extensions"]["KHR_lights_punctual"]["lights"]}
-            self.assertEqual({key: light["type"] for key, light in lights.items()}, {"Spot": "spot", "Omni": "point", "Sun": "directional"})
+            types = {key: light["type"] for key, light in lights.items()}
+            self.assertEqual(types, {"Spot": "spot", "Omni": "point", "Sun": "directional"})
             for key in ("Spot", "Omni"):
                 self.assertAlmostEqual(lights[key]["extras"]["light_size"], 0.1 * size_m)
             half_rad = math.radians(lights["Sun"]["extras"]["light_angular_distance"]) / 2.0
@@ -148,7 +149,8 @@ class ArtistScenes(unittest.TestCase):
             self.assertIn("/demo_project/scenes/%s.*" % name, ignored)
 
     def test_skipped_scenes_are_not_measured(self):
-        project = {"project": {"scenes": ["scenes/sphere.gltf", "scenes/terrain.gltf", "scenes/teapot_s15.gltf", "scenes/teapot_s50.gltf"]}}
+        names = ("sphere", "terrain", "teapot_s15", "teapot_s50")
+        project = {"project": {"scenes": ["scenes/%s.gltf" % name for name in names]}}
         for skip, expected in (("", 4), ("terrain", 3), ("teapot_*", 2), ("terrain,teapot_*", 1)):
             options = argparse.Namespace(scenes="", skip=skip, quick=False)
             self.assertEqual(len(measure_demo.select_scenes(project, options)), expected, skip)

@@ -64,7 +64,8 @@ class PackageMeshes(unittest.TestCase):
         def item(ending):
             return make_package_meshes.PackageMesh("some-package", ending, make_package_meshes.UPRIGHT, (1, 1, 1))
 
-        meshes = {"gone": item("/gone.obj"), "broken": item("/broken.dae"), "empty": item("/empty.obj"), "good": item("/good.obj")}
+        endings = {"gone": "/gone.obj", "broken": "/broken.dae", "empty": "/empty.obj", "good": "/good.obj"}
+        meshes = {name: item(ending) for name, ending in endings.items()}
         with mock.patch.object(make_package_meshes, "find_package_file", find):
             failed, messages = self.make(meshes)
         expected = ["gone", "broken", "empty"]

@@ -3,18 +3,14 @@
 STABILITY_EXTENT=full sweeps all techniques over all values; else some of them over the ends and centres.
 """
 
-import json
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.path.abspath(os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon")))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from stability_case import IS_FULL, ROOT, StabilityCase, find_techniques  # noqa: E402
+
 SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
-IS_FULL = os.environ.get("STABILITY_EXTENT") == "full"
-TIMEOUT_S = 7200 if IS_FULL else 600
 QUICK_TECHNIQUES = ("shadow_map", "pcss", "outer_fins", "edge_count")
 # Nonsense by what the technique is, not by a light beyond its limits.
 BY_DESIGN = {
@@ -26,32 +22,12 @@ LEAST_MAE = 1.0 / 256  # smaller ones no picture shows
 MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
 
 
-class Stability(unittest.TestCase):
+class Stability(StabilityCase):
     @classmethod
     def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        listed = json.loads(cls.run_program("techniques", "--json").stdout)
-        cls.ids = [item["id"] for item in listed if not item["is_reference"]]
-        techniques = [] if IS_FULL else ["--techniques", ",".join(name for name in QUICK_TECHNIQUES if name in cls.ids)]
-        result = cls.run_program(
-            "report", SCENE, "--sizes", "0.2", "--size", "32x32", "--samples", "1024" if IS_FULL else "256", "--scaling", "none",
-            "--stability", "full" if IS_FULL else "quick", "--validation", "--out", cls.holder.name, *techniques,
-        )  # fmt: skip
-        cls.status, cls.errors = result.returncode, result.stderr
-        with open(os.path.join(cls.holder.name, "report.json"), encoding="utf-8") as file:
-            cls.report = json.load(file)
-        cls.points = [
-            (plot["sweep"], plot["light_type"], series["technique"], point, cls.report["cells"][point["cell"]])
-            for plot in cls.report["stability"] for series in plot["series"] for point in series["points"]
-        ]  # fmt: skip
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
-
-    @staticmethod
-    def run_program(*arguments):
-        return subprocess.run([GNOMON, *arguments], capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
+        super().setUpClass()
+        cls.ids = find_techniques(QUICK_TECHNIQUES)
+        cls.measure(SCENE, 1024 if IS_FULL else 256, "--techniques", ",".join(cls.ids))
 
     def test_every_point_is_measured_and_none_fails(self):
         self.assertEqual(self.status, 0, self.errors)
