@@ -46,6 +46,12 @@ struct QualitySetting {
 	bool is_expensive = false;
 };
 
+/// A property of earlier versions: files may still hold it, nothing reads it, a save keeps it.
+struct RemovedProperty {
+	std::string name;
+	std::string advice; // a sentence: what took its place
+};
+
 /// The properties of one kind of object, in the order in which they are shown.
 class PropertyList {
 public:
@@ -53,14 +59,17 @@ public:
 	void add(PropertyInfo p_info);
 	/// Declares a property anew, at its place. A name that the list lacks is our mistake.
 	void replace(PropertyInfo p_info);
+	void add_removed(RemovedProperty p_removed) { removed.push_back(std::move(p_removed)); }
 	const PropertyInfo *find(std::string_view p_name) const;
 	const std::vector<PropertyInfo> &get_properties() const { return properties; }
+	const std::vector<RemovedProperty> &get_removed() const { return removed; }
 
 private:
 	/// Checks a declaration and converts its default.
 	static void prepare(PropertyInfo &r_info);
 
 	std::vector<PropertyInfo> properties;
+	std::vector<RemovedProperty> removed;
 };
 
 /// Why the value is refused, or empty when it is allowed: "is 7, must be 1..3". NaN and infinity

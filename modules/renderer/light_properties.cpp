@@ -110,6 +110,14 @@ PropertyValues resolve_light_properties(const LightSnapshot &p_light, const Prop
 			log_error(line);
 		}
 	}
+	for (const RemovedProperty &removed : p_list.get_removed()) {
+		if (const std::string line = text("Light \"", p_light.name, "\" (", p_light.file_path, "): ",
+					removed.name, " is not used any more. ", removed.advice,
+					" Remove it from the light's extras.");
+				p_light.properties.contains(removed.name) && reported.insert(line).second) {
+			log_warning(line);
+		}
+	}
 	return values;
 }
 

@@ -22,7 +22,8 @@ const PropertyInfo *find_added_light_property(std::string_view p_name);
 std::vector<std::string> list_added_light_properties();
 
 /// The properties of one technique or filter that the light has, with defaults filled in. A stored
-/// value that is out of range is logged once per light and value, and its default is used.
+/// value that is out of range is logged once per light and value, and its default is used; a
+/// property that was removed is logged once per light.
 PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
 
 /// Names that do not begin with the id, or a property without a tooltip, are our mistake.

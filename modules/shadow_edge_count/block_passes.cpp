@@ -1,6 +1,6 @@
 #include "modules/shadow_edge_count/block_passes.h"
 
-#include "modules/core/error.h"
+#include "modules/core/text.h"
 #include "modules/renderer/map_resolve.h"
 #include "modules/renderer/nearest_caster.h"
 
@@ -11,33 +11,13 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint64_t MOST_LIST_BYTES = 34'000'000;
-constexpr uint32_t SMALLEST_SIDE = 2; // groups: blocks of 16 x 16 pixels
+// Edges in all lists: on average so many for each block, and 16 MB at most. Lists without room cost
+// time, not exactness.
+constexpr uint64_t LISTED_EDGES_PER_BLOCK = 512;
+constexpr uint64_t MOST_LISTED_EDGES = 4'000'000;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
-}
-
-shader::CountLightConstants make_light_constants(const CountBlockPasses &p_passes) {
-	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
-	shader::CountLightConstants constants = {};
-	for (uint32_t view = 0; view < inputs.views.size(); ++view) {
-		constants.views[view] = make_count_view_constants(inputs.views[view],
-				make_count_space(inputs.views[view], p_passes.settings.disc_radius,
-						inputs.scene.scene_size_m),
-				view);
-	}
-	constants.group_count = divide_up(inputs.size_px, EDGE_COUNT_GROUP_PX);
-	constants.groups_per_block_side =
-			choose_groups_per_block_side(inputs.size_px, p_passes.settings.budget);
-	constants.block_count = divide_up(constants.group_count, constants.groups_per_block_side);
-	constants.view_count = static_cast<uint32_t>(inputs.views.size());
-	constants.empty_views = p_passes.empty_views;
-	constants.record_capacity = p_passes.capacities.records_per_view;
-	constants.fragment_capacity = p_passes.capacities.fragments_per_view;
-	constants.list_capacity = p_passes.settings.budget;
-	constants.bundle_capacity = p_passes.capacities.get_bundles_per_view();
-	return constants;
 }
 
 /// What every pass over blocks reads, count_blocks_inc.glsl.
@@ -48,12 +28,15 @@ std::vector<PassBinding> make_block_bindings(const CountBlocks &p_blocks) {
 	return bindings;
 }
 
-/// And the layer map, count_map_inc.glsl.
+/// And the face lists, count_lists_inc.glsl.
 std::vector<PassBinding> make_plain_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
-	bindings.push_back(PassBinding::read(COUNT_BINDING_TEXELS, p_passes.light.texels));
-	bindings.push_back(PassBinding::read(COUNT_BINDING_FRAGMENTS, p_passes.light.fragments));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_HEADS, p_passes.light.heads));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_NODES, p_passes.light.nodes));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_FACES, p_passes.light.faces));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_PLANES, p_passes.light.planes));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_TOTALS, p_passes.light.totals));
 	return bindings;
 }
 
@@ -61,98 +44,86 @@ std::vector<PassBinding> make_plain_bindings(
 std::vector<PassBinding> make_count_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
-	bindings.push_back(PassBinding::read(COUNT_BINDING_RECORDS, p_passes.light.records));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, p_passes.light.edges));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_ENDS, p_blocks.ends));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_LISTS, p_blocks.lists));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
 	return bindings;
 }
 
-/// A compute pass of as many work groups as a place in the dispatches says.
-void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
-		std::vector<PassBinding> p_bindings, RGBuffer p_dispatches, uint32_t p_place,
-		std::vector<uint8_t> p_push) {
-	PassBuilder pass = r_graph.add_pass(p_name);
-	declare_bindings(pass, p_bindings);
-	pass.reads(p_dispatches, Access::INDIRECT_READ);
-	pass.execute([=, bindings = std::move(p_bindings), push = std::move(p_push)](
-						 PassContext &p_context) {
-		bind_compute(p_context, p_pipeline, bindings, push);
-		p_context.commands.dispatch_indirect(
-				p_context.get(p_dispatches), p_place * sizeof(uint32_t));
-	});
-}
-
-/// A pass over the blocks of one kind.
+/// A pass over the blocks of one kind, of as many work groups as the dispatches say.
 void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, const std::string &p_name, const char *p_shader,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
-	const bool is_filter = p_kind == EDGE_COUNT_BLOCKS_FILTERED;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
-		is_filter ? compute_nearest_w(inputs) : 0.0f, 0 };
-	const auto *bytes = reinterpret_cast<const uint8_t *>(&push);
+		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, 0 };
 	const PipelineRID pipeline = inputs.device.get_compute_pipeline({ p_shader, p_shader,
-			{ { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) } } });
-	add_indirect_pass(r_graph, p_name, pipeline, std::move(p_bindings), p_blocks.dispatches,
-			3 * p_kind, std::vector<uint8_t>(bytes, bytes + sizeof(push)));
+			{ { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) },
+					{ EDGE_COUNT_CONSTANT_HAS_NO_LIST,
+							p_kind == EDGE_COUNT_BLOCKS_UNLISTED ||
+											p_kind == EDGE_COUNT_BLOCKS_FILTERED
+									? 1u
+									: 0u } } });
+	PassBuilder pass = r_graph.add_pass(p_name);
+	declare_bindings(pass, p_bindings);
+	pass.reads(p_blocks.dispatches, Access::INDIRECT_READ);
+	pass.execute([=, dispatches = p_blocks.dispatches, bindings = std::move(p_bindings)](
+						 PassContext &p_context) {
+		bind_compute(p_context, pipeline, bindings,
+				std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push)));
+		p_context.commands.dispatch_indirect(
+				p_context.get(dispatches), 3 * p_kind * sizeof(uint32_t));
+	});
 }
 
-/// In blocks that have too many edges: percentage-closer soft shadows from the nearest layer.
-void add_filter_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes,
+/// In blocks that have more edges than the budget: percentage-closer soft shadows.
+void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, RGTexture p_mask) {
-	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
-	const RGTexture map =
-			r_graph.create_texture({ "filter map", Format::R32_SFLOAT, inputs.views[0].size_px,
-					std::max(2u, static_cast<uint32_t>(inputs.views.size())), // an array
-					TextureUsage::STORAGE | TextureUsage::SAMPLED });
-	const char *map_shader = "shadow_edge_count/filter_map.comp";
-	add_indirect_pass(r_graph, "filter map",
-			inputs.device.get_compute_pipeline({ map_shader, map_shader, {} }),
-			{ p_blocks.receivers[MAP_RESOLVE_BINDING_VIEWS],
-					PassBinding::read(COUNT_BINDING_TEXELS, p_passes.light.texels),
-					PassBinding::read(COUNT_BINDING_FRAGMENTS, p_passes.light.fragments),
-					PassBinding::write(COUNT_BINDING_OUTPUT, map) },
-			p_blocks.dispatches, EDGE_COUNT_DISPATCH_MAP, {});
-	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
-	bindings.push_back(PassBinding::read(COUNT_BINDING_MAP, map));
+	CountBlocks blocks = p_blocks;
+	blocks.receivers = make_map_resolve_bindings(
+			r_graph, p_passes.inputs, p_passes.inputs.light, p_passes.depth_views);
+	std::vector<PassBinding> bindings = make_block_bindings(blocks);
+	bindings.push_back(PassBinding::read(COUNT_BINDING_DEPTH_MAP, p_passes.depth_map));
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, p_mask, PassBuilder::Content::UPDATE));
-	add_kind_pass(r_graph, p_passes, p_blocks, "filter", "shadow_edge_count/filter_blocks.comp",
+	add_kind_pass(r_graph, p_passes, blocks, "filter", "shadow_edge_count/filter_blocks.comp",
 			EDGE_COUNT_BLOCKS_FILTERED, std::move(bindings));
 }
 
 } // namespace
 
-uint32_t choose_groups_per_block_side(glm::uvec2 p_size_px, uint32_t p_budget) {
-	const glm::uvec2 groups = divide_up(p_size_px, EDGE_COUNT_GROUP_PX);
-	uint32_t side = SMALLEST_SIDE;
-	const auto compute_bytes = [&] {
-		const glm::uvec2 blocks = divide_up(groups, side);
-		return uint64_t(blocks.x) * blocks.y * p_budget * sizeof(uint32_t);
-	};
-	while (compute_bytes() > MOST_LIST_BYTES && side < std::max(groups.x, groups.y)) {
-		side *= 2;
-	}
-	return side;
+uint32_t choose_list_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
+	const glm::uvec2 blocks =
+			divide_up(divide_up(p_size_px, EDGE_COUNT_GROUP_PX), EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
+	// In powers of two: few sizes of memory while the scene changes.
+	const uint64_t edges = std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK);
+	return static_cast<uint32_t>(
+			std::clamp<uint64_t>(uint64_t(blocks.x) * blocks.y * edges, 1, MOST_LISTED_EDGES));
 }
 
-uint32_t choose_budget(glm::uvec2 p_size_px, uint32_t p_budget, uint64_t p_edge_count) {
-	if (p_budget < COUNT_DEFAULT_BUDGET) {
-		return p_budget;
-	}
-	const uint32_t side = choose_groups_per_block_side(p_size_px, p_budget);
-	const glm::uvec2 blocks = divide_up(divide_up(p_size_px, EDGE_COUNT_GROUP_PX), side);
-	const uint64_t room = MOST_LIST_BYTES / sizeof(uint32_t) / (uint64_t(blocks.x) * blocks.y);
-	// Powers of two: few sizes of memory while the scene changes.
-	const uint64_t wanted = std::min(std::bit_floor(room), std::bit_ceil(p_edge_count));
-	return static_cast<uint32_t>(
-			std::clamp<uint64_t>(wanted, p_budget, std::max(p_budget, COUNT_MOST_BUDGET)));
+shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
+		const CountSettings &p_settings, const CountCapacities &p_capacities,
+		uint32_t p_empty_views) {
+	shader::CountLightConstants constants =
+			make_count_light_constants({ p_inputs.views.begin(), p_inputs.views.end() },
+					p_settings.disc_radius, p_inputs.scene.scene_size_m);
+	constants.group_count = divide_up(p_inputs.size_px, EDGE_COUNT_GROUP_PX);
+	constants.block_count = divide_up(constants.group_count, EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
+	constants.empty_views = p_empty_views;
+	constants.list_capacity = choose_list_capacity(p_inputs.size_px, p_capacities.edge_count);
+	constants.budget = p_settings.budget;
+	constants.node_capacity = p_capacities.nodes_per_view;
+	constants.face_count = p_capacities.face_count;
+	constants.most_edges = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
+	return constants;
 }
 
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
-	const shader::CountLightConstants constants = make_light_constants(p_passes);
+	const shader::CountLightConstants constants = make_block_constants(
+			inputs, p_passes.settings, p_passes.capacities, p_passes.empty_views);
 	const uint64_t group_count = uint64_t(constants.group_count.x) * constants.group_count.y;
 	const uint64_t block_count = uint64_t(constants.block_count.x) * constants.block_count.y;
 	CountBlocks blocks;
@@ -162,13 +133,14 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			group_count * constants.view_count * EDGE_COUNT_BOXES_PER_GROUP *
 					sizeof(shader::CountGroupBox),
 			BufferUsage::STORAGE });
+	const RGBuffer present = r_graph.create_buffer(
+			{ "receiver views", group_count * sizeof(uint32_t), BufferUsage::STORAGE });
 	const auto make_texel_buffer = [&](const char *p_name, uint64_t p_count) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t),
 				BufferUsage::STORAGE | BufferUsage::TEXEL, MemoryKind::GPU, Format::R32_UINT });
 	};
 	blocks.ends = make_texel_buffer("block ends", block_count * EDGE_COUNT_ENDS_PER_BLOCK);
-	blocks.lists =
-			make_texel_buffer("block edges", block_count * std::max(constants.list_capacity, 1u));
+	blocks.lists = make_texel_buffer("block edges", constants.list_capacity);
 	blocks.block_count = static_cast<uint32_t>(block_count);
 	blocks.blocks = make_texel_buffer("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
 	blocks.dispatches = r_graph.create_buffer(
@@ -189,15 +161,19 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	std::vector<PassBinding> bindings = blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BOXES, boxes));
+	bindings.push_back(PassBinding::write(COUNT_BINDING_PRESENT, present));
 	add_compute_pass(r_graph, "receiver boxes",
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
 			{ constants.group_count.x * subgroup_size, constants.group_count.y, 1 });
+	const CountFrameBuffers &light = p_passes.light;
 	add_compute_pass(r_graph, "list blocks", get_pipeline("shadow_edge_count/list_blocks.comp"),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
 					PassBinding::read(COUNT_BINDING_BOXES, boxes),
-					PassBinding::read(COUNT_BINDING_RECORDS, p_passes.light.records),
-					PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles),
-					PassBinding::read(COUNT_BINDING_TOTALS, p_passes.light.totals),
+					PassBinding::read(COUNT_BINDING_PRESENT, present),
+					PassBinding::read(COUNT_BINDING_EDGES, light.edges),
+					PassBinding::read(COUNT_BINDING_BUNDLES, light.bundles),
+					PassBinding::read(COUNT_BINDING_PLANES, light.planes),
+					PassBinding::read(COUNT_BINDING_TOTALS, light.totals),
 					PassBinding::write(COUNT_BINDING_ENDS, blocks.ends),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),
 					PassBinding::write(COUNT_BINDING_BLOCKS, blocks.blocks),
@@ -214,16 +190,18 @@ RGTexture add_count_passes(
 	bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, mask));
 	add_kind_pass(r_graph, p_passes, p_blocks, "resolve plain",
 			"shadow_edge_count/resolve_plain.comp", EDGE_COUNT_BLOCKS_PLAIN, std::move(bindings));
-	bindings = make_count_bindings(p_passes, p_blocks);
-	bindings.push_back(
-			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-	add_kind_pass(r_graph, p_passes, p_blocks, "resolve",
-			p_passes.settings.sample_count > EDGE_COUNT_SAMPLE_COUNT
-					? "shadow_edge_count/resolve_fine.comp"
-					: "shadow_edge_count/resolve.comp",
-			EDGE_COUNT_BLOCKS_COUNTED, std::move(bindings));
-	if (p_passes.may_be_over) {
-		add_filter_passes(r_graph, p_passes, p_blocks, mask);
+	const char *resolve = p_passes.settings.get_turn_count() > 1
+			? "shadow_edge_count/resolve_fine.comp"
+			: "shadow_edge_count/resolve.comp";
+	for (const auto &[kind, name] : { std::pair(EDGE_COUNT_BLOCKS_LISTED, "resolve"),
+				 std::pair(EDGE_COUNT_BLOCKS_UNLISTED, "resolve without lists") }) {
+		bindings = make_count_bindings(p_passes, p_blocks);
+		bindings.push_back(
+				PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
+		add_kind_pass(r_graph, p_passes, p_blocks, name, resolve, kind, std::move(bindings));
+	}
+	if (p_passes.depth_map) {
+		add_filter_pass(r_graph, p_passes, p_blocks, mask);
 	}
 	return mask;
 }

@@ -1,24 +1,29 @@
 #include "modules/shadow_edge_count/count_casters.h"
 
 #include "modules/core/error.h"
+#include "modules/renderer/caster_pass.h"
 #include "modules/renderer/mesh_store.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <set>
 
 namespace gnomon {
 
 namespace {
 
-// Per light view: six times as many must fit into 26 bits, beside what an edge is used for.
+// Below 24 bits, see EDGE_COUNT_FACE_MASK.
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
-// Faces of a view that are looked at one by one: at most some tenths of a millisecond.
+// Faces that are looked at one by one: at most some tenths of a millisecond.
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
-/// How many texel centres the faces of a mesh may cover.
-uint64_t compute_fragment_bound(
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // of S: what rounding may move a face's plane
+const double SIDE_TOLERANCE_COSINE = 1e-6;	// likewise, directional
+
+/// How many texels the faces of a mesh may cover in part.
+uint64_t compute_node_bound(
 		const MeshTopology &p_topology, const glm::mat4 &p_clip_from_node, glm::vec2 p_size_px) {
 	const double whole = double(p_size_px.x) * p_size_px.y;
 	std::vector<glm::vec4> clip;
@@ -47,15 +52,17 @@ uint64_t compute_fragment_bound(
 		const glm::dvec2 least = glm::min(places[0], glm::min(places[1], places[2]));
 		const glm::dvec2 greatest = glm::max(places[0], glm::max(places[1], places[2]));
 		const glm::dvec2 size =
-				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 1.0;
+				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 2.0;
 		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
-		// A convex region holds no more lattice points than area + half the outline + 1.
+		// A convex region meets no more unit squares than it has lattice points within a square's
+		// reach: its own area, its bounds' sides, half of both outlines.
 		const glm::dvec2 u = places[1] - places[0];
 		const glm::dvec2 v = places[2] - places[0];
-		const double triangle = 0.5 * std::abs(u.x * v.y - u.y * v.x) +
-				0.5 * (glm::length(u) + glm::length(v) + glm::length(u - v)) + 1.0;
+		const double outline = glm::length(u) + glm::length(v) + glm::length(u - v);
+		const glm::dvec2 sides = greatest - least;
+		const double triangle =
+				0.5 * std::abs(u.x * v.y - u.y * v.x) + sides.x + sides.y + 0.5 * outline + 4.0;
 		const double covered = std::min(box, triangle);
-		// Rounded vertices may reach a texel farther.
 		sum += is_before || !std::isfinite(covered) ? whole : std::min(covered * 1.01 + 1.0, whole);
 	}
 	return static_cast<uint64_t>(std::ceil(sum));
@@ -71,10 +78,21 @@ uint32_t add_up(uint32_t p_sum, uint32_t p_count, const char *p_what, const std:
 
 } // namespace
 
-CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
-	const LightView &view = p_inputs.views[p_view_index];
+bool CountCasters::has_layout_of(const CountCasters &p_other) const {
+	return std::equal(casters.begin(), casters.end(), p_other.casters.begin(),
+			p_other.casters.end(), [](const CountCaster &p_a, const CountCaster &p_b) {
+				return p_a.mesh_id == p_b.mesh_id && p_a.push.flags == p_b.push.flags;
+			});
+}
+
+CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius) {
+	const LightView &first = p_inputs.views.front();
+	const bool is_directional = first.is_orthographic;
+	std::vector<uint32_t> view_indices(p_inputs.views.size());
+	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
-	for (const uint32_t index : p_inputs.casters[p_view_index].instances) {
+	std::set<uint32_t> with_faces;
+	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
 		if (volume == 0 || !std::isfinite(volume)) {
@@ -88,22 +106,18 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, uint32
 		if (gpu.face_count == 0) {
 			continue;
 		}
+		with_faces.insert(index);
 		CountCaster caster;
 		caster.gpu = &gpu;
 		caster.mesh_id = instance.mesh->id;
-		caster.push = { glm::mat4(view.view_from_world * instance.world_from_node), gpu.face_count,
+		caster.push = { glm::mat4(first.view_from_world * instance.world_from_node), gpu.face_count,
 			result.face_count, gpu.edge_count, result.word_count, result.block_count,
-			gpu.inconsistent_from,
-			(gpu.is_double_sided ? uint32_t(EDGE_COUNT_DOUBLE_SIDED) : 0u) |
-					(volume < 0 ? uint32_t(EDGE_COUNT_MIRRORED) : 0u),
-			0 };
-		caster.clip_from_node = view.compute_clip_from_node(instance.world_from_node);
-		const bool is_bounded = result.fragment_bound != CountCasters::UNKNOWN_COUNT &&
-				result.face_count + gpu.face_count <= MAX_BOUNDED_FACES;
-		result.fragment_bound = !is_bounded ? CountCasters::UNKNOWN_COUNT
-											: result.fragment_bound +
-						compute_fragment_bound(*get_topology(instance.mesh), caster.clip_from_node,
-								glm::vec2(view.size_px));
+			(volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
+					(is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u),
+			static_cast<float>(p_disc_radius),
+			static_cast<float>(is_directional
+							? SIDE_TOLERANCE_COSINE
+							: SIDE_TOLERANCE_SIZES * p_inputs.scene.scene_size_m) };
 		result.face_count =
 				add_up(result.face_count, gpu.face_count, "triangles", p_inputs.light.name);
 		result.edge_count = add_up(result.edge_count, gpu.edge_count, "edges", p_inputs.light.name);
@@ -114,22 +128,38 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, uint32
 	const auto last = std::find_if(result.casters.rbegin(), result.casters.rend(),
 			[](const CountCaster &p_caster) { return p_caster.gpu->edge_count > 0; });
 	if (last != result.casters.rend()) {
-		last->push.kind |= EDGE_COUNT_LAST_CASTER;
+		last->push.flags |= EDGE_COUNT_CASTER_LAST;
+	}
+	for (const uint32_t view : view_indices) {
+		uint64_t bound = 0;
+		uint32_t face_count = 0;
+		for (const uint32_t index : p_inputs.casters[view].instances) {
+			const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+			face_count +=
+					with_faces.contains(index) ? get_topology(instance.mesh)->get_face_count() : 0;
+		}
+		result.empty_views |= face_count == 0 ? 1u << view : 0u;
+		// All casters: also those that the renderer knows to lie beside the view.
+		for (const uint32_t index : with_faces) {
+			if (result.face_count <= MAX_BOUNDED_FACES) {
+				const InstanceSnapshot &instance = p_inputs.scene.instances[index];
+				bound += compute_node_bound(*get_topology(instance.mesh),
+						p_inputs.views[view].compute_clip_from_node(instance.world_from_node),
+						glm::vec2(p_inputs.views[view].size_px));
+			}
+		}
+		result.node_bound = result.face_count > MAX_BOUNDED_FACES
+				? CountCasters::UNKNOWN_COUNT
+				: std::max(result.node_bound, bound);
 	}
 	return result;
 }
 
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters) {
-	const auto is_same_mesh = [](const CountCaster &p_a, const CountCaster &p_b) {
-		return p_a.mesh_id == p_b.mesh_id && p_a.push.kind == p_b.push.kind;
-	};
-	if (!std::equal(p_before.casters.begin(), p_before.casters.end(), r_casters.casters.begin(),
-				r_casters.casters.end(), is_same_mesh)) {
-		return;
-	}
 	for (size_t index = 0; index < r_casters.casters.size(); ++index) {
 		CountCaster &caster = r_casters.casters[index];
-		caster.is_moved = caster.push.view_from_node != p_before.casters[index].push.view_from_node;
+		caster.is_moved =
+				caster.push.light_from_node != p_before.casters[index].push.light_from_node;
 	}
 }
 

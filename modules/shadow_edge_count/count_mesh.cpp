@@ -53,17 +53,19 @@ std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 
 CountMesh build_count_mesh(const MeshTopology &p_topology) {
 	CountMesh mesh;
-	const std::vector<MeshEdge> sorted = sort_edges(p_topology);
-	const auto add_edges = [&](bool p_is_inconsistent) {
-		for (const MeshEdge &edge : sorted) {
-			if (edge.is_inconsistent == p_is_inconsistent && !edge.is_coplanar) {
-				mesh.edges.push_back({ edge.a, edge.b, edge.face0, edge.face1 });
-			}
+	mesh.faces.reserve(p_topology.get_face_count());
+	for (uint32_t face = 0; face < p_topology.get_face_count(); ++face) {
+		const uint32_t *corners = &p_topology.triangles[3 * size_t(face)];
+		mesh.faces.push_back({ corners[0], corners[1], corners[2],
+				p_topology.is_double_sided(face) ? EDGE_COUNT_DOUBLE_SIDED : 0u });
+	}
+	for (const MeshEdge &edge : sort_edges(p_topology)) {
+		if (!edge.is_coplanar) {
+			const uint32_t kind = (edge.is_inconsistent ? EDGE_COUNT_INCONSISTENT : 0u) |
+					mesh.faces[edge.face0].kind;
+			mesh.edges.push_back({ edge.a, edge.b, edge.face0 | kind, edge.face1 });
 		}
-	};
-	add_edges(false);
-	mesh.inconsistent_from = static_cast<uint32_t>(mesh.edges.size());
-	add_edges(true);
+	}
 	return mesh;
 }
 
@@ -71,29 +73,27 @@ CountGpuMesh upload_count_mesh(
 		RenderingDevice &p_device, const std::string &p_name, const MeshTopology &p_topology) {
 	CountGpuMesh gpu;
 	gpu.face_count = p_topology.get_face_count();
-	gpu.is_double_sided = p_topology.is_double_sided();
 	if (gpu.face_count == 0) {
 		return gpu;
 	}
-	const auto upload = [&](const char *p_what, BufferUsage p_usage, const auto &p_values) {
+	const auto upload = [&](const char *p_what, const auto &p_values) {
 		const auto bytes = bytes_of(std::span(p_values));
 		const BufferDesc desc{ text(p_name, " ", p_what), bytes.size(),
-			p_usage | BufferUsage::STORAGE | BufferUsage::COPY_TARGET };
+			BufferUsage::STORAGE | BufferUsage::COPY_TARGET };
 		return OwnedBuffer(p_device, p_device.create_buffer_with_data(desc, bytes));
 	};
 	std::vector<glm::vec4> positions;
 	for (const glm::vec3 &position : p_topology.welded_positions_node) {
 		positions.emplace_back(position, 1.0f);
 	}
-	CountMesh mesh = build_count_mesh(p_topology);
+	const CountMesh mesh = build_count_mesh(p_topology);
 	gpu.edge_count = static_cast<uint32_t>(mesh.edges.size());
 	gpu.word_count = mesh.get_word_count();
 	gpu.block_count = mesh.get_block_count();
-	gpu.inconsistent_from = mesh.inconsistent_from;
-	gpu.positions = upload("counted positions", BufferUsage::VERTEX, positions);
-	gpu.faces = upload("counted faces", BufferUsage::INDEX, p_topology.triangles);
+	gpu.positions = upload("counted positions", positions);
+	gpu.faces = upload("counted faces", mesh.faces);
 	if (gpu.edge_count > 0) {
-		gpu.edges = upload("counted edges", BufferUsage::STORAGE, mesh.edges);
+		gpu.edges = upload("counted edges", mesh.edges);
 	}
 	return gpu;
 }

@@ -11,13 +11,12 @@
 
 namespace gnomon {
 
-/// A mesh's edges as the passes that find edges read them; vertices are welded ones.
+/// A mesh as the passes that find faces and edges read it; vertices are welded ones.
 struct CountMesh {
-	/// Those that can be silhouettes: without edges between faces that continue each other. First
-	/// those whose faces wind against each other along them, as they should, then the others. In
-	/// either part what lies close together stands close together, see CountEdgeBundle.
+	/// Those that can be silhouettes: without edges between faces that continue each other. What is
+	/// close together in the mesh is close together here, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
-	uint32_t inconsistent_from = 0; // the first of the others
+	std::vector<shader::CountMeshFace> faces;
 
 	uint32_t get_word_count() const {
 		return (uint32_t(edges.size()) + EDGE_COUNT_EDGES_PER_WORD - 1) / EDGE_COUNT_EDGES_PER_WORD;
@@ -29,17 +28,15 @@ struct CountMesh {
 
 CountMesh build_count_mesh(const MeshTopology &p_topology);
 
-/// A mesh in GPU memory, for the passes that find edges and draw the layer map.
+/// A mesh in GPU memory.
 struct CountGpuMesh {
-	OwnedBuffer positions; // VERTEX | STORAGE, vec4 per welded vertex, w = 1
-	OwnedBuffer faces;	   // INDEX | STORAGE, three welded vertices each
-	OwnedBuffer edges;	   // STORAGE, shader::CountMeshEdge
+	OwnedBuffer positions; // vec4 per welded vertex, w = 1
+	OwnedBuffer faces;	   // shader::CountMeshFace
+	OwnedBuffer edges;	   // shader::CountMeshEdge
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
-	uint32_t inconsistent_from = 0; // see CountMesh
-	bool is_double_sided = false;
 };
 
 /// A mesh whose triangles all collapse has no faces and no buffers.

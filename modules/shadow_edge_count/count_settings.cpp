@@ -1,12 +1,16 @@
 #include "modules/shadow_edge_count/count_settings.h"
 
+#include <algorithm>
+
 namespace gnomon {
 
 namespace {
 
-/// Of what a view sees, and of 45 degrees where it sees less: nothing beyond can hide a light that
-/// is smaller than its distance to the casters.
-const double LEAST_SLOPE = 1e-3;
+/// An edge counts only where it is nearer to the light than a receiver by this share of their
+/// distance; of a directional light, whose receivers have no distance, of max(S, D / 250), with D
+/// the view's depth. Nearer edges are the receiver's own, or rounding.
+const double NEARER_TOLERANCE = 2e-5;
+const double LARGEST_DEPTH_SHARE = 250.0;
 
 } // namespace
 
@@ -17,31 +21,29 @@ void add_count_properties(PropertyList &r_list) {
 			"steps there and cost time.",
 			"", group });
 	r_list.add({ "edge_count_map_size", PropertyType::INT, int64_t(256), "16,1024,16",
-			"Width and height of each map that counts solids. Matters where casters that stand close "
-			"together are as small as its texels.",
+			"Width and height of each map whose texels list the faces above them. It changes time "
+			"and "
+			"memory, never the image: more texels have shorter lists.",
 			"px", group });
-	r_list.add({ "edge_count_layers", PropertyType::INT, int64_t(0), "0,16,1",
-			"Solids, one behind the other, that the map counts at most; so it takes less time and "
-			"memory. 0 counts all of them.",
-			"", group });
-	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(COUNT_DEFAULT_BUDGET), "0,65536,1",
-			"Edges that one block of pixels may have; from 8192 on more in small pictures, whose "
-			"blocks are few. Where there are more, a filter of 64 taps takes over. 0 counts "
-			"nowhere.",
-			"", group });
+	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
+			"Edges that one block of 16 x 16 pixels may have. Blocks with more are filtered with "
+			"64 "
+			"taps, which is faster and less exact. -1: no limit; 0: every block that has an edge "
+			"is "
+			"filtered.",
+			"", group, "-1" });
+	r_list.add_removed({ "edge_count_layers", "All solids before the light are counted exactly." });
 }
 
 CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties) {
-	const auto read_int = [&](const char *p_name) {
-		return static_cast<uint32_t>(std::get<int64_t>(p_properties.at(p_name)));
-	};
 	CountSettings settings;
 	settings.sample_count =
 			std::get<std::string>(p_properties.at("edge_count_quality")) == "256" ? 256 : 64;
-	settings.map_size_px = read_int("edge_count_map_size");
-	settings.layer_count = read_int("edge_count_layers");
-	settings.budget = read_int("edge_count_budget");
+	settings.map_size_px =
+			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("edge_count_map_size")));
+	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
+	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
 	// The mean of both penumbra widths. A directional light's are lengths, over S tangents.
 	const double widths_m =
 			0.5 * (double(p_light.penumbra_outer_width_m) + p_light.penumbra_inner_width_m);
@@ -50,33 +52,28 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 	return settings;
 }
 
-CountSpace make_count_space(const LightView &p_view, double p_disc_radius, double p_scene_size_m) {
-	CountSpace space;
-	space.is_directional = p_view.is_orthographic;
-	space.disc_radius = p_disc_radius;
-	space.near_m = p_view.near_m;
-	space.least_slope = LEAST_SLOPE /
-			std::max(1.0, double(std::max(p_view.half_extent.x, p_view.half_extent.y)));
-	space.depth_far_m = p_view.far_m;
-	space.depth_range_m = double(p_view.far_m) - p_view.near_m;
-	space.scene_size_m = p_scene_size_m;
-	return space;
-}
-
-shader::CountViewConstants make_count_view_constants(
-		const LightView &p_view, const CountSpace &p_space, uint32_t p_index) {
-	shader::CountViewConstants constants = {};
-	constants.disc_radius = static_cast<float>(p_space.disc_radius);
-	// Directional only, where it does not depend on w.
-	constants.depth_scale_m = static_cast<float>(p_space.get_depth_scale(1.0));
-	constants.depth_far_m = static_cast<float>(p_space.depth_far_m);
-	constants.scene_size_m = static_cast<float>(p_space.scene_size_m);
-	constants.half_extent = p_view.half_extent;
-	constants.map_size_px = p_view.size_px;
-	constants.is_directional = p_space.is_directional ? 1 : 0;
-	constants.near_m = static_cast<float>(p_space.near_m);
-	constants.least_slope = static_cast<float>(p_space.least_slope);
-	constants.index = p_index;
+shader::CountLightConstants make_count_light_constants(
+		const std::vector<LightView> &p_views, double p_disc_radius, double p_scene_size_m) {
+	shader::CountLightConstants constants = {};
+	const LightView &first = p_views.front();
+	const glm::dmat3 light_from_world(first.view_from_world);
+	for (size_t index = 0; index < p_views.size(); ++index) {
+		const LightView &view = p_views[index];
+		const glm::dmat3 light_from_view =
+				light_from_world * glm::transpose(glm::dmat3(view.view_from_world));
+		constants.views[index] = { glm::vec4(glm::vec3(light_from_view[0]), 0.0f),
+			glm::vec4(glm::vec3(light_from_view[1]), 0.0f),
+			glm::vec4(glm::vec3(light_from_view[2]), 0.0f), view.half_extent, view.size_px };
+	}
+	const double depth_range_m = double(first.far_m) - first.near_m;
+	constants.disc_radius = static_cast<float>(p_disc_radius);
+	constants.depth_far_m = first.far_m;
+	constants.scene_size_m = static_cast<float>(p_scene_size_m);
+	constants.nearer_tolerance = static_cast<float>(NEARER_TOLERANCE *
+			(first.is_orthographic ? std::max(p_scene_size_m, depth_range_m / LARGEST_DEPTH_SHARE)
+								   : 1.0));
+	constants.is_directional = first.is_orthographic ? 1 : 0;
+	constants.view_count = static_cast<uint32_t>(p_views.size());
 	return constants;
 }
 

@@ -1,21 +1,21 @@
-#include "modules/core/text.h"
-#include "modules/shadow_edge_count/view_passes.h"
+#include "modules/shadow_edge_count/find_passes.h"
 
-#include <algorithm>
+#include "modules/core/text.h"
 
 namespace gnomon {
 
 namespace {
 
+using Content = PassBuilder::Content;
+
 /// A pass that runs a shader once per caster. p_items: invocations that a caster needs; 0: it is
 /// skipped.
 template <typename Items, typename Bind>
 void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
-		const CountViewPasses &p_passes, Items p_items, Bind p_bind) {
+		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
 	const PipelineRID pipeline = p_device.get_compute_pipeline({ p_shader, p_shader, {} });
 	std::vector<CountCaster> casters;
-	for (CountCaster caster : p_passes.casters.casters) {
-		caster.push.record_capacity = p_passes.capacities.records_per_view;
+	for (const CountCaster &caster : p_passes.casters.casters) {
 		if (p_items(caster) > 0) {
 			casters.push_back(caster);
 		}
@@ -30,79 +30,144 @@ void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *
 	});
 }
 
+void add_edge_passes(
+		RenderGraph &r_graph, RenderingDevice &p_device, const CountFindPasses &p_passes) {
+	const CountFrameBuffers buffers = p_passes.buffers;
+	add_caster_pass(
+			p_device,
+			r_graph.add_pass("mark edges")
+					.reads(buffers.planes, Access::SHADER_READ_COMPUTE)
+					.writes(buffers.words, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
+					.writes(buffers.blocks, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
+			"shadow_edge_count/mark_edges.comp", p_passes,
+			[](const CountCaster &p_caster) {
+				return p_caster.is_moved ? p_caster.gpu->word_count : 0u;
+			},
+			[=](PassContext &p_context, const CountCaster &p_caster) {
+				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
+													 p_caster.gpu->positions.get() },
+					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
+					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
+					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
+					{ FIND_BINDING_BLOCKS, p_context.get(buffers.blocks) } };
+			});
+	add_caster_pass(
+			p_device,
+			r_graph.add_pass("list edges")
+					.reads(buffers.words, Access::SHADER_READ_COMPUTE)
+					.reads(buffers.blocks, Access::SHADER_READ_COMPUTE)
+					.writes(buffers.edges, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
+					.writes(buffers.totals, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
+			"shadow_edge_count/list_edges.comp", p_passes,
+			[](const CountCaster &p_caster) { return p_caster.gpu->word_count; },
+			[=](PassContext &p_context, const CountCaster &p_caster) {
+				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
+													 p_caster.gpu->positions.get() },
+					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
+					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
+					{ FIND_BINDING_BLOCKS, p_context.get(buffers.blocks) },
+					{ FIND_BINDING_EDGES, p_context.get(buffers.edges) },
+					{ FIND_BINDING_TOTALS, p_context.get(buffers.totals) } };
+			});
+	add_compute_pass(r_graph, "bound edges",
+			p_device.get_compute_pipeline(
+					{ "bound edges", "shadow_edge_count/bound_edges.comp", {} }),
+			{ PassBinding::read(FIND_BINDING_EDGES, buffers.edges),
+					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
+					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
+			{ p_passes.capacities.get_bundle_count(), 1, 1 });
+}
+
+/// A compute pass whose size is in a buffer.
+void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
+		std::vector<PassBinding> p_bindings, RGBuffer p_dispatches, uint32_t p_word,
+		const shader::CountFaceListPush &p_push) {
+	PassBuilder pass = r_graph.add_pass(p_name);
+	declare_bindings(pass, p_bindings);
+	pass.reads(p_dispatches, Access::INDIRECT_READ);
+	pass.execute([=, bindings = std::move(p_bindings)](PassContext &p_context) {
+		bind_compute(p_context, p_pipeline, bindings,
+				std::span(reinterpret_cast<const uint8_t *>(&p_push), sizeof(p_push)));
+		p_context.commands.dispatch_indirect(
+				p_context.get(p_dispatches), p_word * sizeof(uint32_t));
+	});
+}
+
 } // namespace
 
 void add_find_passes(
-		RenderGraph &r_graph, RenderingDevice &p_device, const CountViewPasses &p_passes) {
-	const CountFrameBuffers light = p_passes.light;
-	const CountViewBuffers view = p_passes.view;
-	const RGBuffer constants = p_passes.constants;
-	const auto name = [&](const char *p_what) { return text(p_what, " view ", p_passes.index); };
+		RenderGraph &r_graph, RenderingDevice &p_device, const CountFindPasses &p_passes) {
+	const CountFrameBuffers buffers = p_passes.buffers;
 	add_caster_pass(
 			p_device,
-			r_graph.add_pass(name("face planes"))
-					.writes(view.planes, Access::SHADER_WRITE_COMPUTE,
-							PassBuilder::Content::UPDATE),
-			"shadow_edge_count/face_planes.comp", p_passes,
+			r_graph.add_pass("caster faces")
+					.writes(buffers.planes, Access::SHADER_WRITE_COMPUTE, Content::UPDATE)
+					.writes(buffers.faces, Access::SHADER_WRITE_COMPUTE, Content::UPDATE),
+			"shadow_edge_count/caster_faces.comp", p_passes,
 			[](const CountCaster &p_caster) {
 				return p_caster.is_moved ? p_caster.gpu->face_count : 0u;
 			},
 			[=](PassContext &p_context, const CountCaster &p_caster) {
 				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
 													 p_caster.gpu->positions.get() },
-					{ FIND_BINDING_FACES, p_caster.gpu->faces.get() },
-					{ FIND_BINDING_PLANES, p_context.get(view.planes) } };
+					{ FIND_BINDING_MESH_FACES, p_caster.gpu->faces.get() },
+					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
+					{ FIND_BINDING_FACES, p_context.get(buffers.faces) } };
 			});
-	const auto bind_edges = [=](PassContext &p_context, const CountCaster &p_caster) {
-		return std::vector<Binding>{ { FIND_BINDING_VIEW, p_context.get(constants) },
-			{ FIND_BINDING_POSITIONS, p_caster.gpu->positions.get() },
-			{ FIND_BINDING_PLANES, p_context.get(view.planes) },
-			{ FIND_BINDING_EDGES, p_caster.gpu->edges.get() },
-			{ FIND_BINDING_WORDS, p_context.get(view.words) },
-			{ FIND_BINDING_BLOCKS, p_context.get(view.blocks) } };
+	if (p_passes.has_edges) {
+		add_edge_passes(r_graph, p_device, p_passes);
+	}
+}
+
+void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
+		const CountFindPasses &p_passes, uint32_t p_view_index) {
+	// Each further attempt has texels as large as the number of nodes of the one before suggests,
+	// the last one a single texel.
+	const uint32_t attempt_count = p_passes.may_be_short ? 5 : 1;
+	const CountFrameBuffers buffers = p_passes.buffers;
+	const std::string view = text(" view ", p_view_index);
+	const auto get_pipeline = [&](const char *p_shader) {
+		return p_device.get_compute_pipeline({ p_shader, p_shader, {} });
 	};
-	add_caster_pass(
-			p_device,
-			r_graph.add_pass(name("mark edges"))
-					.reads(constants, Access::UNIFORM_READ)
-					.reads(view.planes, Access::SHADER_READ_COMPUTE)
-					.writes(view.words, Access::SHADER_WRITE_COMPUTE, PassBuilder::Content::UPDATE)
-					.writes(view.blocks, Access::SHADER_WRITE_COMPUTE,
-							PassBuilder::Content::UPDATE),
-			"shadow_edge_count/mark_edges.comp", p_passes,
-			[](const CountCaster &p_caster) {
-				return p_caster.is_moved ? p_caster.gpu->word_count : 0u;
-			},
-			bind_edges);
-	add_caster_pass(
-			p_device,
-			r_graph.add_pass(name("list edges"))
-					.reads(constants, Access::UNIFORM_READ)
-					.reads(view.planes, Access::SHADER_READ_COMPUTE)
-					.reads(view.words, Access::SHADER_READ_COMPUTE)
-					.reads(view.blocks, Access::SHADER_READ_COMPUTE)
-					.writes(light.records, Access::SHADER_WRITE_COMPUTE,
-							PassBuilder::Content::UPDATE)
-					.writes(light.totals, Access::SHADER_WRITE_COMPUTE,
-							PassBuilder::Content::UPDATE),
-			"shadow_edge_count/list_edges.comp", p_passes,
-			[](const CountCaster &p_caster) { return p_caster.gpu->word_count; },
-			[=](PassContext &p_context, const CountCaster &p_caster) {
-				std::vector<Binding> bindings = bind_edges(p_context, p_caster);
-				bindings.emplace_back(FIND_BINDING_LIST, p_context.get(light.records));
-				bindings.emplace_back(FIND_BINDING_TOTALS, p_context.get(light.totals));
-				return bindings;
-			});
-	const uint32_t most_records =
-			std::min(p_passes.casters.edge_count, p_passes.capacities.records_per_view);
-	add_part_pass(r_graph, p_device, name("bound edges"), "shadow_edge_count/bound_edges.comp",
-			p_passes,
-			{ PassBinding::constants(FIND_BINDING_VIEW, constants),
-					PassBinding::read(FIND_BINDING_LIST, light.records),
-					PassBinding::read(FIND_BINDING_TOTALS, light.totals),
-					PassBinding::write(
-							FIND_BINDING_BUNDLES, light.bundles, PassBuilder::Content::UPDATE) },
-			(most_records + EDGE_COUNT_BUNDLE_SIZE - 1) / EDGE_COUNT_BUNDLE_SIZE);
+	const PipelineRID clear = get_pipeline("shadow_edge_count/clear_faces.comp");
+	const PipelineRID list = get_pipeline("shadow_edge_count/list_faces.comp");
+	const PassBinding constants =
+			PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants);
+	const PassBinding totals =
+			PassBinding::write(FACE_LIST_BINDING_TOTALS, buffers.totals, Content::UPDATE);
+	const PassBinding heads =
+			PassBinding::write(FACE_LIST_BINDING_HEADS, buffers.heads, Content::UPDATE);
+	const std::vector<PassBinding> list_bindings = { constants,
+		PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces), heads,
+		PassBinding::write(FACE_LIST_BINDING_NODES, buffers.nodes, Content::UPDATE), totals };
+	RGBuffer dispatches;
+	for (uint32_t attempt = 0; attempt < attempt_count; ++attempt) {
+		const shader::CountFaceListPush push = { p_view_index, attempt == 0 ? 1u : 0u,
+			attempt + 2 == attempt_count ? 1u : 0u, 0 };
+		const auto push_bytes = std::span(reinterpret_cast<const uint8_t *>(&push), sizeof(push));
+		const std::string suffix = attempt == 0 ? view : text(view, " attempt ", attempt);
+		if (attempt == 0) {
+			add_compute_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
+					{ p_passes.capacities.texels_per_view, 1, 1 }, push_bytes);
+			add_compute_pass(r_graph, "list faces" + suffix, list, list_bindings,
+					{ p_passes.capacities.face_count, 1, 1 }, push_bytes);
+		} else {
+			add_indirect_pass(r_graph, "clear faces" + suffix, clear, { constants, heads, totals },
+					dispatches, FACE_LIST_DISPATCH_CLEAR, push);
+			add_indirect_pass(r_graph, "list faces" + suffix, list, list_bindings, dispatches,
+					FACE_LIST_DISPATCH_LIST, push);
+		}
+		if (attempt + 1 < attempt_count) {
+			dispatches = r_graph.create_buffer(
+					{ "face list dispatches", FACE_LIST_DISPATCH_WORDS * sizeof(uint32_t),
+							BufferUsage::STORAGE | BufferUsage::INDIRECT });
+			add_compute_pass(r_graph, "retry faces" + suffix,
+					get_pipeline("shadow_edge_count/retry_faces.comp"),
+					{ constants, totals,
+							PassBinding::write(FACE_LIST_BINDING_DISPATCHES, dispatches) },
+					{ 1, 1, 1 }, push_bytes);
+		}
+	}
 }
 
 } // namespace gnomon

@@ -2,9 +2,10 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/renderer/caster_pass.h"
 #include "modules/renderer/lighting.h"
 #include "modules/shadow_edge_count/disc_masks.h"
-#include "modules/shadow_edge_count/view_passes.h"
+#include "modules/shadow_edge_count/find_passes.h"
 
 #include <algorithm>
 
@@ -12,15 +13,15 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BORDER_PX = 2; // reference texels of receivers at the view's side
+constexpr uint32_t BORDER_PX = 1;			 // receivers at the view's side, where rounding decides
+constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // of the filter, as that of pcss
 
 void check_device(const ShadowTechnique::Inputs &p_inputs) {
-	const DeviceFeatures &features = p_inputs.device.get_features();
-	if (!features.fragment_stores || !features.subgroup_operations) {
-		fail("Light \"", p_inputs.light.name, "\": edge_count needs ",
-				features.fragment_stores ? "subgroup vote, arithmetic and ballot in compute shaders"
-										 : "stores and atomics in fragment shaders",
-				", which ", p_inputs.device.get_info().name,
+	if (!p_inputs.device.get_features().subgroup_operations) {
+		fail("Light \"", p_inputs.light.name,
+				"\": edge_count needs subgroup vote, arithmetic and ballot in compute shaders, "
+				"which ",
+				p_inputs.device.get_info().name,
 				" lacks. Set another shadow_technique; `gnomon techniques` lists them.");
 	}
 }
@@ -50,119 +51,148 @@ void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const SceneS
 }
 
 void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	debug_picture = {};
+	debug_image = {};
+	frame_depth_map = {};
+	constants = {};
+	are_casters_found = false;
 	settings = read_count_settings(p_inputs.light, p_inputs.scene, p_inputs.properties);
-	views.begin(p_inputs, KeptViews::Reads::ACROSS_VIEWS);
-	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
-	const auto plan_nothing = [&] {
-		if (views.may_forget()) {
+	const size_t view_count = p_inputs.views.size();
+	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius);
+	// A block may list an edge in each of its views.
+	may_filter = settings.has_budget() &&
+			(uint64_t(casters.edge_count) * view_count > settings.budget ||
+					!p_inputs.may_leave_out);
+	// Only the filter reads beyond the view of a receiver.
+	views.begin(p_inputs, may_filter ? KeptViews::Reads::ACROSS_VIEWS : KeptViews::Reads::OWN_VIEW);
+	has_casters = casters.face_count > 0;
+	if (views.is_all_empty() || !has_casters) {
+		if (views.may_forget() || !has_casters) {
 			buffers.reset();
-			found.clear();
+			depth_map.reset();
+			drawn = {};
 		}
-		views.plan(p_inputs, r_plan, found.size() == view_count);
-	};
-	if (views.is_all_empty()) {
-		return plan_nothing();
-	}
-	uint32_t most_edges = 0;
-	uint32_t edge_count = 0;
-	uint64_t fragment_bound = 0;
-	std::vector<CountCasters> casters;
-	empty_views = 0;
-	for (uint32_t view = 0; view < view_count; ++view) {
-		casters.push_back(build_count_casters(p_inputs, view));
-		most_edges = std::max(most_edges, casters.back().edge_count);
-		edge_count += casters.back().edge_count;
-		fragment_bound = std::max(fragment_bound, casters.back().fragment_bound);
-		empty_views |= casters.back().edge_count == 0 ? 1u << view : 0u;
+		views.plan(p_inputs, r_plan, !drawn.casters.casters.empty());
+		return;
 	}
 	check_device(p_inputs);
-	const CountCapacities wanted = choose_capacities(view_count, p_inputs.views[0].size_px,
-			most_edges, fragment_bound, settings.layer_count);
-	settings.budget = choose_budget(p_inputs.size_px, settings.budget, edge_count);
-	const auto may_filter = [&](const CountCapacities &p_capacities) {
-		const bool may_lack_room = most_edges > p_capacities.records_per_view ||
-				(settings.layer_count == 0 && fragment_bound > p_capacities.fragments_per_view);
-		return edge_count > settings.budget || may_lack_room || !p_inputs.may_leave_out;
-	};
-	if (!may_filter(wanted)) {
-		// Only filters read beyond the view of a receiver.
-		views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
-		if (views.is_all_empty()) {
-			return plan_nothing(); // takes no memory for what nobody sees
-		}
+	const CountCapacities capacities = choose_capacities(
+			static_cast<uint32_t>(view_count), p_inputs.views[0].size_px, casters);
+	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, capacities) &&
+			drawn.disc_radius == settings.disc_radius && drawn.casters.has_layout_of(casters) &&
+			(!may_filter || drawn.has_depth_map);
+	if (has_content && p_inputs.may_leave_out && p_inputs.may_keep &&
+			drawn.first_view == p_inputs.views[0]) {
+		compare_casters(drawn.casters, casters);
 	}
-	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, wanted);
-	may_be_over = may_filter(buffers.get_capacities());
-	empty_views |= views.get_empty_views();
-	if (!has_content || found.size() != view_count) {
-		found.assign(view_count, {});
+	views.plan(p_inputs, r_plan, has_content);
+	drawn.disc_radius = settings.disc_radius;
+	drawn.has_depth_map = may_filter;
+	if (!may_filter) {
+		depth_map.reset();
 	}
-	views.plan(p_inputs, r_plan,
-			has_content && drawn_disc_radius == settings.disc_radius &&
-					drawn_layer_count == settings.layer_count);
-	drawn_disc_radius = settings.disc_radius;
-	drawn_layer_count = settings.layer_count;
-	plan_edges(p_inputs, casters, r_plan);
-	if (may_be_over) {
-		r_plan.run(text("filter where a block has more than ", settings.budget, " edges"));
-	} else {
-		r_plan.leave_out(text("filter where a block has more than ", settings.budget, " edges"),
-				text("all casters together have ", edge_count));
+	if (!views.get_wanted_views().empty()) {
+		drawn.first_view = p_inputs.views[0];
+		drawn.casters = std::move(casters);
+		plan_casters(r_plan);
 	}
+	plan_blocks(r_plan);
 }
 
-void ShadowEdgeCount::plan_edges(
-		const Inputs &p_inputs, std::vector<CountCasters> &r_casters, TechniquePlan &r_plan) {
-	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
-	uint32_t kept_count = 0;
+void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
+	uint32_t reused_count = 0;
 	uint32_t moved_count = 0;
-	uint32_t flat_count = 0;
-	for (const uint32_t view : views.get_wanted_views()) {
-		FoundView &before = found[view];
-		const bool has_view_content = buffers.prepare_view(p_inputs.device, view, r_casters[view]);
-		if (has_view_content && may_keep && before.view == p_inputs.views[view] &&
-				before.disc_radius == settings.disc_radius) {
-			compare_casters(before.casters, r_casters[view]);
-		}
-		flat_count = std::max(flat_count, r_casters[view].flat_instance_count);
-		for (const CountCaster &caster : r_casters[view].casters) {
-			++(caster.is_moved ? moved_count : kept_count);
-		}
-		before = { p_inputs.views[view], settings.disc_radius, std::move(r_casters[view]) };
+	for (const CountCaster &caster : drawn.casters.casters) {
+		++(caster.is_moved ? moved_count : reused_count);
 	}
 	if (moved_count > 0) {
 		r_plan.run(text("find edges, casters: ", moved_count));
 	}
-	if (kept_count > 0) {
-		r_plan.leave_out(text("find edges, casters: ", kept_count),
+	if (reused_count > 0) {
+		r_plan.leave_out(text("find edges, casters: ", reused_count),
 				"kept: neither the light nor the caster moved");
 	}
-	if (flat_count > 0) {
-		r_plan.leave_out(text("edges of instances: ", flat_count), "a scale of theirs is 0");
+	if (drawn.casters.flat_instance_count > 0) {
+		r_plan.leave_out(text("edges of instances: ", drawn.casters.flat_instance_count),
+				"a scale of theirs is 0");
 	}
+	if (settings.disc_radius <= 0) {
+		r_plan.leave_out("edges", "the light has no size");
+	}
+	if (!is_node_count_known()) {
+		r_plan.run("face lists with larger texels, where there is no room");
+	}
+}
+
+void ShadowEdgeCount::plan_blocks(TechniquePlan &r_plan) {
+	if (!settings.has_budget()) {
+		r_plan.leave_out("filter", "edge_count_budget is -1: no block has too many edges");
+		return;
+	}
+	const std::string pass = text("filter where a block has more than ", settings.budget, " edges");
+	if (may_filter) {
+		r_plan.run(pass);
+	} else {
+		r_plan.leave_out(pass, text("all casters together have ", drawn.casters.edge_count));
+	}
+}
+
+bool ShadowEdgeCount::is_node_count_known() const {
+	return drawn.casters.node_bound <= buffers.get_capacities().nodes_per_view;
 }
 
 void ShadowEdgeCount::at_light_view(
 		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
 	views.set_drawn(p_inputs, p_view_index);
-	if ((empty_views & (1u << p_view_index)) != 0) {
-		return; // none of its casters has a face
+	if (!has_casters) {
+		return;
 	}
-	const LightView &view = p_inputs.views[p_view_index];
-	const CountViewPasses passes = { p_view_index, view.size_px, settings.layer_count,
-		r_graph.upload_constants("counted view",
-				make_count_view_constants(view,
-						make_count_space(view, settings.disc_radius, p_inputs.scene.scene_size_m),
-						p_view_index)),
-		found[p_view_index].casters, buffers.get_capacities(), buffers.import(r_graph),
-		buffers.import_view(r_graph, p_view_index) };
-	add_find_passes(r_graph, p_inputs.device, passes);
-	add_layer_passes(r_graph, p_inputs.device, passes);
+	if (!constants) {
+		constants = r_graph.upload_constants("counted views",
+				make_block_constants(p_inputs, settings, buffers.get_capacities(), 0));
+	}
+	const CountFindPasses passes = { drawn.casters, buffers.get_capacities(),
+		buffers.import(r_graph), constants, settings.disc_radius > 0,
+		!is_node_count_known() || !p_inputs.may_leave_out };
+	if (!are_casters_found) {
+		add_find_passes(r_graph, p_inputs.device, passes);
+		are_casters_found = true;
+	}
+	add_face_list_passes(r_graph, p_inputs.device, passes, p_view_index);
+	if (may_filter) {
+		const std::vector<LightView> depth_views = build_depth_views(p_inputs);
+		add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
+				depth_views[p_view_index], p_inputs.casters[p_view_index],
+				import_depth_map(r_graph, p_inputs), p_view_index);
+	}
+}
+
+std::vector<LightView> ShadowEdgeCount::build_depth_views(const Inputs &p_inputs) const {
+	std::vector<LightView> depth_views(p_inputs.views.begin(), p_inputs.views.end());
+	for (LightView &view : depth_views) {
+		view.size_px = glm::uvec2(DEPTH_MAP_SIZE_PX);
+	}
+	return depth_views;
+}
+
+RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs) {
+	if (!frame_depth_map) {
+		const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
+			glm::uvec2(DEPTH_MAP_SIZE_PX),
+			std::max(2u, static_cast<uint32_t>(p_inputs.views.size())), // an array
+			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED };
+		const bool has_content = bool(depth_map);
+		if (!has_content) {
+			depth_map = OwnedTexture(p_inputs.device, p_inputs.device.create_texture(desc));
+		}
+		frame_depth_map = r_graph.import_texture(depth_map.get(),
+				has_content ? RenderGraph::ImportedContent::KEPT
+							: RenderGraph::ImportedContent::NONE);
+	}
+	return frame_depth_map;
 }
 
 RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inputs) {
-	const uint32_t turn_count = settings.sample_count / DiscMasks::SAMPLE_COUNT;
+	const uint32_t turn_count = settings.get_turn_count();
 	if (!masks || mask_turn_count != turn_count) {
 		std::vector<uint64_t> tables;
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
@@ -182,40 +212,40 @@ RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inp
 }
 
 RGTexture ShadowEdgeCount::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
-	if (views.is_all_empty() || empty_views == ~0u >> (32 - p_inputs.views.size())) {
+	const uint32_t empty_views = views.get_empty_views() | drawn.casters.empty_views;
+	if (!has_casters || views.is_all_empty() ||
+			empty_views == ~0u >> (32 - p_inputs.views.size())) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
-	const CountBlockPasses passes = { p_inputs, settings, buffers.import(r_graph),
-		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs), may_be_over };
-	if (!views.get_wanted_views().empty()) {
-		buffers.add_readback(r_graph);
+	CountBlockPasses passes = { p_inputs, settings, buffers.import(r_graph),
+		buffers.get_capacities(), empty_views, import_masks(r_graph, p_inputs), {}, {} };
+	if (may_filter) {
+		passes.depth_map = import_depth_map(r_graph, p_inputs);
+		passes.depth_views = build_depth_views(p_inputs);
 	}
 	const CountBlocks blocks = add_block_passes(r_graph, passes);
 	if (p_inputs.wants_debug_views) {
-		debug_picture = add_count_debug_pass(r_graph, passes, blocks);
+		debug_image = add_count_debug_pass(r_graph, passes, blocks);
 	}
 	return add_count_passes(r_graph, passes, blocks);
 }
 
 void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
-	if (debug_picture) {
+	if (debug_image) {
+		r_views.push_back({ "edges", debug_image, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
 		r_views.push_back(
-				{ "edges", debug_picture, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
-		r_views.push_back(
-				{ "layers", debug_picture, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS, 8 });
-		r_views.push_back(
-				{ "blocks", debug_picture, glm::vec2(0.0f, 2.0f), EDGE_COUNT_DEBUG_BLOCKS, 3 });
+				{ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS, 8 });
+		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 3.0f), EDGE_COUNT_DEBUG_BLOCKS,
+				EDGE_COUNT_BLOCK_KINDS });
 	}
 }
 
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
-	for (const char *name : { "face_planes.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "layers.vert", "count_layers.frag", "sum_layers.comp",
-				 "place_layers.comp", "fill_layers.frag", "place_nearest.comp",
-				 "nearest_layers.frag", "bury_texels.comp", "receiver_boxes.comp",
-				 "list_blocks.comp", "resolve_plain.comp", "resolve.comp", "resolve_fine.comp",
-				 "filter_map.comp", "filter_blocks.comp", "debug.comp" }) {
+	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
+				 "bound_edges.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
+				 "receiver_boxes.comp", "list_blocks.comp", "resolve_plain.comp", "resolve.comp",
+				 "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	return files;

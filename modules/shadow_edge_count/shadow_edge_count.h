@@ -7,9 +7,9 @@
 
 namespace gnomon {
 
-/// Soft shadows by counting: the solids between a receiver and the light's centre, from a map of
-/// all layers, plus the silhouette edges crossed on the way to each point of the light. No noise,
-/// no bias to tune, and the map's size hardly matters. See doc/techniques/edge_count.md.
+/// Soft shadows by counting: the solids between a receiver and the light's centre, exactly, plus
+/// the silhouette edges crossed on the way to each point of the light. No noise and no bias to
+/// tune. See doc/techniques/edge_count.md.
 class ShadowEdgeCount : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
@@ -26,31 +26,38 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 private:
-	/// What a view's edges were found with.
-	struct FoundView {
-		LightView view;
+	/// What the buffers were made with.
+	struct Drawn {
+		LightView first_view; // whose axes are those of light space
 		double disc_radius = -1;
 		CountCasters casters;
+		bool has_depth_map = false;
 	};
 
-	/// Of the views that are drawn: whose edges are found anew, and whose are kept.
-	void plan_edges(
-			const Inputs &p_inputs, std::vector<CountCasters> &r_casters, TechniquePlan &r_plan);
+	void plan_casters(TechniquePlan &r_plan);
+	void plan_blocks(TechniquePlan &r_plan);
+	/// The face lists of a view surely have room.
+	bool is_node_count_known() const;
 	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
+	/// The views' nearest casters, for blocks over budget; one texture for all views.
+	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
+	std::vector<LightView> build_depth_views(const Inputs &p_inputs) const;
 
 	CountBuffers buffers;
 	KeptViews views;
-	std::vector<FoundView> found;
+	Drawn drawn;
 	OwnedBuffer masks;
 	uint32_t mask_turn_count = 0;
-	double drawn_disc_radius = -1;
-	uint32_t drawn_layer_count = 0;
+	OwnedTexture depth_map;
 
 	// This frame.
 	CountSettings settings;
-	uint32_t empty_views = 0;
-	bool may_be_over = true;
-	RGTexture debug_picture;
+	bool has_casters = false; // with faces
+	bool may_filter = false;  // blocks may have more edges than the budget
+	bool are_casters_found = false;
+	RGBuffer constants; // CountLightConstants, for the passes that find faces
+	RGTexture frame_depth_map;
+	RGTexture debug_image;
 };
 
 } // namespace gnomon

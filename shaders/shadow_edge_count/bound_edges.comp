@@ -1,14 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/count_cull_inc.glsl"
+#include "shadow_edge_count/shadow_edge_count_shared.h"
 
-// Bounds the edges of one view's list, bundle by bundle. One invocation per bundle.
-layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
-layout(set = 0, binding = FIND_BINDING_VIEW) uniform View {
-	CountViewConstants view;
-};
-layout(std430, set = 0, binding = FIND_BINDING_LIST) readonly buffer List {
-	CountEdgeRecord records[];
+// Bounds the edges of a light's list, bundle by bundle. One invocation per bundle.
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = FIND_BINDING_EDGES) readonly buffer Edges {
+	CountEdgeRecord edges[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
 	uint totals[];
@@ -16,22 +13,25 @@ layout(std430, set = 0, binding = FIND_BINDING_TOTALS) readonly buffer Totals {
 layout(std430, set = 0, binding = FIND_BINDING_BUNDLES) writeonly buffer Bundles {
 	CountEdgeBundle bundles[];
 };
-layout(push_constant) uniform Push {
-	CountPartPush push;
-};
 
 void main() {
+	const float FAR = 3e38;
+	const float WIDENED = 1.0001; // for the rounding of the middle
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle = gl_GlobalInvocationID.x;
-	const uint capacity = push.record_capacity;
-	const uint end = min(totals[uint(EDGE_COUNT_TOTAL_RECORDS) + view.index], capacity);
+	const uint end = totals[EDGE_COUNT_TOTAL_EDGES];
 	if (bundle * size >= end) {
 		return;
 	}
-	const uint first = view.index * capacity;
-	CountEdgeBundle bounds = make_count_bundle(records[first + bundle * size]);
-	for (uint i = bundle * size + 1u; i < min((bundle + 1u) * size, end); ++i) {
-		bounds = join_count_bundles(bounds, make_count_bundle(records[first + i]));
+	vec3 least = vec3(FAR);
+	vec3 greatest = vec3(-FAR);
+	for (uint i = bundle * size; i < min((bundle + 1u) * size, end); ++i) {
+		const vec3 a = uintBitsToFloat(edges[i].a_face0.xyz);
+		const vec3 b = uintBitsToFloat(edges[i].b_face1.xyz);
+		least = min(least, min(a, b));
+		greatest = max(greatest, max(a, b));
 	}
-	bundles[view.index * ((capacity + size - 1u) / size) + bundle] = bounds;
+	const vec3 center = 0.5 * least + 0.5 * greatest;
+	bundles[bundle] = CountEdgeBundle(vec4(center, 0.0),
+			vec4(WIDENED * max(greatest - center, center - least) + 1e-6 * abs(center), 0.0));
 }

@@ -17,7 +17,7 @@ uint find_block() {
 /// The first pixel of the work group.
 uvec2 find_block_group(uint p_block) {
 	const uvec2 block = uvec2(p_block % light.block_count.x, p_block / light.block_count.x);
-	const uint side = light.groups_per_block_side;
+	const uint side = uint(EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
 	const uvec2 group = block * side + uvec2(gl_WorkGroupID.y % side, gl_WorkGroupID.y / side);
 	return group * uint(MAP_RESOLVE_GROUP_SIZE);
 }

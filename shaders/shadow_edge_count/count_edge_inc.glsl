@@ -1,85 +1,58 @@
-// What one edge adds to a receiver: the two parts of compute_count_visibility in float32.
+// What one edge adds to a receiver, and the visibility from all: compute_count_visibility in float32.
 #ifndef COUNT_EDGE_INC_GLSL
 #define COUNT_EDGE_INC_GLSL
 
 #include "shadow_edge_count/count_classify_inc.glsl"
-#include "shadow_edge_count/count_cull_inc.glsl"
-#include "shadow_edge_count/count_layers_inc.glsl"
 #include "shadow_edge_count/count_masks_inc.glsl"
 
-const float COUNT_NEARER_TOLERANCE = 2e-5; // as COUNT_AWAY_TOLERANCE
-
-/// The planes of an edge's faces.
-struct CountEdgePlanes {
-	vec4 plane0;
-	vec4 plane1;
-};
-/// Of a record; asked for only where receivers that are dealt with together see different sides.
-CountEdgePlanes load_count_planes(uint p_record);
-
-/// The rest of a record.
-struct CountSegment {
-	vec3 a; // (x', y', w)
-	vec3 b;
-	int center_weight; // as seen from the light's centre
-	int kind;
-};
-
-CountSegment make_count_segment(vec4 p_a_bx, vec4 p_by_bw_weight_kind) {
-	return CountSegment(p_a_bx.xyz, vec3(p_a_bx.w, p_by_bw_weight_kind.xy),
-			int(p_by_bw_weight_kind.z), int(p_by_bw_weight_kind.w));
-}
-
-/// What was found so far.
+/// What was counted so far.
 struct CountState {
-	CountReference reference;
-	float area; // twice the signed area of the disc behind edges, in R^2
-	CountPlanes planes[COUNT_TURN_COUNT];
+	int solid_count; // between the receiver and the light's centre
+	float area;		 // twice the signed area of the disc behind edges, in R^2
+	CountPlanes turn0;
+#if COUNT_TURN_COUNT == 4
+	CountPlanes turn1;
+	CountPlanes turn2;
+	CountPlanes turn3;
+#endif
 };
 
-CountState make_count_state(CountReference p_reference) {
+CountState make_count_state(int p_solid_count) {
 	CountState state;
-	state.reference = p_reference;
+	state.solid_count = p_solid_count;
 	state.area = 0.0;
-	for (int turn = 0; turn < COUNT_TURN_COUNT; ++turn) {
-		state.planes[turn] = make_count_planes();
-	}
+	state.turn0 = make_count_planes();
+#if COUNT_TURN_COUNT == 4
+	state.turn1 = state.turn0;
+	state.turn2 = state.turn0;
+	state.turn3 = state.turn0;
+#endif
 	return state;
 }
 
-/// Corrects the count at the reference where the edge's outline, as the light's centre sees it, lies
-/// between reference and receiver. p_a, p_b: its ends, p_side = cross(p_a, p_b), from the receiver.
-void count_correct_reference(CountViewConstants p_view, CountReceiver p_receiver,
-		CountSegment p_edge, vec2 p_a, vec2 p_b, float p_side, inout CountReference r_reference) {
-	const vec2 offset = r_reference.offset;
-	const float reference_side = count_cross(p_a - offset, p_b - offset);
-	const float at_a = count_cross(offset, p_a);
-	const float at_b = count_cross(offset, p_b);
-	if ((reference_side > 0.0) == (p_side > 0.0) || (at_a > 0.0) == (at_b > 0.0)) {
-		return;
-	}
-	const float edge_w = mix(p_edge.a.z, p_edge.b.z, at_a / (at_a - at_b));
-	const float plane_w = mix(r_reference.w, p_receiver.warped.z,
-			reference_side / (reference_side - p_side));
-	// A sheet bends up and down: its own rim may lie a little above its receiver's plane.
-	const float tolerance = (p_edge.kind & EDGE_COUNT_DOUBLE_SIDED) != 0 ? COUNT_TOWARD_TOLERANCE
-																		  : COUNT_AWAY_TOLERANCE;
-	if (edge_w - plane_w > tolerance * count_depth_scale(p_view, plane_w)) {
-		const int weight = p_edge.center_weight;
-		r_reference.solid_count += abs(weight) * ((p_side > 0.0) == (weight < 0) ? 1 : -1);
-	}
-}
+/// A part of the disc: beyond a line, from one direction on to another.
+struct CountSector {
+	vec2 beyond; // direction of the line's other side
+	float distance;
+	vec2 from;
+	vec2 to;
+	bool is_twice;
+	uvec2 flip;
+	bool is_there;
+};
 
-/// Signed weight of the edge as the receiver sees it; see CountEdge.
-int count_weight(CountReceiver p_receiver, CountEdgePlanes p_planes, int p_kind) {
-	const bool is_facing0 = dot(p_planes.plane0.xyz, p_receiver.r) + p_planes.plane0.w > 0.0;
-	const bool is_facing1 = dot(p_planes.plane1.xyz, p_receiver.r) + p_planes.plane1.w > 0.0;
-	return count_sum_weights(is_facing0, is_facing1, p_kind);
+/// What a sector adds to the points of one turn, as count_step.
+uvec2 count_sector_points(CountSector p_sector, uint p_turn, inout CountPlanes r_planes) {
+	const uvec2 mask = find_count_mask(p_sector.beyond, p_sector.distance, p_turn) &
+			find_count_wedge(p_sector.from, p_sector.to, p_turn);
+	return count_step(r_planes, p_sector.is_there ? mask : uvec2(0u), p_sector.is_twice, p_sector.flip);
 }
 
 /// Adds the part of the disc beyond an edge from p_a to p_b on the disc's plane, as seen from the
-/// disc's centre: a sector without its triangle, and the points of the light in it. In units of R.
-void count_add_sector(vec2 p_a, vec2 p_b, float p_side, int p_weight, inout CountState r_state) {
+/// disc's centre: a sector without its triangle, and the points of the light in it. In units of R. Without a
+/// branch: software drivers run both sides, and copy all counters where they meet.
+void count_add_sector(
+		vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, bool p_is_there, inout CountState r_state) {
 	const vec2 way = p_b - p_a;
 	const float square = dot(way, way);
 	const vec2 u = way * inversesqrt(max(square, 1e-37));
@@ -88,97 +61,127 @@ void count_add_sector(vec2 p_a, vec2 p_b, float p_side, int p_weight, inout Coun
 	const float from = max(dot(p_a, u), -half_chord);
 	const float to = min(dot(p_b, u), half_chord);
 	const float length_along = to - from;
-	if (square < 1e-16 || distance >= 1.0 || !(length_along > 0.0)) {
-		return;
-	}
-	const bool is_left = p_side > 0.0;
 	// The sector's angle in one arc tangent; from the foot of the centre on the edge, so that no
 	// difference of large numbers loses its digits.
 	const float angle =
 			count_half_angle(vec2(distance * distance + from * to, distance * length_along));
 	const float part = angle - distance * length_along;
-	r_state.area += float(is_left ? -p_weight : p_weight) * part;
-	const vec2 beyond = is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x);
-	for (int turn = 0; turn < COUNT_TURN_COUNT; ++turn) {
-		const uvec2 mask = find_count_mask(beyond, distance, turn) &
-				find_count_wedge(is_left ? p_a : p_b, is_left ? p_b : p_a, turn);
-		count_step(r_state.planes[turn], mask, p_weight == 2, !is_left);
+	CountSector sector;
+	sector.is_there = p_is_there && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
+	sector.beyond = p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x);
+	sector.distance = distance;
+	sector.from = p_is_left ? p_a : p_b;
+	sector.to = p_is_left ? p_b : p_a;
+	sector.is_twice = p_weight == 2;
+	sector.flip = find_flip(!p_is_left);
+	r_state.area += sector.is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
+	const uvec2 carry0 = count_sector_points(sector, 0u, r_state.turn0);
+#if COUNT_TURN_COUNT == 4
+	const uvec2 carry1 = count_sector_points(sector, 1u, r_state.turn1);
+	const uvec2 carry2 = count_sector_points(sector, 2u, r_state.turn2);
+	const uvec2 carry3 = count_sector_points(sector, 3u, r_state.turn3);
+	const uvec2 carries = carry0 | carry1 | carry2 | carry3;
+#else
+	const uvec2 carries = carry0;
+#endif
+	uint is_far = carries.x | carries.y;
+	while (is_far != 0u) { // not a branch: seldom anything to do
+		count_far_step(r_state.turn0, carry0, sector.flip);
+#if COUNT_TURN_COUNT == 4
+		count_far_step(r_state.turn1, carry1, sector.flip);
+		count_far_step(r_state.turn2, carry2, sector.flip);
+		count_far_step(r_state.turn3, carry3, sector.flip);
+#endif
+		is_far = 0u;
 	}
 }
 
-/// What the part of the light beyond an edge adds. p_weight: as the receiver sees it.
-void count_add_area(
-		CountReceiver p_receiver, CountSegment p_edge, int p_weight, inout CountState r_state) {
-	const vec3 a = p_edge.a - p_receiver.warped;
-	const vec3 b = p_edge.b - p_receiver.warped;
-	const float side = count_cross(a.xy, b.xy);
-	const float least = COUNT_NEARER_TOLERANCE * p_receiver.scale;
-	const vec3 from = count_project(p_receiver, a);
-	const vec3 to = count_project(p_receiver, b);
-	const float share = (least - from.z) / (to.z - from.z);
-	const vec3 cut = vec3(mix(from.xy, to.xy, share), least);
-	const bool is_from_cut = from.z <= least;
-	const bool is_to_cut = to.z <= least;
-	if (p_weight == 0 || side == 0.0 || (is_from_cut && is_to_cut)) {
-		return;
+/// Moves one end of a segment of offsets to where d is p_d, which lies between those of both ends.
+vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_d) {
+	const float share = (p_d - p_end.z) / (p_other.z - p_end.z);
+	return vec3(mix(p_end.xy, p_other.xy, share), p_d);
+}
+
+/// What the part of the light beyond an edge adds. p_weight: as the receiver sees it; 0: nothing.
+/// p_may_be_behind: a part of the edge may lie behind the light's disc.
+void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, bool p_may_be_behind,
+		inout CountState r_state) {
+	const vec3 from = count_offset(p_receiver, p_a);
+	const vec3 to = count_offset(p_receiver, p_b);
+	const bool is_left = is_count_left(from.xy, to.xy);
+	// Cut where it is no nearer to the light than the receiver, and where it is behind the light.
+	const float least = p_receiver.least_d;
+	const float most = p_may_be_behind ? 1.0 : COUNT_MOST_D;
+	const bool is_there = p_weight != 0 && max(from.z, to.z) > least && min(from.z, to.z) < most;
+	vec3 first = from.z <= least ? cut_count_offset(from, to, least) : from;
+	vec3 second = to.z <= least ? cut_count_offset(to, from, least) : to;
+	if (p_may_be_behind) {
+		first = from.z > most ? cut_count_offset(from, to, most) : first;
+		second = to.z > most ? cut_count_offset(to, from, most) : second;
 	}
-	const vec3 first = is_from_cut ? cut : from;
-	const vec3 second = is_to_cut ? cut : to;
 	const float inverse = p_receiver.inverse_radius / (first.z * second.z);
 	const vec2 x_first = first.xy * (second.z * inverse);
 	const vec2 x_second = second.xy * (first.z * inverse);
 	const bool is_reversed = p_weight < 0;
 	count_add_sector(is_reversed ? x_second : x_first, is_reversed ? x_first : x_second,
-			is_reversed ? -side : side, abs(p_weight), r_state);
+			is_reversed != is_left, abs(p_weight), is_there, r_state);
 }
 
-/// The weight in what find_count_use gave, where it has COUNT_USE_ONE_WEIGHT.
-int count_use_weight(uint p_use) {
-	return int(p_use >> COUNT_WEIGHT_SHIFT) - COUNT_WEIGHT_BIAS;
+/// Signed weight of an edge as the receiver sees it.
+int count_weight(CountReceiver p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_kind) {
+	return count_sum_weights(is_count_before(p_plane0, p_receiver.position),
+			p_kind.is_inconsistent != is_count_before(p_plane1, p_receiver.position), p_kind);
 }
 
-/// All that one edge adds. p_record: its place, for its planes; p_use: see find_count_use.
-void count_add_edge(CountViewConstants p_view, CountReceiver p_receiver, CountSegment p_edge,
-		uint p_record, uint p_use, inout CountState r_state) {
-	if ((p_use & COUNT_USE_CENTER) != 0u) {
-		const vec2 a = p_edge.a.xy - p_receiver.warped.xy;
-		const vec2 b = p_edge.b.xy - p_receiver.warped.xy;
-		// The same product as in count_add_area, bit for bit: both tests must agree.
-		count_correct_reference(
-				p_view, p_receiver, p_edge, a, b, count_cross(a, b), r_state.reference);
-	}
-	if ((p_use & COUNT_USE_AREA) != 0u) {
-		const int weight = (p_use & COUNT_USE_ONE_WEIGHT) != 0u
-				? count_use_weight(p_use)
-				: count_weight(p_receiver, load_count_planes(p_record), p_edge.kind);
-		count_add_area(p_receiver, p_edge, weight, r_state);
-	}
+/// Sums over the points of the light.
+struct CountSums {
+	int hidden;			// points whose count is above 0
+	int count;			// of all counts
+	int hidden_changes; // pairs of a point and the one two on that are not both hidden or both visible
+	int changes;		// of such pairs, differences of the counts
+};
+
+void add_turn(CountPlanes p_planes, int p_solids, inout CountSums r_sums) {
+	const CountPlanes sums = add_solids(p_planes, p_solids);
+	const uvec2 is_hidden = find_hidden(sums);
+	r_sums.hidden += count_points(is_hidden);
+	r_sums.count += sum_points(sums);
+	r_sums.hidden_changes += count_points(is_hidden ^ turn_points(is_hidden));
+	r_sums.changes += sum_changes(sums);
 }
 
-/// Visibility from all that was counted, 0..1.
+bool has_overlap(CountState p_state, int p_solids) {
+	bool overlaps = has_overlap(add_solids(p_state.turn0, p_solids));
+#if COUNT_TURN_COUNT == 4
+	overlaps = overlaps || has_overlap(add_solids(p_state.turn1, p_solids)) ||
+			has_overlap(add_solids(p_state.turn2, p_solids)) || has_overlap(add_solids(p_state.turn3, p_solids));
+#endif
+	return overlaps;
+}
+
+/// Visibility from all that was counted, 0..1. Where no more than one solid hides the light, the areas alone
+/// are exact. Else the share of hidden points is corrected by what the areas know better than the points, the
+/// mean of the counts; as much of it as neighbouring points say that a change of the count is a change between
+/// hidden and visible.
 float count_resolve(CountState p_state) {
-	const int SATURATION = 15;
-	const int solids = clamp(p_state.reference.solid_count, 0, SATURATION);
-	const float mean = float(solids) + p_state.area / (2.0 * COUNT_PI);
-	int over = 0;
-	int under = 0;
-	int blocked = 0;
-	for (int turn = 0; turn < COUNT_TURN_COUNT; ++turn) {
-		const CountTotals totals = sum_counts(p_state.planes[turn], solids);
-		over += totals.over;
-		under += totals.under;
-		blocked += totals.blocked;
-	}
-	if (over + under == 0) {
-		return 1.0 - clamp(mean, 0.0, 1.0); // one layer at most: exact
-	}
-	if (blocked == EDGE_COUNT_SAMPLE_COUNT * COUNT_TURN_COUNT) {
-		return 0.0; // what the area of overlaps, known by points alone, would leave is noise
-	}
 	const float share = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_TURN_COUNT);
-	const float exact = 1.0 - clamp(mean - float(over - under) * share, 0.0, 1.0);
-	return mix(1.0 - float(blocked) * share, exact,
-			clamp(1.0 - float(over + under) * share, 0.0, 1.0));
+	const int solids = clamp(p_state.solid_count, 0, COUNT_MOST_SOLIDS);
+	const float mean = float(solids) + p_state.area / (2.0 * COUNT_PI);
+	float visibility = 1.0 - mean;
+	bool overlaps = has_overlap(p_state, solids);
+	while (overlaps) { // not a branch: software drivers run what a branch skips
+		CountSums sums = CountSums(0, 0, 0, 0);
+		add_turn(p_state.turn0, solids, sums);
+#if COUNT_TURN_COUNT == 4
+		add_turn(p_state.turn1, solids, sums);
+		add_turn(p_state.turn2, solids, sums);
+		add_turn(p_state.turn3, solids, sums);
+#endif
+		const float trust = float(sums.hidden_changes) / float(max(sums.changes, 1));
+		visibility = 1.0 - float(sums.hidden) * share - trust * (mean - float(sums.count) * share);
+		overlaps = false;
+	}
+	return clamp(visibility, 0.0, 1.0);
 }
 
 #endif

@@ -72,8 +72,9 @@ uvec2 find_count_wedge(vec2 p_from, vec2 p_to, uint p_turn) {
 	return from > to ? ~between : between;
 }
 
-/// Counters of all points, one bit of each in a plane, with a bias so that they may fall below 0:
-/// -16..47. No array: where one of its places is not known to the compiler, drivers keep it in memory.
+/// Counters of all points, one bit of each in a plane: numbers of nine bits, two's complement, plus COUNT_BIAS,
+/// so that they seldom leave the six lowest planes. No array: where one of its indices is not known to the
+/// compiler, drivers keep it in memory.
 struct CountPlanes {
 	uvec2 bit0;
 	uvec2 bit1;
@@ -81,11 +82,16 @@ struct CountPlanes {
 	uvec2 bit3;
 	uvec2 bit4;
 	uvec2 bit5;
+	uvec2 bit6;
+	uvec2 bit7;
+	uvec2 bit8;
 };
 const int COUNT_BIAS = 16;
+const int COUNT_MOST_SOLIDS = 200; // before the light's centre; counts of points reach 255
 
 CountPlanes make_count_planes() {
-	return CountPlanes(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0xffffffffu), uvec2(0u));
+	const uvec2 zero = uvec2(0u);
+	return CountPlanes(zero, zero, zero, zero, uvec2(0xffffffffu), zero, zero, zero, zero);
 }
 
 /// Adds a carry to one plane; the carry that goes on.
@@ -95,24 +101,27 @@ uvec2 carry_count(inout uvec2 r_plane, uvec2 p_carry, uvec2 p_flip) {
 	return next;
 }
 
-/// Adds 1 or 2, or subtracts it, at the points of the mask.
-void count_step(inout CountPlanes r_counters, uvec2 p_mask, bool p_is_twice, bool p_is_added) {
-	// Borrowing is carrying over the inverse.
-	const uvec2 flip = uvec2(p_is_added ? 0u : 0xffffffffu);
-	uvec2 carry = carry_count(r_counters.bit0, p_is_twice ? uvec2(0u) : p_mask, flip);
-	carry = carry_count(r_counters.bit1, p_is_twice ? p_mask : carry, flip);
-	carry = carry_count(r_counters.bit2, carry, flip);
-	carry = carry_count(r_counters.bit3, carry, flip);
-	carry = carry_count(r_counters.bit4, carry, flip);
-	carry_count(r_counters.bit5, carry, flip);
+/// Adds 1 or 2, or subtracts it, at the points of the mask, in the six lowest planes; what goes on from there.
+uvec2 count_step(inout CountPlanes r_counters, uvec2 p_mask, bool p_is_twice, uvec2 p_flip) {
+	uvec2 carry = carry_count(r_counters.bit0, p_is_twice ? uvec2(0u) : p_mask, p_flip);
+	carry = carry_count(r_counters.bit1, p_is_twice ? p_mask : carry, p_flip);
+	carry = carry_count(r_counters.bit2, carry, p_flip);
+	carry = carry_count(r_counters.bit3, carry, p_flip);
+	carry = carry_count(r_counters.bit4, carry, p_flip);
+	return carry_count(r_counters.bit5, carry, p_flip);
 }
 
-/// What the counters say: numbers of points, and sums over them.
-struct CountTotals {
-	int blocked; // points whose count is above 0
-	int over;	 // sum of what counts are above 1
-	int under;	 // sum of what counts are below 0
-};
+/// The rest of a step, where there is one.
+void count_far_step(inout CountPlanes r_counters, uvec2 p_carry, uvec2 p_flip) {
+	uvec2 carry = carry_count(r_counters.bit6, p_carry, p_flip);
+	carry = carry_count(r_counters.bit7, carry, p_flip);
+	r_counters.bit8 ^= carry;
+}
+
+/// Borrowing is carrying over the inverse.
+uvec2 find_flip(bool p_is_added) {
+	return uvec2(p_is_added ? 0u : 0xffffffffu);
+}
 
 int count_points(uvec2 p_mask) {
 	const ivec2 counts = bitCount(p_mask);
@@ -128,31 +137,76 @@ void add_bit(inout uvec2 r_plane, int p_bit, inout uvec2 r_carry) {
 	r_carry = next;
 }
 
-/// Of p_solids, 0..15, plus each counter.
-CountTotals sum_counts(CountPlanes p_counters, int p_solids) {
+/// Each counter plus p_solids, 0..COUNT_MOST_SOLIDS, without the bias.
+CountPlanes add_solids(CountPlanes p_counters, int p_solids) {
+	const int added = p_solids - COUNT_BIAS;
+	CountPlanes sums = p_counters;
 	uvec2 carry = uvec2(0u);
-	add_bit(p_counters.bit0, p_solids & 1, carry);
-	add_bit(p_counters.bit1, p_solids & 2, carry);
-	add_bit(p_counters.bit2, p_solids & 4, carry);
-	add_bit(p_counters.bit3, p_solids & 8, carry);
-	add_bit(p_counters.bit4, 0, carry);
-	add_bit(p_counters.bit5, 0, carry);
-	const uvec2 low = p_counters.bit0 | p_counters.bit1 | p_counters.bit2 | p_counters.bit3;
-	const uvec2 negative = ~(p_counters.bit4 | p_counters.bit5);
-	const uvec2 blocked = p_counters.bit5 | (p_counters.bit4 & low);
-	CountTotals totals;
-	totals.blocked = count_points(blocked);
-	totals.over = count_points(p_counters.bit0 & blocked) +
-			2 * count_points(p_counters.bit1 & blocked) +
-			4 * count_points(p_counters.bit2 & blocked) +
-			8 * count_points(p_counters.bit3 & blocked) +
-			16 * count_points(p_counters.bit4 & blocked) + 32 * count_points(p_counters.bit5) -
-			(COUNT_BIAS + 1) * totals.blocked;
-	totals.under = COUNT_BIAS * count_points(negative) - count_points(p_counters.bit0 & negative) -
-			2 * count_points(p_counters.bit1 & negative) -
-			4 * count_points(p_counters.bit2 & negative) -
-			8 * count_points(p_counters.bit3 & negative);
-	return totals;
+	add_bit(sums.bit0, added & 1, carry);
+	add_bit(sums.bit1, added & 2, carry);
+	add_bit(sums.bit2, added & 4, carry);
+	add_bit(sums.bit3, added & 8, carry);
+	add_bit(sums.bit4, added & 16, carry);
+	add_bit(sums.bit5, added & 32, carry);
+	add_bit(sums.bit6, added & 64, carry);
+	add_bit(sums.bit7, added & 128, carry);
+	add_bit(sums.bit8, added & 256, carry);
+	return sums;
+}
+
+uvec2 find_above_one(CountPlanes p_sums) {
+	return (p_sums.bit1 | p_sums.bit2 | p_sums.bit3 | p_sums.bit4 | p_sums.bit5 | p_sums.bit6 | p_sums.bit7) &
+			~p_sums.bit8;
+}
+
+/// Points whose count is above 0.
+uvec2 find_hidden(CountPlanes p_sums) {
+	return find_above_one(p_sums) | (p_sums.bit0 & ~p_sums.bit8);
+}
+
+/// True where counts are neither 0 nor 1: casters overlap, or rounding took some away.
+bool has_overlap(CountPlanes p_sums) {
+	const uvec2 beyond = find_above_one(p_sums) | p_sums.bit8;
+	return (beyond.x | beyond.y) != 0u;
+}
+
+/// Sum of the counts of all points.
+int sum_points(CountPlanes p_sums) {
+	return count_points(p_sums.bit0) + 2 * count_points(p_sums.bit1) + 4 * count_points(p_sums.bit2) +
+			8 * count_points(p_sums.bit3) + 16 * count_points(p_sums.bit4) + 32 * count_points(p_sums.bit5) +
+			64 * count_points(p_sums.bit6) + 128 * count_points(p_sums.bit7) -
+			256 * count_points(p_sums.bit8);
+}
+
+/// Bits of the points two on: in angle a neighbour, and half a radius apart.
+uvec2 turn_points(uvec2 p_mask) {
+	return (p_mask >> 2) | (p_mask.yx << 30);
+}
+
+/// The difference of a plane and its turned one, less a borrow.
+uvec2 subtract_turned(uvec2 p_plane, inout uvec2 r_borrow) {
+	const uvec2 turned = turn_points(p_plane);
+	const uvec2 differs = p_plane ^ turned;
+	const uvec2 difference = differs ^ r_borrow;
+	r_borrow = (~p_plane & turned) | (~differs & r_borrow);
+	return difference;
+}
+
+/// Sum over all points of |count - count of the point two on|.
+int sum_changes(CountPlanes p_sums) {
+	uvec2 borrow = uvec2(0u);
+	const uvec2 d0 = subtract_turned(p_sums.bit0, borrow);
+	const uvec2 d1 = subtract_turned(p_sums.bit1, borrow);
+	const uvec2 d2 = subtract_turned(p_sums.bit2, borrow);
+	const uvec2 d3 = subtract_turned(p_sums.bit3, borrow);
+	const uvec2 d4 = subtract_turned(p_sums.bit4, borrow);
+	const uvec2 d5 = subtract_turned(p_sums.bit5, borrow);
+	const uvec2 d6 = subtract_turned(p_sums.bit6, borrow);
+	const uvec2 d7 = subtract_turned(p_sums.bit7, borrow);
+	const uvec2 sign = subtract_turned(p_sums.bit8, borrow);
+	return count_points(d0 ^ sign) + 2 * count_points(d1 ^ sign) + 4 * count_points(d2 ^ sign) +
+			8 * count_points(d3 ^ sign) + 16 * count_points(d4 ^ sign) + 32 * count_points(d5 ^ sign) +
+			64 * count_points(d6 ^ sign) + 128 * count_points(d7 ^ sign) + count_points(sign);
 }
 
 #endif

@@ -11,21 +11,39 @@ layout(set = 0, binding = COUNT_BINDING_LIGHT) uniform Light {
 
 layout(constant_id = EDGE_COUNT_CONSTANT_VIEW_COUNT) const uint VIEW_COUNT = 1u;
 
+/// A pixel's receiver.
+struct CountPoint {
+	vec3 position; // light space
+	uint view;	   // that holds it
+	vec3 warped;   // x', y' and w in the view
+	vec2 slope;	   // of its plane: w per x' and y'; 0 where it is seen edge on
+};
+
 /// Only for pixels that receive.
-CountReceiver load_count_receiver(ivec2 p_pixel, out uint r_view) {
+CountPoint load_count_point(ivec2 p_pixel) {
+	const float FLAT = 1e-7;
 	const ReceiverPixel pixel = load_receiver(p_pixel);
-	r_view = VIEW_COUNT == 1u ? 0u : find_view(light_views, pixel.position);
-	const mat4 view_from_camera_relative = light_views.views[r_view].view_from_camera_relative;
-	return make_count_receiver(light.views[r_view],
-			(view_from_camera_relative * vec4(pixel.position, 1.0)).xyz,
-			mat3(view_from_camera_relative) * pixel.normal);
+	CountPoint point;
+	point.view = VIEW_COUNT == 1u ? 0u : find_view(light_views, pixel.position);
+	point.position = (light_views.views[0].view_from_camera_relative * vec4(pixel.position, 1.0)).xyz;
+	const CountViewConstants view = light.views[VIEW_COUNT == 1u ? 0u : point.view];
+	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
+	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
+	const vec3 normal_light = mat3(light_views.views[0].view_from_camera_relative) * pixel.normal;
+	const vec3 n = VIEW_COUNT == 1u ? normal_light : normal_light * light_from_view;
+	const bool is_directional = light.is_directional != 0u;
+	point.warped = is_directional ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;
+	const float height = is_directional ? n.z : dot(n, r);
+	const float least = FLAT * (is_directional ? 1.0 : length(r));
+	point.slope = abs(height) >= least ? n.xy / height : vec2(0.0);
+	return point;
 }
 
 /// False where no caster of the view can hide the receiver: it lies behind the view, or the view has no
 /// casters.
-bool may_count_at(vec3 p_warped, uint p_view) {
-	const bool is_before = light.views[p_view].is_directional != 0u || p_warped.z > 0.0;
-	return (light.empty_views & (1u << p_view)) == 0u && is_before;
+bool may_count_at(CountPoint p_point) {
+	const bool is_before = light.is_directional != 0u || p_point.warped.z > 0.0;
+	return (light.empty_views & (1u << p_point.view)) == 0u && is_before;
 }
 
 #endif

@@ -1,78 +1,90 @@
-// The space in which receivers count edges: CountSpace and DiscProjection in float32.
+// Light space, and what a receiver sees of it: CountReceiver and count_offset of count_in_double.h in
+// float32. Light space: metres, the light's centre at the origin (directional: its view's origin).
 #ifndef COUNT_SPACE_INC_GLSL
 #define COUNT_SPACE_INC_GLSL
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-/// A receiver in a light view.
+const float COUNT_MOST_D = 3e38;
+
+/// A receiver in light space, and the disc of the light that faces it.
 struct CountReceiver {
-	vec3 r;		// metres, the light's centre at the origin
-	vec3 normal; // unit, of the face, in the view's axes
-	vec3 warped; // x', y', w
-	vec2 slope;	 // of its plane: w per x' and y'
-	float scale; // of tolerances: w; directional: metres
-	float inverse_radius; // 1 / R; R = 0 has no penumbra, and no edge is asked for it
-	// Of the disc that faces it: see count_project.
-	vec2 side;
-	float turn;
-	float depth_turn;
+	vec3 position;
+	// An offset from the receiver to (X, d), X / d a point of the disc's plane in metres (directional:
+	// tangents), d = 0 at the receiver and 1 in the disc's plane (directional: metres towards the light).
+	vec3 disc_x;
+	vec3 disc_y;
+	vec3 to_light;
+	float inverse_radius; // 1 / R; R = 0 has no penumbra, and no edge is counted for it
+	float least_d;		  // an edge counts only where it is nearer to the light than this
+	float least_near;	  // of dot(to_light, point): it is nearer to the light than to the receiver
 };
 
 float count_cross(vec2 p_a, vec2 p_b) {
-	return p_a.x * p_b.y - p_a.y * p_b.x;
+	precise const float result = p_a.x * p_b.y - p_a.y * p_b.x;
+	return result;
 }
 
-vec3 count_warp(CountViewConstants p_view, vec3 p_r) {
-	return p_view.is_directional != 0u ? vec3(p_r.xy, p_view.depth_far_m - p_r.z)
-									   : vec3(p_r.xy, 1.0) / p_r.z;
-}
-
-/// What a relative tolerance of w is a share of; see CountSpace.
-float count_depth_scale(CountViewConstants p_view, float p_w) {
-	return p_view.is_directional != 0u ? p_view.depth_scale_m : p_w;
-}
-
-/// Above 0 where the face is turned to the light's centre.
-float count_light_side(CountViewConstants p_view, vec3 p_normal, float p_distance) {
-	return p_view.is_directional != 0u ? -p_normal.z : p_distance;
-}
-
-CountReceiver make_count_receiver(CountViewConstants p_view, vec3 p_r, vec3 p_normal) {
-	const float FLAT_NORMAL = 1e-7; // the receiver is seen edge on: no slope
+/// p_position: never the light's centre itself.
+CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position) {
 	CountReceiver receiver;
-	receiver.r = p_r;
-	receiver.normal = p_normal;
-	receiver.inverse_radius = 1.0 / max(p_view.disc_radius, 1e-37);
-	receiver.warped = count_warp(p_view, p_r);
-	const bool is_directional = p_view.is_directional != 0u;
-	receiver.scale = count_depth_scale(p_view, receiver.warped.z);
-	const float depth_slope = is_directional ? p_normal.z : dot(p_normal, p_r);
-	const float least = FLAT_NORMAL * (is_directional ? 1.0 : length(p_r));
-	receiver.slope = abs(depth_slope) >= least ? p_normal.xy / depth_slope : vec2(0.0);
-	const float rho = length(p_r);
-	const bool turns = !is_directional && rho > 0.0;
-	receiver.side = turns ? p_r.xy : vec2(0.0);
-	receiver.turn = turns ? 1.0 / (rho * (rho + p_r.z)) : 0.0;
-	receiver.depth_turn = turns ? 1.0 / (rho * rho) : 0.0;
+	receiver.position = p_position;
+	receiver.inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
+	receiver.least_d = p_light.nearer_tolerance;
+	if (p_light.is_directional != 0u) {
+		receiver.disc_x = vec3(1.0, 0.0, 0.0);
+		receiver.disc_y = vec3(0.0, 1.0, 0.0);
+		receiver.to_light = vec3(0.0, 0.0, -1.0);
+		receiver.least_near = COUNT_MOST_D;
+		return receiver;
+	}
+	// An orthonormal basis (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3):
+	// disc_x x disc_y points from the light to the receiver.
+	const float square = max(dot(p_position, p_position), 1e-37);
+	const vec3 n = p_position * inversesqrt(square);
+	const float turn = n.z >= 0.0 ? 1.0 : -1.0;
+	const float a = -1.0 / (turn + n.z);
+	const float b = n.x * n.y * a;
+	receiver.disc_x = vec3(1.0 + turn * n.x * n.x * a, turn * b, -turn * n.x);
+	receiver.disc_y = vec3(b, turn + n.y * n.y * a, -n.y);
+	receiver.to_light = -p_position / square;
+	receiver.least_near = -0.5;
 	return receiver;
 }
 
-/// An offset (A, d) = (q' - p', w_q - w_p) so that A / d is a point of the plane of the disc that
-/// faces the receiver.
-vec3 count_project(CountReceiver p_receiver, vec3 p_offset) {
-	const float along = dot(p_offset.xy, p_receiver.side);
-	return vec3(p_offset.xy - p_receiver.side * (p_receiver.turn * along),
-			p_offset.z - along * p_receiver.depth_turn);
+/// (X, d) of a point. Equal points give equal bits: every side of an edge is made of these. Points nearer to the
+/// light than to the receiver are measured from the light: a difference would lose what they are small by.
+vec3 count_offset(CountReceiver p_receiver, vec3 p_point) {
+	precise const vec3 o = p_point - p_receiver.position;
+	precise const float from_light = dot(p_receiver.to_light, p_point);
+	const bool is_near_light = from_light > p_receiver.least_near;
+	precise const vec3 way = vec3(is_near_light ? p_point.x : o.x, is_near_light ? p_point.y : o.y,
+			is_near_light ? p_point.z : o.z);
+	precise const float x =
+			p_receiver.disc_x.x * way.x + p_receiver.disc_x.y * way.y + p_receiver.disc_x.z * way.z;
+	precise const float y =
+			p_receiver.disc_y.x * way.x + p_receiver.disc_y.y * way.y + p_receiver.disc_y.z * way.z;
+	return vec3(x, y, is_near_light ? 1.0 + from_light : dot(p_receiver.to_light, o));
 }
 
-/// w that the receiver's plane gains from the receiver to an offset in x', y'.
-float count_rise(CountReceiver p_receiver, vec2 p_offset) {
-	return dot(p_receiver.slope, p_offset);
+/// Which side of the way from the receiver to the light's centre an edge a -> b passes, from X of its ends.
+/// Changing a and b changes the answer, also where the way meets the edge: there it is as if the receiver
+/// were moved by (e, e^2), e > 0 and infinitely small.
+bool is_count_left(vec2 p_a, vec2 p_b) {
+	const float side = count_cross(p_a, p_b);
+	return side > 0.0 ||
+			(side == 0.0 && (p_b.y > p_a.y || (p_b.y == p_a.y && p_b.x < p_a.x)));
 }
 
-/// w of its plane there, never below the receiver: the plane's own fall is no shadow.
-float count_plane_w(CountReceiver p_receiver, vec2 p_offset) {
-	return p_receiver.warped.z + max(count_rise(p_receiver, p_offset), 0.0);
+/// True where a point lies in front of the face n.r + d = 0. A face without area, all 0, has none before it.
+bool is_count_before(vec4 p_plane, vec3 p_point) {
+	precise const float side = p_plane.x * p_point.x + p_plane.y * p_point.y + p_plane.z * p_point.z + p_plane.w;
+	return side > 0.0;
+}
+
+/// True where the light's centre lies in front of the face.
+bool is_count_light_before(bool p_is_directional, vec4 p_plane) {
+	return (p_is_directional ? -p_plane.z : p_plane.w) > 0.0;
 }
 
 #endif

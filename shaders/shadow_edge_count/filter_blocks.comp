@@ -4,8 +4,8 @@
 #include "common/pcss_inc.glsl"
 #include "shadow_edge_count/count_blocks_inc.glsl"
 
-// Percentage-closer soft shadows in the blocks that have too many edges to count.
-layout(set = 0, binding = COUNT_BINDING_MAP) uniform texture2DArray map_texture;
+// Percentage-closer soft shadows in the blocks that have more edges than the budget.
+layout(set = 0, binding = COUNT_BINDING_DEPTH_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
@@ -15,13 +15,14 @@ void main() {
 	}
 	float visibility = 0.0;
 	if (is_receiver_pixel(pixel)) {
-		uint view;
-		const MapPoint point = load_map_point(pixel, view);
-		visibility = is_surely_lit(point, view, light.empty_views)
+		const ReceiverPixel receiver = load_receiver(pixel);
+		const uint view = find_view(light_views, receiver.position);
+		const MapPoint point = project_to_map(light_views.views[view], receiver.position, receiver.normal);
+		const bool is_surely_lit = (light.empty_views & (1u << view)) != 0u || point.w <= 0.0;
+		visibility = is_surely_lit
 				? 1.0
-				: pcss(map_texture, light.empty_views, light_views.views[view], point,
-						  light.views[view].disc_radius, push.nearest_w, EDGE_COUNT_FILTER_TAPS,
-						  interleaved_noise(pixel) * TWO_PI);
+				: pcss(map_texture, light.empty_views, light_views.views[view], point, light.disc_radius,
+						  push.nearest_w, EDGE_COUNT_FILTER_TAPS, interleaved_noise(pixel) * TWO_PI);
 	}
 	imageStore(mask_image, pixel, vec4(visibility));
 }

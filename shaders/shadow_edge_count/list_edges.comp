@@ -1,20 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/ordered_list_inc.glsl"
-#include "shadow_edge_count/caster_edge_inc.glsl"
+#include "shadow_edge_count/caster_positions_inc.glsl"
 
-// Writes the marked edges of one caster into the list of all, behind those of the casters before, in
+// Records the marked edges of one caster in the list of all, behind those of the casters before, in
 // their own order, so that no sum depends on scheduling. One invocation per word. The last caster's
-// pass tells how many there are.
+// pass writes how many there are.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
+layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
+	CountMeshEdge mesh_edges[];
+};
 layout(std430, set = 0, binding = FIND_BINDING_WORDS) readonly buffer Words {
 	uint words[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) readonly buffer Blocks {
 	uint block_counts[];
 };
-layout(std430, set = 0, binding = FIND_BINDING_LIST) writeonly buffer List {
-	CountEdgeRecord records[];
+layout(std430, set = 0, binding = FIND_BINDING_EDGES) writeonly buffer Edges {
+	CountEdgeRecord edges[];
 };
 layout(std430, set = 0, binding = FIND_BINDING_TOTALS) writeonly buffer Totals {
 	uint totals[];
@@ -28,28 +31,33 @@ uint load_list_block(uint p_index) {
 	return block_counts[p_index];
 }
 
+CountEdgeRecord make_record(CountMeshEdge p_edge) {
+	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
+	const vec3 a = load_light_position(is_mirrored ? p_edge.b : p_edge.a);
+	const vec3 b = load_light_position(is_mirrored ? p_edge.a : p_edge.b);
+	return CountEdgeRecord(uvec4(floatBitsToUint(a), p_edge.face0 + push.first_face),
+			uvec4(floatBitsToUint(b),
+					p_edge.face1 == EDGE_COUNT_NO_FACE ? EDGE_COUNT_NO_FACE
+													   : p_edge.face1 + push.first_face));
+}
+
 void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + uint(EDGE_COUNT_EDGES_PER_WORD) - 1u) /
 			uint(EDGE_COUNT_EDGES_PER_WORD);
 	const uint first_word = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK);
 	// All blocks before, other casters' too: one list for all.
-	uint place = find_list_place(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u,
-			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
+	uint place = find_list_place(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u, push.first_block + gl_WorkGroupID.x,
+			push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}
-	const uint first_record = view.index * push.record_capacity;
 	for (uint bits = words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
-		CountEdgeRecord record;
-		make_caster_record(
-				word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits)), record);
-		if (place < push.record_capacity) {
-			records[first_record + place] = record;
-		}
+		edges[place] = make_record(
+				mesh_edges[word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits))]);
 		++place;
 	}
-	if ((push.kind & uint(EDGE_COUNT_LAST_CASTER)) != 0u && word_index + 1u == word_count) {
-		totals[uint(EDGE_COUNT_TOTAL_RECORDS) + view.index] = place; // also those without room
+	if ((push.flags & EDGE_COUNT_CASTER_LAST) != 0u && word_index + 1u == word_count) {
+		totals[EDGE_COUNT_TOTAL_EDGES] = place;
 	}
 }

@@ -1,10 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/caster_edge_inc.glsl"
+#include "shadow_edge_count/caster_positions_inc.glsl"
+#include "shadow_edge_count/count_classify_inc.glsl"
 
 // Marks the edges of one caster that receivers may have to count: one invocation makes one word of 32
 // edges, one work group counts those of its block.
 layout(local_size_x = EDGE_COUNT_WORDS_PER_BLOCK) in;
+layout(std430, set = 0, binding = FIND_BINDING_MESH_EDGES) readonly buffer MeshEdges {
+	CountMeshEdge mesh_edges[];
+};
+layout(std430, set = 0, binding = FIND_BINDING_PLANES) readonly buffer Planes {
+	vec4 planes[];
+};
 layout(std430, set = 0, binding = FIND_BINDING_WORDS) writeonly buffer Words {
 	uint words[];
 };
@@ -13,6 +20,23 @@ layout(std430, set = 0, binding = FIND_BINDING_BLOCKS) writeonly buffer Blocks {
 };
 
 shared uint block_count;
+
+int find_side(uint p_face) {
+	return count_find_light_side((push.flags & EDGE_COUNT_CASTER_DIRECTIONAL) != 0u, push.disc_radius,
+			push.side_tolerance, planes[push.first_face + (p_face & EDGE_COUNT_FACE_MASK)]);
+}
+
+/// False where the whole light lies on one side of both faces: no point of it sees a silhouette. A boundary
+/// edge always is one.
+bool may_be_silhouette(CountMeshEdge p_edge) {
+	const CountEdgeKind kind = make_count_kind(p_edge.face0, p_edge.face1);
+	if (!kind.has_face1) {
+		return true;
+	}
+	const int side0 = find_side(p_edge.face0);
+	const int side1 = find_side(p_edge.face1);
+	return side0 == 0 || side0 != (kind.is_inconsistent ? -side1 : side1);
+}
 
 void main() {
 	if (gl_LocalInvocationID.x == 0u) {
@@ -25,8 +49,7 @@ void main() {
 		uint word = 0u;
 		const uint count = min(uint(EDGE_COUNT_EDGES_PER_WORD), push.edge_count - first);
 		for (uint i = 0u; i < count; ++i) {
-			CountEdgeRecord record;
-			word |= make_caster_record(first + i, record) ? 1u << i : 0u;
+			word |= may_be_silhouette(mesh_edges[first + i]) ? 1u << i : 0u;
 		}
 		words[push.first_word + word_index] = word;
 		atomicAdd(block_count, uint(bitCount(word)));

@@ -2,7 +2,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_blocks_inc.glsl"
-#include "shadow_edge_count/count_map_inc.glsl"
+#include "shadow_edge_count/count_lists_inc.glsl"
 
 // Blocks without edges: each receiver is lit or dark as the light's centre sees it.
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
@@ -14,10 +14,10 @@ void main() {
 	}
 	float visibility = 0.0;
 	if (is_receiver_pixel(pixel)) {
-		uint view;
-		const CountReceiver receiver = load_count_receiver(pixel, view);
-		visibility = !may_count_at(receiver.warped, view) ||
-						find_count_reference(light.views[view], receiver).solid_count <= 0
+		const CountPoint point = load_count_point(pixel);
+		const CountReceiver receiver = make_count_receiver(light, point.position);
+		visibility = !may_count_at(point) ||
+						count_solids(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver) == 0
 				? 1.0
 				: 0.0;
 	}

@@ -8,24 +8,34 @@
 #define EDGE_COUNT_OFFSET_COUNT 64
 #define EDGE_COUNT_SAMPLE_COUNT 64
 
-// The kind of an edge, a sum of these.
-#define EDGE_COUNT_HAS_FACE1 1
-#define EDGE_COUNT_DOUBLE_SIDED 2
+// Edges and faces are recorded once per light, in light space: metres, the origin at the light's
+// centre (directional: at its view's origin), the axes of its first view.
 
-/// An edge that is a silhouette from some point of the light; see CountEdge. First what a receiver
-/// always needs, then what tells the sides of its faces.
+// Of the word that holds a face's index: the rest of its bits.
+#define EDGE_COUNT_FACE_MASK 0x00ffffffu
+#define EDGE_COUNT_DOUBLE_SIDED 0x80000000u // of a part of a mesh that is not closed
+#define EDGE_COUNT_INCONSISTENT 0x40000000u // both faces wind along the edge in one direction
+#define EDGE_COUNT_NO_FACE 0xffffffffu
+
+/// An edge that may be a silhouette from some point of the light: 2 x RGBA32_UINT.
 struct SHARED_ALIGN CountEdgeRecord {
-	vec4 a_bx;			  // x', y', w of one end; x' of the other
-	vec4 by_bw_weight_kind; // y', w of the other; weight as seen from the light's centre; its kind
-	vec4 plane0; // n and d of the first face: n.r + d = 0, above 0 in front
-	vec4 plane1; // of the second face, or 0
+	uvec4 a_face0; // bits of its position; index and kind of its first face, which winds a -> b
+	uvec4 b_face1; // likewise; index of the second face, or EDGE_COUNT_NO_FACE
 };
-SHARED_SIZE(CountEdgeRecord, 64);
+SHARED_SIZE(CountEdgeRecord, 32);
 
-/// What bounds so many edges that follow one another in a view's list: one test may spare all of them.
+/// A face: 3 x RGBA32_UINT. Its plane has a buffer of its own, which edges read too.
+struct SHARED_ALIGN CountFaceRecord {
+	uvec4 a_kind; // bits of the position; 0 or EDGE_COUNT_DOUBLE_SIDED
+	uvec4 b;
+	uvec4 c;
+};
+SHARED_SIZE(CountFaceRecord, 48);
+
+/// The bounds of so many edges that follow one another in the light's list: one test may reject all.
 struct SHARED_ALIGN CountEdgeBundle {
-	vec4 least_greatest_xy; // x' and y'
-	vec4 greatest_w;		// w, 0, 0, 0
+	vec4 center;
+	vec4 half_size;
 };
 SHARED_SIZE(CountEdgeBundle, 32);
 #define EDGE_COUNT_BUNDLE_SIZE 32
@@ -33,17 +43,16 @@ SHARED_SIZE(CountEdgeBundle, 32);
 // Edges are found 32 to a word, 64 words to a block, so that the list has their own order.
 #define EDGE_COUNT_EDGES_PER_WORD 32
 #define EDGE_COUNT_WORDS_PER_BLOCK 64
-#define EDGE_COUNT_NO_FACE 0xffffffffu
 
-// Bindings of the passes that find edges.
-#define FIND_BINDING_VIEW 0
-#define FIND_BINDING_POSITIONS 1
-#define FIND_BINDING_FACES 2
+// Bindings of the passes that find faces and edges.
+#define FIND_BINDING_POSITIONS 0
+#define FIND_BINDING_MESH_FACES 1
+#define FIND_BINDING_MESH_EDGES 2
 #define FIND_BINDING_PLANES 3
-#define FIND_BINDING_EDGES 4
+#define FIND_BINDING_FACES 4
 #define FIND_BINDING_WORDS 5
 #define FIND_BINDING_BLOCKS 6
-#define FIND_BINDING_LIST 7
+#define FIND_BINDING_EDGES 7
 #define FIND_BINDING_TOTALS 8
 #define FIND_BINDING_BUNDLES 9
 
@@ -51,114 +60,129 @@ SHARED_SIZE(CountEdgeBundle, 32);
 struct SHARED_ALIGN CountMeshEdge {
 	uint a;
 	uint b;
-	uint face0;
+	uint face0; // index and kind
 	uint face1; // EDGE_COUNT_NO_FACE at a boundary
 };
 SHARED_SIZE(CountMeshEdge, 16);
 
-/// One caster in a light view. Where its faces and edges stand in the buffers that all share.
+/// A face of welded vertices.
+struct SHARED_ALIGN CountMeshFace {
+	uint a;
+	uint b;
+	uint c;
+	uint kind; // 0 or EDGE_COUNT_DOUBLE_SIDED
+};
+SHARED_SIZE(CountMeshFace, 16);
+
+/// One caster, and its first indices in the buffers that all casters of a light share.
 struct SHARED_ALIGN CountCasterPush {
-	mat4 view_from_node;
+	mat4 light_from_node;
 	uint face_count;
 	uint first_face;
 	uint edge_count;
 	uint first_word;
 	uint first_block;
-	uint inconsistent_from; // edges from this one on: both faces wind a -> b
-	uint kind;				// a sum of EDGE_COUNT_DOUBLE_SIDED, _MIRRORED and, for the last, _LAST
-	uint record_capacity;
+	uint flags; // a sum of EDGE_COUNT_CASTER_*
+	float disc_radius;	  // R in metres; directional: a tangent
+	float side_tolerance; // of a face's plane, see count_find_light_side
 };
 SHARED_SIZE(CountCasterPush, 96);
-#define EDGE_COUNT_MIRRORED 4
-#define EDGE_COUNT_LAST_CASTER 8
+#define EDGE_COUNT_CASTER_MIRRORED 1u
+#define EDGE_COUNT_CASTER_LAST 2u // the last one that has edges
+#define EDGE_COUNT_CASTER_DIRECTIONAL 4u
 
-/// A light view for counting; see CountSpace.
-struct SHARED_ALIGN CountViewConstants {
-	float disc_radius; // R in metres; directional: a tangent
-	float depth_scale_m; // directional: what tolerances are shares of
-	float depth_far_m;	 // directional: w = depth_far_m - z
-	float scene_size_m;	 // S
-	vec2 half_extent;	 // of the layer map, x' and y'
-	uvec2 map_size_px;
-	uint is_directional;
-	float near_m; // what is nearer to the light's plane is cut off; not for directional
-	uint index;	  // of the view; its part of the light's buffers
-	float least_slope; // z per |x| or |y| below which edges are cut off, likewise
-};
-SHARED_SIZE(CountViewConstants, 48);
-SHARED_OFFSET(CountViewConstants, half_extent, 16);
-
-// Pixels are dealt with in groups of 8 x 8, and groups in square blocks that share a list of edges.
-#define EDGE_COUNT_GROUP_PX 8
 #define EDGE_COUNT_MAX_VIEWS 6
+// Pixels are bounded in groups of 8 x 8, and share a list of edges in blocks of 16 x 16.
+#define EDGE_COUNT_GROUP_PX 8
+#define EDGE_COUNT_GROUPS_PER_BLOCK_SIDE 2
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_VIEW_COUNT 1 // so that one view needs no search
-// In place of a list's end: the block has more edges than a list holds.
-#define EDGE_COUNT_OVER_BUDGET 0xffffffffu
-#define EDGE_COUNT_ENDS_PER_BLOCK 8 // one per view; the rest are unused
+#define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2 // the blocks of the pass read all edges of the light
+#define EDGE_COUNT_ENDS_PER_BLOCK 8 // the list's begin, then its end in each view; the last is unused
+#define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
-/// All views of one light, and how its buffers are divided.
+/// A light view: a map of face lists.
+struct SHARED_ALIGN CountViewConstants {
+	// The view's x, y and z axes in light space.
+	vec4 axis_x;
+	vec4 axis_y;
+	vec4 axis_z;
+	vec2 half_extent; // of the map: x' and y', tangents; directional: metres
+	uvec2 map_size_px;
+};
+SHARED_SIZE(CountViewConstants, 64);
+
+/// One light, and how its buffers are divided.
 struct SHARED_ALIGN CountLightConstants {
 	CountViewConstants views[EDGE_COUNT_MAX_VIEWS];
-	uvec2 group_count; // over the picture
+	float disc_radius;	 // R in metres; directional: a tangent
+	float depth_far_m;	 // directional: w = depth_far_m - z
+	float scene_size_m;	 // S
+	float nearer_tolerance; // an edge counts only where it is so much nearer to the light: a share of the
+							// receiver's distance; directional: metres
+	uvec2 group_count; // over the image
 	uvec2 block_count;
-	uint groups_per_block_side;
+	uint is_directional;
 	uint view_count;
-	uint empty_views;		// bit i: view i has no casters
-	uint record_capacity;	// edges of one view
-	uint fragment_capacity; // of one view's layer map
-	uint list_capacity;		// edges of one block
-	uint bundle_capacity;	// of one view
-	uint padding;
+	uint empty_views; // bit i: view i has no casters or no receivers
+	uint list_capacity; // edges in the lists of all blocks
+	uint budget;	   // edges that a block may have, or EDGE_COUNT_NO_BUDGET
+	uint node_capacity; // of each view's face lists
+	uint face_count;
+	uint most_edges; // that the light's list may have; 0 where its size is 0
 };
-SHARED_SIZE(CountLightConstants, 336);
+SHARED_SIZE(CountLightConstants, 448);
+SHARED_OFFSET(CountLightConstants, disc_radius, 384);
+SHARED_OFFSET(CountLightConstants, group_count, 400);
 
-/// Receivers of one group in one view: least and greatest x', y', w. Empty where a least is greater.
-/// Where they lie at very different depths, as beside an object's outline, they are two boxes: what is
-/// between them has no receiver.
+/// Receivers of one group in one view: (x', y') lies in a rectangle, and w in a range about a plane. Where
+/// they lie at very different depths, as at an object's outline, they are two boxes.
 struct SHARED_ALIGN CountGroupBox {
-	uint least_xy; // 16 bits each, see count_boxes_inc.glsl
-	uint greatest_xy;
-	float least_w;
-	float greatest_w;
+	vec4 least_greatest; // x' and y'
+	vec4 slope_range;	 // w per x' and y' of the plane; least and greatest of w - slope.(x', y')
 };
-SHARED_SIZE(CountGroupBox, 16);
-#define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them, where there is one box
+SHARED_SIZE(CountGroupBox, 32);
+#define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them where there is one box
 #define EDGE_COUNT_BOX_FAR 1
-#define EDGE_COUNT_BOXES_PER_GROUP 2 // and view
+#define EDGE_COUNT_BOXES_PER_GROUP 2 // and view; which of them are there is a bit each
 
-// How many records and fragments the views have, also beyond the capacity.
-#define EDGE_COUNT_TOTAL_RECORDS 0
-#define EDGE_COUNT_TOTAL_FRAGMENTS EDGE_COUNT_MAX_VIEWS
-#define EDGE_COUNT_TOTAL_COUNT (2 * EDGE_COUNT_MAX_VIEWS)
+// What passes count.
+#define EDGE_COUNT_TOTAL_EDGES 0
+#define EDGE_COUNT_TOTAL_NODES 1 // of each view's face lists, also those without room
+#define EDGE_COUNT_TOTAL_LEVELS (EDGE_COUNT_TOTAL_NODES + EDGE_COUNT_MAX_VIEWS) // see load_count_level
+#define EDGE_COUNT_TOTAL_COUNT 16
 
 // Bindings of the passes over pixels and blocks, after those of map_resolve_inc.glsl.
 #define COUNT_BINDING_LIGHT (MAP_RESOLVE_OWN_BINDING + 0)
 #define COUNT_BINDING_BOXES (MAP_RESOLVE_OWN_BINDING + 1)
-#define COUNT_BINDING_RECORDS (MAP_RESOLVE_OWN_BINDING + 2)
+#define COUNT_BINDING_EDGES (MAP_RESOLVE_OWN_BINDING + 2)
 #define COUNT_BINDING_TOTALS (MAP_RESOLVE_OWN_BINDING + 3)
 #define COUNT_BINDING_ENDS (MAP_RESOLVE_OWN_BINDING + 4)
 #define COUNT_BINDING_LISTS (MAP_RESOLVE_OWN_BINDING + 5)
-#define COUNT_BINDING_TEXELS (MAP_RESOLVE_OWN_BINDING + 6)
-#define COUNT_BINDING_FRAGMENTS (MAP_RESOLVE_OWN_BINDING + 7)
-#define COUNT_BINDING_MASKS (MAP_RESOLVE_OWN_BINDING + 8)
-#define COUNT_BINDING_OUTPUT (MAP_RESOLVE_OWN_BINDING + 9)
-#define COUNT_BINDING_BLOCKS (MAP_RESOLVE_OWN_BINDING + 10)
-#define COUNT_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 11)
-#define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_OWN_BINDING + 12)
-#define COUNT_BINDING_BUNDLES (MAP_RESOLVE_OWN_BINDING + 13)
+#define COUNT_BINDING_HEADS (MAP_RESOLVE_OWN_BINDING + 6)
+#define COUNT_BINDING_NODES (MAP_RESOLVE_OWN_BINDING + 7)
+#define COUNT_BINDING_FACES (MAP_RESOLVE_OWN_BINDING + 8)
+#define COUNT_BINDING_PLANES (MAP_RESOLVE_OWN_BINDING + 9)
+#define COUNT_BINDING_MASKS (MAP_RESOLVE_OWN_BINDING + 10)
+#define COUNT_BINDING_OUTPUT (MAP_RESOLVE_OWN_BINDING + 11)
+#define COUNT_BINDING_BLOCKS (MAP_RESOLVE_OWN_BINDING + 12)
+#define COUNT_BINDING_DEPTH_MAP (MAP_RESOLVE_OWN_BINDING + 13)
+#define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_OWN_BINDING + 14)
+#define COUNT_BINDING_BUNDLES (MAP_RESOLVE_OWN_BINDING + 15)
+#define COUNT_BINDING_PRESENT (MAP_RESOLVE_OWN_BINDING + 16)
 
-// Blocks are dealt with by what they have: no edges, edges, or more than a list holds. For each kind the
-// arguments of a dispatch (blocks, groups of a block, 1) and the blocks; then the arguments of the pass
-// that makes the filter's map.
+// Blocks by what they have: no edges; a list of edges; edges, but no room for a list; more edges than the
+// budget. For each kind the arguments of a dispatch (blocks, groups of a block, 1) and the blocks. Behind
+// these arguments the number of edges in all blocks' lists, also those without room.
 #define EDGE_COUNT_BLOCKS_PLAIN 0
-#define EDGE_COUNT_BLOCKS_COUNTED 1
-#define EDGE_COUNT_BLOCKS_FILTERED 2
-#define EDGE_COUNT_BLOCK_KINDS 3
-#define EDGE_COUNT_DISPATCH_MAP 9 // place of its arguments
-#define EDGE_COUNT_DISPATCH_WORDS 12
+#define EDGE_COUNT_BLOCKS_LISTED 1
+#define EDGE_COUNT_BLOCKS_UNLISTED 2
+#define EDGE_COUNT_BLOCKS_FILTERED 3
+#define EDGE_COUNT_BLOCK_KINDS 4
+#define EDGE_COUNT_DISPATCH_LISTED 12
+#define EDGE_COUNT_DISPATCH_WORDS 13
 
-// Layers of the debug picture.
+// Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0
 #define EDGE_COUNT_DEBUG_SOLIDS 1
 #define EDGE_COUNT_DEBUG_BLOCKS 2
@@ -176,50 +200,27 @@ struct SHARED_ALIGN CountBlockPush {
 };
 SHARED_SIZE(CountBlockPush, 16);
 
-// The layer map's texels are added up by work groups; each of their invocations has several.
-#define LAYERS_GROUP_SIZE 64
-#define LAYERS_TEXELS_PER_INVOCATION 16
-#define LAYERS_TEXELS_PER_GROUP (LAYERS_GROUP_SIZE * LAYERS_TEXELS_PER_INVOCATION)
-// A fragment is one word: the bits of its w, the lowest two replaced by what it is.
-#define LAYERS_KIND_MASK 3u
-#define LAYERS_TOWARD 0u
-#define LAYERS_AWAY 1u
-#define LAYERS_DOUBLE_SIDED 2u
-// In a texel's count.
-#define LAYERS_BURIED 0x80000000u
-#define LAYERS_ONLY_AWAY 0x40000000u // faces turned towards the light are not there
-#define LAYERS_ONLY_NEAREST 0x20000000u // the buffer has no room for all of them
-#define LAYERS_COUNT_MASK 0x1fffffffu
-#define LAYERS_CONSTANT_COUNT 0 // fragments of a texel of the cheap map
+// Bindings of the passes that list the faces of each texel.
+#define FACE_LIST_BINDING_LIGHT 0
+#define FACE_LIST_BINDING_FACES 1
+#define FACE_LIST_BINDING_HEADS 2
+#define FACE_LIST_BINDING_NODES 3
+#define FACE_LIST_BINDING_TOTALS 4
+#define FACE_LIST_BINDING_DISPATCHES 5
+#define FACE_LIST_GROUP_SIZE 64
 
-// Bindings of the passes that make the layer map.
-#define LAYERS_BINDING_VIEW 0
-#define LAYERS_BINDING_PLANES 1
-#define LAYERS_BINDING_COUNTS 2
-#define LAYERS_BINDING_SUMS 3
-#define LAYERS_BINDING_TEXELS 4
-#define LAYERS_BINDING_FRAGMENTS 5
-#define LAYERS_BINDING_TOTALS 6
-#define LAYERS_BINDING_RECORDS 7
-
-/// One caster drawn into the layer map.
-struct SHARED_ALIGN CountLayersPush {
-	mat4 clip_from_node;
-	uint first_face;
-	uint kind; // a sum of EDGE_COUNT_DOUBLE_SIDED and EDGE_COUNT_MIRRORED
-	uint fragment_capacity;
+/// One attempt to list a view's faces.
+struct SHARED_ALIGN CountFaceListPush {
+	uint view;
+	uint is_first; // the map has all its texels
+	uint is_last;  // the attempt before the last, which has one texel: there is room in any case
 	uint padding;
 };
-SHARED_SIZE(CountLayersPush, 80);
-
-/// A pass over one view's part of the light's buffers.
-struct SHARED_ALIGN CountPartPush {
-	uint fragment_capacity;
-	uint record_capacity;
-	uint padding0;
-	uint padding1;
-};
-SHARED_SIZE(CountPartPush, 16);
+SHARED_SIZE(CountFaceListPush, 16);
+// Dispatches of a further attempt: clearing the map, then listing; three words each.
+#define FACE_LIST_DISPATCH_CLEAR 0
+#define FACE_LIST_DISPATCH_LIST 3
+#define FACE_LIST_DISPATCH_WORDS 6
 
 #include "shared/shared_end.h"
 #endif

@@ -1,11 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "shadow_edge_count/count_boxes_inc.glsl"
-#include "shadow_edge_count/count_cull_inc.glsl"
+#include "shadow_edge_count/count_box_inc.glsl"
 
-// Input 2 i: least x', y', w of a box of receivers; 2 i + 1: greatest. Each is packed and unpacked first.
-// Output per box and edge: what find_count_use gives, or 0 where a bundle of this edge alone is not asked;
-// is the box bounded; is a bundle of all edges asked.
+// Input 2 i, 2 i + 1: a CountGroupBox. Output per box and edge: may the edge matter to a receiver of the box;
+// what is known of its weight; are bundles of this edge alone, and of all edges, tested.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -14,31 +12,50 @@ layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[];
 };
 layout(set = 0, binding = 2) uniform Constants {
-	CountViewConstants view;
+	CountLightConstants light;
 };
 layout(set = 0, binding = 3) readonly buffer Edges {
 	CountEdgeRecord edges[];
 };
+layout(set = 0, binding = 4) readonly buffer Planes {
+	vec4 planes[];
+};
+
+vec3 get_a(uint p_edge) {
+	return uintBitsToFloat(edges[p_edge].a_face0.xyz);
+}
+vec3 get_b(uint p_edge) {
+	return uintBitsToFloat(edges[p_edge].b_face1.xyz);
+}
+
+CountEdgeBundle make_bundle(uint p_first, uint p_end) {
+	vec3 least = vec3(COUNT_FAR);
+	vec3 greatest = vec3(-COUNT_FAR);
+	for (uint i = p_first; i < p_end; ++i) {
+		least = min(least, min(get_a(i), get_b(i)));
+		greatest = max(greatest, max(get_a(i), get_b(i)));
+	}
+	return CountEdgeBundle(vec4(0.5 * (least + greatest), 0.0), vec4(0.5001 * (greatest - least), 0.0));
+}
 
 void main() {
 	const uint item = gl_GlobalInvocationID.x;
 	const uint edge_count = uint(edges.length());
 	const uint box_index = item / edge_count;
+	const uint index = item % edge_count;
 	if (2u * box_index >= uint(items.length())) {
 		return;
 	}
-	const CountBounds bounds = unpack_count_bounds(view,
-			pack_count_bounds(view,
-					CountBounds(items[2u * box_index].xyz, items[2u * box_index + 1u].xyz)));
-	const CountBox box = make_count_box(view, bounds.least, bounds.greatest);
-	const CountEdgeRecord edge = edges[item % edge_count];
-	const uint use = may_use_bundle(view, box, make_count_bundle(edge))
-			? find_count_use(view, box, edge)
-			: 0u;
-	CountEdgeBundle all = make_count_bundle(edges[0]);
-	for (uint i = 1u; i < edge_count; ++i) {
-		all = join_count_bundles(all, make_count_bundle(edges[i]));
-	}
-	results[item] = vec4(float(use), box.is_bounded ? 1.0 : 0.0,
-			may_use_bundle(view, box, all) ? 1.0 : 0.0, 0.0);
+	const CountBox box = make_count_box(light, light.views[0],
+			unpack_count_bounds(CountGroupBox(items[2u * box_index], items[2u * box_index + 1u])));
+	const CountEdgeKind kind = make_count_kind(edges[index].a_face0.w, edges[index].b_face1.w);
+	const uint known = find_known_weight(box, kind, planes[edges[index].a_face0.w & EDGE_COUNT_FACE_MASK],
+			kind.has_face1 ? planes[edges[index].b_face1.w] : vec4(0.0));
+	const ivec2 sides = ivec2(find_light_side(box, get_a(index)), find_light_side(box, get_b(index)));
+	const bool is_used = is_edge_in_reach(box, get_a(index), get_b(index)) && known != COUNT_ADDS_NOTHING &&
+			max(sides.x, sides.y) >= 0;
+	results[item] = vec4(is_used ? 1.0 : 0.0,
+			(known & COUNT_KNOWS_WEIGHT) != 0u ? float(get_known_weight(known)) : 9.0,
+			may_use_bundle(box, make_bundle(index, index + 1u)) ? 1.0 : 0.0,
+			may_use_bundle(box, make_bundle(0u, edge_count)) ? 1.0 : 0.0);
 }

@@ -1,8 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_edge_inc.glsl"
+#include "shadow_edge_count/count_faces_inc.glsl"
 
-// Input 2 i: r; 2 i + 1: the normal. Output: visibility, solids at the reference, signed area.
+// Input: r. Output: visibility, solids before the light's centre, signed area. All faces and edges are looked
+// at: no lists.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 items[];
@@ -11,16 +13,16 @@ layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[];
 };
 layout(set = 0, binding = 2) uniform Constants {
-	CountViewConstants view;
+	CountLightConstants light;
 };
 layout(set = 0, binding = 3) readonly buffer Edges {
 	CountEdgeRecord edges[];
 };
-layout(set = 0, binding = 4) readonly buffer Texels {
-	uvec2 texels[];
+layout(set = 0, binding = 4) readonly buffer Faces {
+	CountFaceRecord faces[];
 };
-layout(set = 0, binding = 5) readonly buffer Fragments {
-	vec2 fragments[];
+layout(set = 0, binding = 5) readonly buffer Planes {
+	vec4 planes[];
 };
 layout(set = 0, binding = 6) readonly buffer Masks {
 	uvec2 masks[];
@@ -30,33 +32,38 @@ uvec2 load_count_mask(uint p_index) {
 	return masks[p_index];
 }
 
-uvec2 load_count_texel(uint p_index) {
-	return texels[p_index];
+// One list of all faces for every texel.
+uint load_count_head(uint p_index) {
+	return 1u;
 }
-
-vec2 load_count_fragment(uint p_index) {
-	return fragments[p_index];
+uvec2 load_count_node(uint p_index) {
+	return uvec2(p_index, p_index + 1u < light.face_count ? p_index + 2u : 0u);
 }
-
-CountEdgePlanes load_count_planes(uint p_record) {
-	return CountEdgePlanes(edges[p_record].plane0, edges[p_record].plane1);
+uint load_count_level(uint p_view) {
+	return 0u;
+}
+CountFaceRecord load_count_face(uint p_face) {
+	return faces[p_face];
+}
+vec4 load_count_plane(uint p_face) {
+	return planes[p_face];
 }
 
 void main() {
 	const uint item = gl_GlobalInvocationID.x;
-	if (2u * item >= uint(items.length())) {
+	if (item >= uint(items.length())) {
 		return;
 	}
-	const CountReceiver receiver =
-			make_count_receiver(view, items[2u * item].xyz, items[2u * item + 1u].xyz);
-	CountState state = make_count_state(find_count_reference(view, receiver));
-	for (uint i = 0u; i < uint(edges.length()); ++i) {
+	const CountReceiver receiver = make_count_receiver(light, items[item].xyz);
+	CountState state = make_count_state(count_solids(light, 0u, vec2(0.0), receiver));
+	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {
 		const CountEdgeRecord edge = edges[i];
-		const uint use = (view.disc_radius > 0.0 ? COUNT_USE_AREA : 0u) |
-				(edge.by_bw_weight_kind.z != 0.0 ? COUNT_USE_CENTER : 0u);
-		count_add_edge(view, receiver, make_count_segment(edge.a_bx, edge.by_bw_weight_kind), i, use,
-				state);
+		const CountEdgeKind kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);
+		const uint face0 = edge.a_face0.w & EDGE_COUNT_FACE_MASK;
+		const int weight = count_weight(
+				receiver, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
+		count_add_edge(receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight,
+				light.is_directional == 0u, state);
 	}
-	results[item] = vec4(count_resolve(state), float(state.reference.solid_count),
-			state.area, 0.0);
+	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
 }

@@ -4,34 +4,50 @@
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
+#include <bit>
+#include <vector>
+
 namespace gnomon {
 
-/// An edge and a view as the shaders read them.
-inline shader::CountEdgeRecord make_record(const CountEdge &p_edge) {
-	const int kind = (p_edge.has_face1 ? EDGE_COUNT_HAS_FACE1 : 0) |
-			(p_edge.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0);
-	shader::CountEdgeRecord record;
-	record.a_bx = glm::vec4(glm::vec3(p_edge.a), float(p_edge.b.x));
-	record.by_bw_weight_kind =
-			glm::vec4(p_edge.b.y, p_edge.b.z, float(p_edge.center_weight), float(kind));
-	record.plane0 = glm::vec4(p_edge.plane0);
-	record.plane1 = glm::vec4(p_edge.plane1);
-	return record;
-}
+/// A scene's faces, edges and light as the shaders read them.
+struct CountArrays {
+	std::vector<shader::CountEdgeRecord> edges;
+	std::vector<shader::CountFaceRecord> faces;
+	std::vector<glm::vec4> planes; // of the faces, then two for each edge
+	shader::CountLightConstants light = {};
 
-inline shader::CountViewConstants make_constants(const CountScene &p_scene) {
-	const CountSpace &space = p_scene.get_space();
-	shader::CountViewConstants constants = {};
-	constants.disc_radius = float(space.disc_radius);
-	constants.depth_scale_m = float(space.get_depth_scale(0));
-	constants.depth_far_m = float(space.depth_far_m);
-	constants.scene_size_m = float(space.scene_size_m);
-	constants.half_extent = glm::vec2(float(p_scene.half_extent));
-	constants.map_size_px = p_scene.get_layers().get_size_px();
-	constants.is_directional = space.is_directional ? 1 : 0;
-	constants.near_m = float(space.near_m);
-	constants.least_slope = float(space.least_slope);
-	return constants;
-}
+	static glm::uvec4 pack(const glm::dvec3 &p_point, uint32_t p_word) {
+		return { std::bit_cast<uint32_t>(float(p_point.x)),
+			std::bit_cast<uint32_t>(float(p_point.y)), std::bit_cast<uint32_t>(float(p_point.z)),
+			p_word };
+	}
+
+	explicit CountArrays(const CountScene &p_scene, uint32_t p_map_size_px = 64) {
+		for (const CountFace &face : p_scene.get_faces()) {
+			faces.push_back(
+					{ pack(face.corners[0], face.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0u),
+							pack(face.corners[1], 0), pack(face.corners[2], 0) });
+			planes.emplace_back(face.plane);
+		}
+		for (const CountEdge &edge : p_scene.get_edges()) {
+			const uint32_t plane = uint32_t(planes.size());
+			planes.emplace_back(edge.plane0);
+			planes.emplace_back(edge.plane1);
+			edges.push_back(
+					{ pack(edge.a, plane | (edge.is_double_sided ? EDGE_COUNT_DOUBLE_SIDED : 0u)),
+							pack(edge.b, edge.has_face1 ? plane + 1 : EDGE_COUNT_NO_FACE) });
+		}
+		const CountSpace &space = p_scene.get_space();
+		light.views[0] = { glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
+			glm::vec2(float(p_scene.half_extent)), glm::uvec2(p_map_size_px) };
+		light.disc_radius = float(space.disc_radius);
+		light.depth_far_m = 3.0f * float(space.scene_size_m);
+		light.scene_size_m = float(space.scene_size_m);
+		light.nearer_tolerance = float(space.nearer_tolerance);
+		light.is_directional = space.is_directional ? 1 : 0;
+		light.view_count = 1;
+		light.face_count = uint32_t(faces.size());
+	}
+};
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/scene/box_mesh.h"
-#include "modules/shadow_edge_count/count_visibility.h"
+#include "modules/shadow_edge_count/tests/count_in_double.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -48,8 +48,7 @@ public:
 	bool is_directional = false;
 	double radius = 0.4; // R; directional: a tangent
 	double scene_size = 4;
-	double half_extent = 0.95; // directional: metres
-	uint32_t map_size = 512;
+	double half_extent = 0.95; // of the view; directional: metres
 	uint32_t mask_turns = 1;
 
 	void add(const std::shared_ptr<const Mesh> &p_mesh, const glm::dmat4 &p_world_from_node) {
@@ -66,37 +65,31 @@ public:
 		view_from_world[3] = glm::dvec4(-(rotation * light), 1.0);
 		space.is_directional = is_directional;
 		space.disc_radius = radius;
-		space.near_m = 1e-4 * scene_size;
-		space.depth_far_m = 3 * scene_size;
-		space.depth_range_m = 3 * scene_size;
+		space.nearer_tolerance = 2e-5 * (is_directional ? scene_size : 1.0);
 		space.scene_size_m = scene_size;
-		layers = std::make_unique<LayerMap>(space, glm::dvec2(half_extent), glm::uvec2(map_size));
-		edges.clear();
+		casters = {};
 		triangles.clear();
 		for (const Object &object : objects) {
-			const glm::dmat4 view_from_node = view_from_world * object.world_from_node;
-			add_count_edges(*object.topology, view_from_node, space, edges);
-			layers->add_mesh(*object.topology, view_from_node);
+			casters.add_mesh(*object.topology, view_from_world * object.world_from_node, space);
 			for (const uint32_t vertex : object.topology->triangles) {
 				triangles.push_back(glm::dvec3(object.world_from_node *
 						glm::dvec4(object.topology->welded_positions_node[vertex], 1.0)));
 			}
 		}
-		layers->mark_buried(edges);
 		masks.clear();
 		for (uint32_t turn = 0; turn < mask_turns; ++turn) {
 			masks.emplace_back(turn);
 		}
 	}
 
-	CountReceiver make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
-		const glm::dvec3 moved = p_position + p_normal * (5e-5 * scene_size);
-		return { glm::dvec3(view_from_world * glm::dvec4(moved, 1.0)),
-			glm::dmat3(view_from_world) * p_normal };
+	/// In light space, moved off its surface.
+	glm::dvec3 make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
+		return glm::dvec3(
+				view_from_world * glm::dvec4(p_position + p_normal * (5e-5 * scene_size), 1.0));
 	}
 
-	double count(const CountReceiver &p_receiver) const {
-		return compute_count_visibility(space, p_receiver, edges, *layers, masks);
+	double count(const glm::dvec3 &p_receiver) const {
+		return compute_count_visibility(space, p_receiver, casters.edges, casters.faces, masks);
 	}
 	double count(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
 		return count(make_receiver(p_position, p_normal));
@@ -119,8 +112,8 @@ public:
 		return double(seen) / p_count;
 	}
 
-	const std::vector<CountEdge> &get_edges() const { return edges; }
-	const LayerMap &get_layers() const { return *layers; }
+	const std::vector<CountEdge> &get_edges() const { return casters.edges; }
+	const std::vector<CountFace> &get_faces() const { return casters.faces; }
 	const CountSpace &get_space() const { return space; }
 	const std::vector<DiscMasks> &get_masks() const { return masks; }
 
@@ -155,8 +148,7 @@ private:
 	std::vector<Object> objects;
 	CountSpace space;
 	glm::dmat4 view_from_world = glm::dmat4(1.0);
-	std::vector<CountEdge> edges;
-	std::unique_ptr<LayerMap> layers;
+	CountedCasters casters;
 	std::vector<DiscMasks> masks;
 	std::vector<glm::dvec3> triangles; // world, three per face
 };

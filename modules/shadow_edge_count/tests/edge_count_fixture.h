@@ -3,7 +3,6 @@
 #include "modules/core/text.h"
 #include "modules/renderer/light_properties.h"
 #include "modules/renderer/tests/render_fixture.h"
-#include "modules/shadow_edge_count/count_visibility.h"
 #include "modules/shadow_edge_count/shadow_edge_count.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
 
@@ -46,21 +45,30 @@ inline MeshInstance3D &add_globe(
 			p_origin + p_scale * glm::dvec3(-0.7, 0.9, 0.5));
 }
 
-/// One light of a scene, counted in double by the functions that the shaders are tested against.
+/// One light of a scene, counted in double.
 class CountedLight {
 public:
 	CountedLight(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
-			camera_position_world(p_scene.camera.position_world), light(p_light),
+			camera_position_world(p_scene.camera.position_world),
 			scene_size_m(p_scene.scene_size_m) {
 		const PropertyValues properties = resolve_light_properties(
 				p_light, ShadowRegistry::get_light_properties("edge_count"));
 		const CountSettings settings = read_count_settings(p_light, p_scene, properties);
-		std::vector<LightView> light_views;
-		ShadowEdgeCount().get_light_views(p_light, p_scene, properties, light_views);
-		for (const LightView &light_view : light_views) {
-			views.push_back(make_view(p_scene, light_view, settings));
+		std::vector<LightView> views;
+		ShadowEdgeCount().get_light_views(p_light, p_scene, properties, views);
+		light_from_world = views[0].view_from_world;
+		const shader::CountLightConstants constants =
+				make_count_light_constants(views, settings.disc_radius, scene_size_m);
+		space = { constants.is_directional != 0, settings.disc_radius, constants.nearer_tolerance,
+			scene_size_m };
+		// All casters, also those that the renderer culls.
+		for (const InstanceSnapshot &instance : p_scene.instances) {
+			if (instance.casts_shadow) {
+				casters.add_mesh(*get_topology(instance.mesh),
+						light_from_world * instance.world_from_node, space);
+			}
 		}
-		for (uint32_t turn = 0; turn < settings.sample_count / DiscMasks::SAMPLE_COUNT; ++turn) {
+		for (uint32_t turn = 0; turn < settings.get_turn_count(); ++turn) {
 			masks.emplace_back(turn);
 		}
 	}
@@ -69,54 +77,17 @@ public:
 		const glm::dvec3 normal = glm::normalize(glm::dvec3(p_surface.geometric_normal));
 		const glm::dvec3 place_world = camera_position_world + glm::dvec3(p_surface.position) +
 				normal * (5e-5 * scene_size_m);
-		const View &view = views[views.size() == 1 ? 0 : find_view(place_world)];
-		const CountReceiver receiver = { glm::dvec3(view.view_from_world *
-												 glm::dvec4(place_world, 1.0)),
-			glm::dmat3(view.view_from_world) * normal };
-		return compute_count_visibility(view.space, receiver, view.edges, view.layers, masks);
+		return compute_count_visibility(space,
+				glm::dvec3(light_from_world * glm::dvec4(place_world, 1.0)), casters.edges,
+				casters.faces, masks);
 	}
 
 private:
-	struct View {
-		glm::dmat4 view_from_world;
-		CountSpace space;
-		std::vector<CountEdge> edges;
-		LayerMap layers;
-	};
-
-	/// Of all casters, also those that the renderer leaves out of a view.
-	static View make_view(const SceneSnapshot &p_scene, const LightView &p_light_view,
-			const CountSettings &p_settings) {
-		const CountSpace space =
-				make_count_space(p_light_view, p_settings.disc_radius, p_scene.scene_size_m);
-		View view = { p_light_view.view_from_world, space, {},
-			LayerMap(space, glm::dvec2(p_light_view.half_extent), p_light_view.size_px) };
-		for (const InstanceSnapshot &instance : p_scene.instances) {
-			if (instance.casts_shadow) {
-				const auto topology = get_topology(instance.mesh);
-				const glm::dmat4 view_from_node =
-						p_light_view.view_from_world * instance.world_from_node;
-				add_count_edges(*topology, view_from_node, space, view.edges);
-				view.layers.add_mesh(*topology, view_from_node);
-			}
-		}
-		view.layers.mark_buried(view.edges);
-		return view;
-	}
-
-	/// As find_view_of_direction of light_view_inc.glsl.
-	size_t find_view(const glm::dvec3 &p_place_world) const {
-		const glm::dvec3 r =
-				glm::transpose(light.world_from_light) * (p_place_world - light.position_world);
-		const glm::dvec3 size = glm::abs(r);
-		const size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-		return 2 * axis + (r[int(axis)] >= 0 ? 0 : 1);
-	}
-
 	glm::dvec3 camera_position_world;
-	LightSnapshot light;
 	double scene_size_m;
-	std::vector<View> views;
+	glm::dmat4 light_from_world = glm::dmat4(1.0);
+	CountSpace space;
+	CountedCasters casters;
 	std::vector<DiscMasks> masks;
 };
 

@@ -144,19 +144,6 @@ TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
 	CHECK(difference.penumbra_count > 20);
 }
 
-TEST_CASE("[EdgeCount] the map's size hardly matters") {
-	double errors[2] = {};
-	for (const int index : { 0, 1 }) {
-		CountScene scene;
-		scene.map_size = index == 0 ? 64 : 512;
-		add_ground(scene);
-		add_tilted_box(scene);
-		scene.build();
-		errors[index] = compare(scene, 1.4).mean;
-	}
-	CHECK(errors[0] == doctest::Approx(errors[1]).epsilon(0.05));
-}
-
 TEST_CASE("[EdgeCount] sheets without thickness cast the same shadow from both sides") {
 	for (const bool is_turned : { false, true }) {
 		CAPTURE(is_turned);

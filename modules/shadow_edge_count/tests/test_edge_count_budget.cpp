@@ -1,10 +1,12 @@
-// Where a block of pixels has more edges than its list holds, or the light more than its buffers
-// do.
+// Where a block of pixels has more edges than the budget, or lists have no room.
 
 #include "modules/shadow_edge_count/block_passes.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace gnomon;
 
@@ -23,9 +25,19 @@ FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_beg
 	return {};
 }
 
-/// How many of the pixels the debug view "blocks" shows as filtered: the only class with any blue.
-size_t count_filtered_pixels(
-		RenderFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px) {
+/// The blocks of the debug view "blocks" have these colours, see debug_view.comp.
+enum class BlockColor { PLAIN, LISTED, UNLISTED, FILTERED };
+
+BlockColor find_block_color(const uint8_t *p_pixel) {
+	return p_pixel[0] == 0			   ? BlockColor::PLAIN
+			: p_pixel[0] == p_pixel[1] ? BlockColor::FILTERED // grey
+			: p_pixel[2] == 0		   ? BlockColor::LISTED	  // orange
+									   : BlockColor::UNLISTED;		  // yellow
+}
+
+/// How many of the pixels lie in blocks of a kind.
+size_t count_pixels(RenderFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px,
+		BlockColor p_color) {
 	RenderRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = p_size_px;
@@ -35,133 +47,160 @@ size_t count_filtered_pixels(
 	const std::vector<uint8_t> image = r_fixture.renderer->render(request).image;
 	size_t count = 0;
 	for (size_t index = 0; index < image.size(); index += 4) {
-		count += image[index + 2] > 0 ? 1 : 0;
+		count += find_block_color(&image[index]) == p_color ? 1 : 0;
 	}
 	return count;
 }
 
-/// So many thin plates under the ground that the layer map has no room for them, though nothing
-/// that is seen lies in their shadow.
-void add_plates_below(SmallScene &r_scene) {
-	const auto mesh = make_box_mesh("plate", { 4.0f, 0.002f, 4.0f });
-	for (int index = 0; index < 60; ++index) {
-		add_mesh(r_scene.scene, text("Plate ", index), mesh, { 0.0, -0.5 - 0.01 * index, 0.0 });
+/// A mesh of triangles as large as the scene, one above another, below its ground.
+std::shared_ptr<const Mesh> make_floors(uint32_t p_count) {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	for (uint32_t index = 0; index < p_count; ++index) {
+		const float y = -1.0f - 1e-4f * float(index);
+		for (const glm::vec3 &corner :
+				{ glm::vec3(-4, y, -4), glm::vec3(4, y, -4), glm::vec3(0, y, 4) }) {
+			indices.push_back(uint32_t(positions.size()));
+			positions.push_back(corner);
+		}
 	}
+	return make_mesh("floors", std::move(positions), {}, std::move(indices));
 }
 
 } // namespace
 
-TEST_CASE("[EdgeCount] a small picture's few blocks share the memory of a large one's many") {
-	const uint32_t standard = COUNT_DEFAULT_BUDGET;
-	const glm::uvec2 small_px(128);
-	const glm::uvec2 large_px(1920, 1080);
-	CHECK(choose_budget(small_px, standard, 1000000) == COUNT_MOST_BUDGET);
-	CHECK(choose_budget(small_px, standard, 20000) == 32768); // no more than there may be
-	CHECK(choose_budget(small_px, standard, 10) == standard);
-	CHECK(choose_budget(small_px, 100, 1000000) == 100); // wanted so
-	CHECK(choose_budget(small_px, 0, 1000000) == 0);
-	for (const glm::uvec2 size_px : { small_px, glm::uvec2(256), glm::uvec2(630, 393), large_px }) {
-		const uint32_t budget = choose_budget(size_px, standard, 1000000);
-		CAPTURE(size_px.x);
-		CHECK(budget >= standard);
-		CHECK(choose_groups_per_block_side(size_px, budget) ==
-				choose_groups_per_block_side(size_px, standard));
-	}
+TEST_CASE("[EdgeCount] lists have room for what small images need, and 16 MB at most") {
+	CHECK(choose_list_capacity({ 128, 128 }, 100) == 64 * 128);
+	CHECK(choose_list_capacity({ 128, 128 }, 1'000'000) == 64 * 512);
+	CHECK(choose_list_capacity({ 8192, 8192 }, 1'000'000) == 4'000'000);
+	CHECK(choose_list_capacity({ 1, 1 }, 0) >= 1);
 }
 
-TEST_CASE("[GPU][EdgeCount] a block with more edges than its budget is filtered, and said to be") {
+TEST_CASE(
+		"[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan says") {
 	RenderFixture fixture;
 	const FrameWishes wishes;
-	SmallScene scene;
-	add_mesh(scene.scene, "Globe", make_count_sphere(0.45, 40), { -0.8, 1.0, 0.6 });
-	scene.light->properties["light_size"] = 0.3;
-	const RenderResult counted = render_frame(fixture, scene, wishes);
-	const FramePlanEntry left_out = find_entry(counted, "filter where");
-	CHECK_FALSE(left_out.runs);
-	CHECK(left_out.pass == "filter where a block has more than 8192 edges");
-	CHECK(left_out.reason.starts_with("all casters together have "));
-	CHECK(count_filtered_pixels(fixture, scene, wishes.size_px) == 0);
-
-	scene.light->properties["edge_count_budget"] = int64_t(64);
-	const RenderResult filtered = render_frame(fixture, scene, wishes);
-	CHECK(find_entry(filtered, "filter where").runs);
-	CHECK(find_entry(filtered, "filter where").pass ==
-			"filter where a block has more than 64 edges");
-	const size_t filtered_count = count_filtered_pixels(fixture, scene, wishes.size_px);
-	CHECK(filtered_count > 256);
-	CHECK(filtered_count < size_t(wishes.size_px.x) * wishes.size_px.y / 2);
-	const MaskDifference difference = compare_masks(filtered.visibility, counted);
-	CHECK(difference.mean > 0.0);
-	CHECK(difference.mean < 0.01);
-	CHECK(difference.penumbra_mean < 0.06);
-
-	// Room for no edge at all: everything that may lie beside a shadow's edge is filtered.
-	scene.light->properties["edge_count_budget"] = int64_t(0);
-	const RenderResult all_filtered = render_frame(fixture, scene, wishes);
-	CHECK(count_filtered_pixels(fixture, scene, wishes.size_px) > filtered_count);
-	CHECK(compare_masks(all_filtered.visibility, counted).mean < 0.01);
-}
-
-TEST_CASE("[GPU][EdgeCount] a light with many layers has room for them from its first frame on") {
-	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
-		CAPTURE(int(type));
-		RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
-		scene.light->properties["edge_count_map_size"] = int64_t(64);
-		add_plates_below(scene);
-		const FrameWishes wishes = { .size_px = glm::uvec2(48), .wants_surfaces = true };
-		const RenderResult first = render_frame(fixture, scene, wishes);
-		const MaskDifference counted =
-				compare_masks(first.visibility, count_in_double(scene, first));
-		CHECK(counted.mean < 3e-5);
-		CHECK(counted.apart_count == 0);
-		CHECK(counted.penumbra_count > 40);
-		CHECK_FALSE(find_entry(first, "filter where").runs);
+		add_mesh(scene.scene, "Globe", make_count_sphere(0.45, 40), { -0.8, 1.0, 0.6 });
+		scene.light->properties["light_size"] = 0.3;
+		const RenderResult counted = render_frame(fixture, scene, wishes);
+		CHECK_FALSE(find_entry(counted, "filter").runs);
+		CHECK(find_entry(counted, "filter").reason.starts_with("edge_count_budget is -1"));
+		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED) == 0);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::LISTED) > 256);
+
+		scene.light->properties["edge_count_budget"] = int64_t(65536);
+		const RenderResult unlimited = render_frame(fixture, scene, wishes);
+		CHECK_FALSE(find_entry(unlimited, "filter where").runs);
+		CHECK(find_entry(unlimited, "filter where")
+						.reason.starts_with("all casters together have"));
+		CHECK(unlimited.visibility == counted.visibility);
+
+		scene.light->properties["edge_count_budget"] = int64_t(64);
+		const RenderResult filtered = render_frame(fixture, scene, wishes);
+		CHECK(find_entry(filtered, "filter where").runs);
+		CHECK(find_entry(filtered, "filter where").pass ==
+				"filter where a block has more than 64 edges");
+		const size_t filtered_count =
+				count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED);
+		CHECK(filtered_count >= 256);
+		CHECK(filtered_count < size_t(wishes.size_px.x) * wishes.size_px.y / 2);
+		const MaskDifference difference = compare_masks(filtered.visibility, counted);
+		CHECK(difference.mean > 0.0);
+		CHECK(difference.mean < 0.01);
+		CHECK(difference.penumbra_mean < 0.08);
+		CHECK(filtered.visibility == render_frame(fixture, scene, wishes).visibility); // reused
+		const FrameWishes anew = { .may_keep = false };
+		CHECK(filtered.visibility == render_frame(fixture, scene, anew).visibility);
+
+		// Every block that has an edge.
+		scene.light->properties["edge_count_budget"] = int64_t(0);
+		const RenderResult all_filtered = render_frame(fixture, scene, wishes);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED) > filtered_count);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::LISTED) == 0);
+		CHECK(compare_masks(all_filtered.visibility, counted).mean < 0.01);
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] where layers cannot be told beforehand, a light without room filters") {
+TEST_CASE("[GPU][EdgeCount] a budget holds for the edges that a block lists in all views") {
 	RenderFixture fixture;
-	SmallScene scene;
-	scene.light->properties["edge_count_map_size"] = int64_t(64);
-	add_plates_below(scene);
-	// More faces than are looked at one by one.
-	add_mesh(scene.scene, "Fine globe", make_count_sphere(0.3, 80), { 0, 2.0, 0.9 });
-	const FrameWishes wishes = { .size_px = glm::uvec2(48), .wants_surfaces = true };
-	const RenderResult first = render_frame(fixture, scene, wishes);
-	const RenderResult truth = count_in_double(scene, first);
-	const MaskDifference filtered = compare_masks(first.visibility, truth);
-	CHECK(find_entry(first, "filter where").runs);
-	CHECK(filtered.mean > 2e-4); // else there was room for all
-	CHECK(filtered.mean < 0.02);
-	// Then there is room, and that stays.
-	for (const bool may_keep : { true, true, false }) {
-		CAPTURE(may_keep);
-		const MaskDifference counted = compare_masks(
-				render_frame(fixture, scene, { .size_px = wishes.size_px, .may_keep = may_keep })
-						.visibility,
-				truth);
-		CHECK(counted.mean < 1e-4);
-		CHECK(counted.penumbra_count > 40);
+	SmallScene scene(LightType::OMNI);
+	scene.light->properties["light_size"] = 1.0;
+	const FrameWishes wishes = { .size_px = glm::uvec2(16) };
+	const RenderResult counted = render_frame(fixture, scene, wishes);
+	for (const int64_t budget : { 8, 16, 24, 32, 48, 64, 128 }) {
+		CAPTURE(budget);
+		scene.light->properties["edge_count_budget"] = budget;
+		CHECK(compare_masks(render_frame(fixture, scene, wishes).visibility, counted).mean < 0.1);
 	}
-	CHECK(count_filtered_pixels(fixture, scene, wishes.size_px) == 0);
 }
 
-TEST_CASE("[GPU][EdgeCount] a small layer map does nearly as well as a large one") {
+TEST_CASE("[GPU][EdgeCount] blocks whose lists have no room are counted as exactly as the others") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		add_mesh(scene.scene, "Globe", make_count_sphere(0.5, 40), { -0.3, 1.2, 0.3 });
+		scene.light->properties["light_size"] = 1.5;
+		scene.light->properties["edge_count_quality"] = std::string("64");
+		const FrameWishes wishes = { .size_px = glm::uvec2(32), .wants_surfaces = true };
+		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::UNLISTED) > 0);
+		const RenderResult frame = render_frame(fixture, scene, wishes);
+		const MaskDifference difference =
+				compare_masks(frame.visibility, count_in_double(scene, frame));
+		CHECK(difference.penumbra_count > 200);
+		CHECK(difference.mean < 3e-4);
+		CHECK(difference.greatest < 0.05);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the first frame is right") {
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		std::vector<float> masks[2];
+		for (const bool has_floors : { false, true }) {
+			RenderFixture fixture; // so that each frame is the first one
+			SmallScene scene(type);
+			scene.light->properties["edge_count_map_size"] = int64_t(16);
+			if (has_floors) {
+				// More faces than are looked at one by one, each over most of the map.
+				add_mesh(scene.scene, "Floors", make_floors(21'000), {});
+			}
+			const FrameWishes wishes = { .size_px = glm::uvec2(48) };
+			const RenderResult frame = render_frame(fixture, scene, wishes);
+			masks[has_floors ? 1 : 0] = frame.visibility;
+			if (has_floors) {
+				CHECK(find_entry(frame, "face lists with larger texels").runs);
+			}
+		}
+		CHECK(std::count(masks[0].begin(), masks[0].end(), 1.0f) > 100);
+		CHECK(std::count(masks[0].begin(), masks[0].end(), 0.0f) > 20);
+		// Nothing that is seen lies below the floors.
+		size_t apart_count = 0;
+		for (size_t index = 0; index < masks[0].size(); ++index) {
+			apart_count += std::abs(masks[0][index] - masks[1][index]) > 1e-3f ? 1 : 0;
+		}
+		CHECK(apart_count == 0);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] the size of the map changes no bit of the mask") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
-		CAPTURE(int(type));
+		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_globe(scene);
-		// It stands in the ground: where they meet the texel that is asked matters most.
 		add_mesh(scene.scene, "Half globe", make_count_sphere(0.4, 16), { 0.5, 0.05, 0.9 });
-		scene.light->properties["edge_count_map_size"] = int64_t(512);
-		const RenderResult large = render_frame(fixture, scene);
-		scene.light->properties["edge_count_map_size"] = int64_t(64);
-		const RenderResult small = render_frame(fixture, scene);
-		const MaskDifference difference = compare_masks(small.visibility, large);
-		CHECK(find_entry(small, "find edges").runs);
-		CHECK(difference.penumbra_count > 50);
-		CHECK(difference.mean < 0.002);
+		std::vector<float> expected;
+		for (const int64_t map_size_px : { 256, 16, 48, 1024 }) {
+			CAPTURE(map_size_px);
+			scene.light->properties["edge_count_map_size"] = map_size_px;
+			const RenderResult frame = render_frame(fixture, scene);
+			CHECK(find_entry(frame, "find edges").runs);
+			expected = expected.empty() ? frame.visibility : expected;
+			CHECK(frame.visibility == expected);
+		}
 	}
 }

@@ -1,6 +1,7 @@
 // Lights of any size at any place, and meshes that are no solids.
 
 #include "modules/core/error.h"
+#include "modules/core/log.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
@@ -54,10 +55,9 @@ std::shared_ptr<const Mesh> make_box_with_slivers() {
 
 TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster that is a line is "
 		  "told") {
-	for (const bool has_stores : { false, true }) {
+	{
 		DeviceOptions::Without without;
-		without.fragment_stores = !has_stores;
-		without.subgroup_operations = has_stores;
+		without.subgroup_operations = true;
 		RenderFixture fixture("", without);
 		std::string message;
 		try {
@@ -66,9 +66,7 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster 
 			message = error.what();
 		}
 		CAPTURE(message);
-		CHECK(message.find("Light \"Light\": edge_count needs ") != std::string::npos);
-		CHECK(message.find(has_stores ? "subgroup vote" : "stores and atomics") !=
-				std::string::npos);
+		CHECK(message.find("Light \"Light\": edge_count needs subgroup vote") != std::string::npos);
 	}
 	SmallScene scene;
 	scene.box->parent_from_node = glm::scale(scene.box->parent_from_node, glm::dvec3(1, 0, 0));
@@ -76,6 +74,29 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster 
 	const RenderResult result = fixture.render_mask(scene, "edge_count");
 	CHECK(is_valid_mask(result));
 	CHECK(result.plan.is_left_out("Light", "edges of instances: 1"));
+	scene.ground->casts_shadow = false; // now no caster has a face
+	const RenderResult lit = fixture.render_mask(scene, "edge_count");
+	CHECK(is_valid_mask(lit));
+	CHECK(std::count(lit.visibility.begin(), lit.visibility.end(), 1.0f) > 100);
+}
+
+TEST_CASE("[GPU][EdgeCount] a file with the property edge_count_layers loads with one warning") {
+	std::vector<std::string> lines;
+	const LogSink before =
+			set_log_sink([&](LogLevel, const std::string &p_line) { lines.push_back(p_line); });
+	RenderFixture fixture;
+	SmallScene scene;
+	scene.light->name = "Old lamp";
+	const RenderResult plain = render_frame(fixture, scene, { .size_px = SIZE_PX });
+	CHECK(lines.empty());
+	scene.light->properties["edge_count_layers"] = int64_t(3);
+	for (int frame = 0; frame < 3; ++frame) {
+		CHECK(render_frame(fixture, scene, { .size_px = SIZE_PX }).visibility == plain.visibility);
+	}
+	set_log_sink(before);
+	REQUIRE(lines.size() == 1);
+	CHECK(lines[0].find("Light \"Old lamp\"") != std::string::npos);
+	CHECK(lines[0].find("edge_count_layers is not used any more") != std::string::npos);
 }
 
 TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
@@ -96,6 +117,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 		}
 		CHECK(between_count == 0);
 		CHECK(dark_count > 120);
+		CHECK(frame.plan.is_left_out("Light", "edges"));
 		// The reference asks with one ray.
 		const MaskDifference difference = compare_with_reference(fixture, scene);
 		CHECK(difference.apart_count <= 2);

@@ -64,7 +64,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every ki
 }
 
 // Where solids overlap points of the light are counted, and one of 64 is 0.016 of it. Rounding
-// decides on which side of an edge it lies where it lies on one; likewise which texel is nearest.
+// decides on which side of an edge it lies where it lies on one.
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids overlap") {
 	RenderFixture fixture;
 	for (const LightType type : ALL_TYPES) {
@@ -76,7 +76,6 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids 
 			add_overlapping_solids(scene);
 			scene.light->properties["light_size"] = 0.5;
 			scene.light->properties["light_angular_distance"] = 14.0;
-			scene.light->properties["edge_count_map_size"] = int64_t(96);
 			scene.light->properties["edge_count_quality"] = std::string(turn == 0 ? "64" : "256");
 			const RenderResult frame = render_frame(
 					fixture, scene, { .size_px = glm::uvec2(64), .wants_surfaces = true });
@@ -92,7 +91,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids 
 
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many solids at once") {
 	RenderFixture fixture;
-	for (const int count : { 12, 30 }) {
+	for (const int count : { 12, 30, 130 }) {
 		CAPTURE(count);
 		SmallScene scene;
 		scene.box->surfaces.clear();
@@ -102,14 +101,12 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many so
 		}
 		scene.light->properties["light_size"] = 0.4;
 		const FrameWishes wishes = { .size_px = glm::uvec2(64), .wants_surfaces = true };
-		render_frame(fixture, scene, wishes); // finds out how much room all layers need
 		const RenderResult frame = render_frame(fixture, scene, wishes);
 		const MaskDifference difference = compare_with_double(frame, scene);
 		CHECK(difference.penumbra_count > 300);
-		CHECK(difference.mean < 1e-4);
+		CHECK(difference.mean < 3e-4);
 		CHECK(double(difference.apart_count) < 0.002 * double(difference.receiver_count));
-		// No more than fifteen solids before the light's centre are told apart.
-		if (count <= 15 && has_reference()) {
+		if (has_reference()) {
 			const MaskDifference error = compare_masks(
 					frame.visibility, render_reference(fixture, scene, wishes.size_px));
 			CHECK(error.penumbra_mean < 0.02);

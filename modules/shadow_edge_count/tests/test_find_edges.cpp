@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
+#include <cstring>
 #include <map>
 #include <tuple>
 
@@ -15,7 +17,7 @@ namespace {
 
 struct Caster {
 	std::shared_ptr<const MeshTopology> topology;
-	glm::dmat4 view_from_node;
+	glm::dmat4 light_from_node;
 	CountMesh mesh;
 	shader::CountCasterPush push;
 	OwnedBuffer positions;
@@ -23,40 +25,51 @@ struct Caster {
 	OwnedBuffer edges;
 };
 
-/// Runs the three passes over all casters and reads the list back.
-std::vector<shader::CountEdgeRecord> find_edges(
-		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountScene &p_scene) {
+/// What the passes found.
+struct Found {
+	std::vector<shader::CountEdgeRecord> edges;
+	std::vector<shader::CountFaceRecord> faces;
+	std::vector<glm::vec4> planes;
+};
+
+/// Runs the passes over all casters and reads back what they found.
+Found find_edges(
+		KernelFixture &r_fixture, std::vector<Caster> &r_casters, const CountSpace &p_space) {
 	uint32_t face_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
 	uint32_t edge_count = 0;
 	for (Caster &caster : r_casters) {
 		caster.mesh = build_count_mesh(*caster.topology);
-		const bool is_mirrored = glm::determinant(glm::dmat3(caster.view_from_node)) < 0;
+		const bool is_mirrored = glm::determinant(glm::dmat3(caster.light_from_node)) < 0;
 		const bool is_last = &caster == &r_casters.back();
-		caster.push = { glm::mat4(caster.view_from_node), caster.topology->get_face_count(),
+		caster.push = { glm::mat4(caster.light_from_node), uint32_t(caster.mesh.faces.size()),
 			face_count, uint32_t(caster.mesh.edges.size()), word_count, block_count,
-			caster.mesh.inconsistent_from,
-			(caster.topology->is_double_sided() ? uint32_t(EDGE_COUNT_DOUBLE_SIDED) : 0u) |
-					(is_mirrored ? uint32_t(EDGE_COUNT_MIRRORED) : 0u) |
-					(is_last ? uint32_t(EDGE_COUNT_LAST_CASTER) : 0u),
-			1u << 20 };
+			(is_mirrored ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
+					(is_last ? EDGE_COUNT_CASTER_LAST : 0u) |
+					(p_space.is_directional ? EDGE_COUNT_CASTER_DIRECTIONAL : 0u),
+			float(p_space.disc_radius),
+			p_space.is_directional ? 1e-6f : float(2.5e-7 * p_space.scene_size_m) };
 		std::vector<glm::vec4> positions;
 		for (const glm::vec3 &position : caster.topology->welded_positions_node) {
 			positions.emplace_back(position, 1.0f);
 		}
 		caster.positions = r_fixture.make_buffer("positions", positions);
-		caster.faces = r_fixture.make_buffer("faces", caster.topology->triangles);
+		caster.faces = r_fixture.make_buffer("mesh faces", caster.mesh.faces);
 		caster.edges = r_fixture.make_buffer("edges", caster.mesh.edges);
 		face_count += caster.push.face_count;
 		edge_count += caster.push.edge_count;
 		word_count += caster.mesh.get_word_count();
 		block_count += caster.mesh.get_block_count();
 	}
-	const OwnedBuffer view = r_fixture.make_buffer("view",
-			std::vector<shader::CountViewConstants>{ make_constants(p_scene) },
-			BufferUsage::UNIFORM);
-	const OwnedBuffer planes = r_fixture.make_buffer("planes", std::vector<glm::vec4>(face_count));
+	const BufferUsage read_back = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE;
+	const OwnedBuffer planes =
+			r_fixture.make_buffer("planes", std::vector<glm::vec4>(face_count), read_back);
+	const OwnedBuffer faces = r_fixture.make_buffer(
+			"faces", std::vector<shader::CountFaceRecord>(face_count), read_back);
+	const OwnedBuffer planes_readback = r_fixture.make_readback(face_count * sizeof(glm::vec4));
+	const OwnedBuffer faces_readback =
+			r_fixture.make_readback(face_count * sizeof(shader::CountFaceRecord));
 	const OwnedBuffer words = r_fixture.make_buffer("words", std::vector<uint32_t>(word_count));
 	const OwnedBuffer blocks = r_fixture.make_buffer("blocks", std::vector<uint32_t>(block_count),
 			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
@@ -91,29 +104,37 @@ std::vector<shader::CountEdgeRecord> find_edges(
 	};
 	const auto count_words = [](const Caster &p_caster) { return p_caster.mesh.get_word_count(); };
 	run(
-			"shadow_edge_count/face_planes.comp",
+			"shadow_edge_count/caster_faces.comp",
 			[](const Caster &p_caster) { return p_caster.push.face_count; },
 			[&](const Caster &p_caster) {
 				commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
-						{ FIND_BINDING_FACES, p_caster.faces.get() },
-						{ FIND_BINDING_PLANES, planes.get() } });
+						{ FIND_BINDING_MESH_FACES, p_caster.faces.get() },
+						{ FIND_BINDING_PLANES, planes.get() },
+						{ FIND_BINDING_FACES, faces.get() } });
 			});
 	wait(planes, Access::SHADER_READ_COMPUTE);
 	run("shadow_edge_count/mark_edges.comp", count_words, [&](const Caster &p_caster) {
-		commands.bind_resources({ { FIND_BINDING_VIEW, view.get() },
-				{ FIND_BINDING_POSITIONS, p_caster.positions.get() },
-				{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_EDGES, p_caster.edges.get() },
-				{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() } });
+		commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
+				{ FIND_BINDING_MESH_EDGES, p_caster.edges.get() },
+				{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_WORDS, words.get() },
+				{ FIND_BINDING_BLOCKS, blocks.get() } });
 	});
 	wait(words, Access::SHADER_READ_COMPUTE);
 	wait(blocks, Access::SHADER_READ_COMPUTE);
 	run("shadow_edge_count/list_edges.comp", count_words, [&](const Caster &p_caster) {
-		commands.bind_resources({ { FIND_BINDING_VIEW, view.get() },
-				{ FIND_BINDING_POSITIONS, p_caster.positions.get() },
-				{ FIND_BINDING_PLANES, planes.get() }, { FIND_BINDING_EDGES, p_caster.edges.get() },
+		commands.bind_resources({ { FIND_BINDING_POSITIONS, p_caster.positions.get() },
+				{ FIND_BINDING_MESH_EDGES, p_caster.edges.get() },
 				{ FIND_BINDING_WORDS, words.get() }, { FIND_BINDING_BLOCKS, blocks.get() },
-				{ FIND_BINDING_LIST, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
+				{ FIND_BINDING_EDGES, list.get() }, { FIND_BINDING_TOTALS, totals.get() } });
 	});
+	wait(faces, Access::COPY_READ);
+	commands.copy_buffer(
+			faces.get(), faces_readback.get(), face_count * sizeof(shader::CountFaceRecord));
+	const Barrier planes_barrier = {
+		.buffer = planes.get(), .before = Access::SHADER_READ_COMPUTE, .after = Access::COPY_READ
+	};
+	commands.barriers({ &planes_barrier, 1 });
+	commands.copy_buffer(planes.get(), planes_readback.get(), face_count * sizeof(glm::vec4));
 	wait(list, Access::COPY_READ);
 	wait(totals, Access::COPY_READ);
 	wait(blocks, Access::COPY_READ);
@@ -126,10 +147,13 @@ std::vector<shader::CountEdgeRecord> find_edges(
 	for (const uint32_t count : r_fixture.read<uint32_t>(blocks_readback, block_count)) {
 		found_count += count;
 	}
-	CHECK(r_fixture.read<uint32_t>(totals_readback, EDGE_COUNT_TOTAL_COUNT)[0] == found_count);
-	auto records = r_fixture.read<shader::CountEdgeRecord>(list_readback, edge_count);
-	records.resize(found_count);
-	return records;
+	CHECK(r_fixture.read<uint32_t>(
+				  totals_readback, EDGE_COUNT_TOTAL_COUNT)[EDGE_COUNT_TOTAL_EDGES] == found_count);
+	Found found = { r_fixture.read<shader::CountEdgeRecord>(list_readback, edge_count),
+		r_fixture.read<shader::CountFaceRecord>(faces_readback, face_count),
+		r_fixture.read<glm::vec4>(planes_readback, face_count) };
+	found.edges.resize(found_count);
+	return found;
 }
 
 /// The same mesh with its edges in the order of the caster's.
@@ -143,7 +167,8 @@ MeshTopology reorder(const Caster &p_caster) {
 	}
 	MeshTopology topology = *p_caster.topology;
 	topology.edges.clear();
-	for (const shader::CountMeshEdge &edge : p_caster.mesh.edges) {
+	for (shader::CountMeshEdge edge : p_caster.mesh.edges) {
+		edge.face0 &= EDGE_COUNT_FACE_MASK;
 		topology.edges.push_back(edges.at(make_key(edge)));
 	}
 	return topology;
@@ -151,8 +176,7 @@ MeshTopology reorder(const Caster &p_caster) {
 
 } // namespace
 
-TEST_CASE(
-		"[GPU][EdgeCount] the passes list the edges of all casters as in double, in their order") {
+TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in double, in order") {
 	KernelFixture fixture;
 	for (const bool is_directional : { false, true }) {
 		for (const double radius : { 0.02, 0.3 }) {
@@ -173,31 +197,42 @@ TEST_CASE(
 					{}, { 0, 1, 2, 0, 2, 3 });
 			std::vector<Caster> casters(4);
 			casters[0].topology = get_topology(make_count_sphere(0.8, 24)); // several blocks
-			casters[0].view_from_node = place(0.4, 1.0);
+			casters[0].light_from_node = place(0.4, 1.0);
 			casters[1].topology = get_topology(make_box_mesh("box", glm::vec3(0.4, 0.3, 0.2)));
-			casters[1].view_from_node = place(1.3, -1.0); // mirrored
+			casters[1].light_from_node = place(1.3, -1.0); // mirrored
 			casters[2].topology = get_topology(sheet);
-			casters[2].view_from_node = place(2.1, 1.0);
+			casters[2].light_from_node = place(2.1, 1.0);
 			casters[3].topology = get_topology(make_count_sphere(0.3, 6));
-			casters[3].view_from_node = place(0.9, 1.5);
-			const auto found = find_edges(fixture, casters, scene);
-			std::vector<CountEdge> expected;
+			casters[3].light_from_node = place(0.9, 1.5);
+			const Found found = find_edges(fixture, casters, scene.get_space());
+			CountedCasters expected;
 			for (const Caster &caster : casters) {
-				add_count_edges(
-						reorder(caster), caster.view_from_node, scene.get_space(), expected);
+				expected.add_mesh(reorder(caster), caster.light_from_node, scene.get_space());
 			}
-			REQUIRE(found.size() == expected.size());
-			CHECK(found.size() > 50);
-			for (size_t index = 0; index < found.size(); ++index) {
-				const shader::CountEdgeRecord record = make_record(expected[index]);
-				CHECK(found[index].by_bw_weight_kind.z == record.by_bw_weight_kind.z);
-				CHECK(found[index].by_bw_weight_kind.w == record.by_bw_weight_kind.w);
-				CHECK(glm::length(found[index].a_bx - record.a_bx) < 1e-4f);
-				CHECK(glm::length(found[index].by_bw_weight_kind - record.by_bw_weight_kind) <
-						1e-4f);
+			REQUIRE(found.edges.size() == expected.edges.size());
+			CHECK(found.edges.size() > 50);
+			const auto to_point = [](const glm::uvec4 &p_bits) {
+				return glm::dvec3(std::bit_cast<float>(p_bits.x), std::bit_cast<float>(p_bits.y),
+						std::bit_cast<float>(p_bits.z));
+			};
+			for (size_t index = 0; index < found.edges.size(); ++index) {
+				const shader::CountEdgeRecord &record = found.edges[index];
+				const CountEdge &edge = expected.edges[index];
+				CHECK(glm::length(to_point(record.a_face0) - edge.a) < 1e-5);
+				CHECK(glm::length(to_point(record.b_face1) - edge.b) < 1e-5);
+				CHECK(((record.a_face0.w & EDGE_COUNT_DOUBLE_SIDED) != 0) == edge.is_double_sided);
+				CHECK((record.b_face1.w != EDGE_COUNT_NO_FACE) == edge.has_face1);
+				const glm::vec4 plane = found.planes[record.a_face0.w & EDGE_COUNT_FACE_MASK];
+				CHECK(glm::length(glm::dvec4(plane) - edge.plane0) < 1e-4);
 			}
-			CHECK(std::memcmp(find_edges(fixture, casters, scene).data(), found.data(),
-						  found.size() * sizeof(found[0])) == 0);
+			REQUIRE(found.faces.size() == expected.faces.size());
+			for (size_t index = 0; index < found.faces.size(); ++index) {
+				CHECK(glm::length(to_point(found.faces[index].b) -
+							  expected.faces[index].corners[1]) < 1e-5);
+				CHECK((found.faces[index].a_kind.w != 0) == expected.faces[index].is_double_sided);
+			}
+			CHECK(std::memcmp(find_edges(fixture, casters, scene.get_space()).edges.data(),
+						  found.edges.data(), found.edges.size() * sizeof(found.edges[0])) == 0);
 		}
 	}
 }

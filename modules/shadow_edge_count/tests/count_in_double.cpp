@@ -1,0 +1,258 @@
+#include "modules/shadow_edge_count/tests/count_in_double.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace gnomon {
+
+namespace {
+
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // of S
+const double SIDE_TOLERANCE_COSINE = 1e-6;
+
+double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
+	return p_a.x * p_b.y - p_a.y * p_b.x;
+}
+
+bool is_before(const glm::dvec4 &p_plane, const glm::dvec3 &p_r) {
+	return glm::dot(glm::dvec3(p_plane), p_r) + p_plane.w > 0.0;
+}
+
+int find_light_side(const CountSpace &p_space, const glm::dvec4 &p_plane) {
+	const double reach =
+			p_space.disc_radius * (p_space.is_directional ? glm::length(glm::dvec2(p_plane)) : 1.0);
+	const double tolerance = p_space.is_directional ? SIDE_TOLERANCE_COSINE
+													: SIDE_TOLERANCE_SIZES * p_space.scene_size_m;
+	const double side = p_space.get_light_side(p_plane);
+	return side > reach + tolerance ? 1 : side < -reach - tolerance ? -1 : 0;
+}
+
+/// From a receiver to points: (X, d), X / d on the plane of the disc that faces it.
+class Receiver {
+public:
+	Receiver(const CountSpace &p_space, const glm::dvec3 &p_r) :
+			r(p_r), x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), to_light(0.0, 0.0, -1.0) {
+		if (!p_space.is_directional) {
+			const glm::dvec3 n = glm::normalize(p_r);
+			// As make_count_receiver: the points of the light are the same.
+			const double turn = n.z >= 0 ? 1.0 : -1.0;
+			const double a = -1.0 / (turn + n.z);
+			const double b = n.x * n.y * a;
+			x = { 1.0 + turn * n.x * n.x * a, turn * b, -turn * n.x };
+			y = { b, turn + n.y * n.y * a, -n.y };
+			to_light = -p_r / glm::dot(p_r, p_r);
+		}
+	}
+	glm::dvec3 find_offset(const glm::dvec3 &p_point) const {
+		const glm::dvec3 o = p_point - r;
+		return { glm::dot(x, o), glm::dot(y, o), glm::dot(to_light, o) };
+	}
+
+private:
+	glm::dvec3 r;
+	glm::dvec3 x;
+	glm::dvec3 y;
+	glm::dvec3 to_light;
+};
+
+class Counter {
+public:
+	Counter(const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const DiscMasks> p_masks) :
+			space(p_space), r(p_r), receiver(p_space, p_r), masks(p_masks), counts(p_masks.size()) {
+		for (auto &samples : counts) {
+			samples.fill(0);
+		}
+	}
+
+	void add_edge(const CountEdge &p_edge) {
+		const int weight = p_edge.compute_weight(r);
+		const glm::dvec3 a = receiver.find_offset(p_edge.a);
+		const glm::dvec3 b = receiver.find_offset(p_edge.b);
+		const double side = cross(glm::dvec2(a), glm::dvec2(b));
+		const auto ends = cut(a, b);
+		if (weight == 0 || side == 0 || !ends) {
+			return;
+		}
+		add_sector(weight < 0 ? ends->second : ends->first, weight < 0 ? ends->first : ends->second,
+				weight < 0 ? -side : side, std::abs(weight));
+	}
+
+	double resolve(int p_solid_count) const {
+		const double points = double(DiscMasks::SAMPLE_COUNT * masks.size());
+		double hidden = 0;
+		double sum = 0;
+		double hidden_changes = 0;
+		double changes = 0;
+		bool overlaps = false;
+		for (const auto &samples : counts) {
+			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
+				const int count = p_solid_count + samples[index];
+				const int other = p_solid_count + samples[(index + 2) % DiscMasks::SAMPLE_COUNT];
+				hidden += count >= 1 ? 1 : 0;
+				sum += count;
+				hidden_changes += (count >= 1) != (other >= 1) ? 1 : 0;
+				changes += std::abs(count - other);
+				overlaps = overlaps || count < 0 || count > 1;
+			}
+		}
+		const double mean = p_solid_count + area;
+		const double trust = !overlaps ? 1.0 : changes > 0 ? hidden_changes / changes : 0.0;
+		hidden = overlaps ? hidden : sum;
+		return std::clamp(1.0 - hidden / points - trust * (mean - sum / points), 0.0, 1.0);
+	}
+
+private:
+	/// The part that is nearer to the light than the receiver, and before the light, on the disc's
+	/// plane, in units of R.
+	std::optional<std::pair<glm::dvec2, glm::dvec2>> cut(
+			const glm::dvec3 &p_a, const glm::dvec3 &p_b) const {
+		const double least = space.nearer_tolerance;
+		const double most = space.is_directional ? std::numeric_limits<double>::infinity() : 1.0;
+		if (std::max(p_a.z, p_b.z) <= least || std::min(p_a.z, p_b.z) >= most) {
+			return std::nullopt;
+		}
+		const auto move = [&](const glm::dvec3 &p_end, const glm::dvec3 &p_other) {
+			const double d = std::clamp(p_end.z, least, most);
+			return d == p_end.z ? p_end
+								: glm::mix(p_end, p_other, (d - p_end.z) / (p_other.z - p_end.z));
+		};
+		const glm::dvec3 a = move(p_a, p_b);
+		const glm::dvec3 b = move(p_b, p_a);
+		return std::pair(glm::dvec2(a) / (a.z * space.disc_radius),
+				glm::dvec2(b) / (b.z * space.disc_radius));
+	}
+
+	/// Adds the part of the disc beyond the edge, as the centre sees it: a sector without its
+	/// triangle, with the sign of the turn.
+	void add_sector(const glm::dvec2 &p_a, const glm::dvec2 &p_b, double p_side, int p_weight) {
+		const glm::dvec2 way = p_b - p_a;
+		if (glm::dot(way, way) < 1e-16) {
+			return;
+		}
+		const glm::dvec2 u = glm::normalize(way);
+		const double distance = std::max(std::abs(cross(p_a, u)), 1e-20);
+		if (distance >= 1) {
+			return;
+		}
+		const double half_chord = std::sqrt(1.0 - distance * distance);
+		const double from = std::max(glm::dot(p_a, u), -half_chord);
+		const double to = std::min(glm::dot(p_b, u), half_chord);
+		if (to <= from) {
+			return;
+		}
+		const int sign = p_side > 0 ? -1 : 1;
+		area += p_weight * sign * 0.5 *
+				(std::atan2(to, distance) - std::atan2(from, distance) - distance * (to - from)) /
+				std::numbers::pi;
+		const glm::dvec2 beyond = p_side > 0 ? glm::dvec2(u.y, -u.x) : glm::dvec2(-u.y, u.x);
+		for (size_t index = 0; index < masks.size(); ++index) {
+			const DiscMasks &table = masks[index];
+			const uint64_t mask = table.get_mask(beyond, distance) &
+					(p_side > 0 ? table.get_wedge(p_a, p_b) : table.get_wedge(p_b, p_a));
+			for (uint32_t sample = 0; sample < DiscMasks::SAMPLE_COUNT; ++sample) {
+				counts[index][sample] += (mask >> sample & 1) != 0 ? sign * p_weight : 0;
+			}
+		}
+	}
+
+	const CountSpace &space;
+	const glm::dvec3 r;
+	const Receiver receiver;
+	const std::span<const DiscMasks> masks;
+	double area = 0; // of the disc's
+	std::vector<std::array<int, DiscMasks::SAMPLE_COUNT>> counts;
+};
+
+} // namespace
+
+int CountEdge::compute_weight(const glm::dvec3 &p_r) const {
+	const int first = is_before(plane0, p_r) ? 1 : -1;
+	const int sum = first - (is_before(plane1, p_r) ? 1 : -1);
+	return !has_face1 ? first : is_double_sided ? sum : sum / 2;
+}
+
+void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
+		const CountSpace &p_space) {
+	const bool is_mirrored = glm::determinant(glm::dmat3(p_light_from_node)) < 0;
+	const auto to_light = [&](uint32_t p_vertex) {
+		return glm::dvec3(
+				p_light_from_node * glm::dvec4(p_topology.welded_positions_node[p_vertex], 1.0));
+	};
+	const size_t first = faces.size();
+	for (uint32_t index = 0; index < p_topology.get_face_count(); ++index) {
+		CountFace face;
+		for (size_t corner = 0; corner < 3; ++corner) {
+			face.corners[corner] = to_light(p_topology.triangles[3 * size_t(index) + corner]);
+		}
+		const glm::dvec3 normal =
+				glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+		const double length = glm::length(normal);
+		if (length > 0) {
+			const glm::dvec3 unit = normal * ((is_mirrored ? -1.0 : 1.0) / length);
+			face.plane = glm::dvec4(unit, -glm::dot(unit, face.corners[0]));
+		}
+		face.is_double_sided = p_topology.is_double_sided(index);
+		faces.push_back(face);
+	}
+	for (const MeshEdge &mesh_edge : p_topology.edges) {
+		CountEdge edge;
+		edge.is_double_sided = p_topology.is_double_sided(mesh_edge.face0);
+		edge.has_face1 = mesh_edge.face1 != NO_FACE;
+		edge.plane0 = faces[first + mesh_edge.face0].plane;
+		if (edge.has_face1) {
+			edge.plane1 =
+					faces[first + mesh_edge.face1].plane * (mesh_edge.is_inconsistent ? -1.0 : 1.0);
+			const int side = find_light_side(p_space, edge.plane0);
+			// Where the faces continue each other no point off their plane sees a silhouette.
+			if (mesh_edge.is_coplanar ||
+					(side != 0 && side == find_light_side(p_space, edge.plane1))) {
+				continue;
+			}
+		}
+		edge.a = to_light(is_mirrored ? mesh_edge.b : mesh_edge.a);
+		edge.b = to_light(is_mirrored ? mesh_edge.a : mesh_edge.b);
+		edges.push_back(edge);
+	}
+}
+
+int count_solids_in_double(
+		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces) {
+	const Receiver receiver(p_space, p_r);
+	int away_count = 0;
+	int toward_count = 0;
+	int open_count = 0;
+	for (const CountFace &face : p_faces) {
+		const bool is_receiver_before = is_before(face.plane, p_r);
+		if (is_receiver_before == (p_space.get_light_side(face.plane) > 0.0)) {
+			continue;
+		}
+		bool is_left[3];
+		for (int corner = 0; corner < 3; ++corner) {
+			is_left[corner] =
+					cross(glm::dvec2(receiver.find_offset(face.corners[corner])),
+							glm::dvec2(receiver.find_offset(face.corners[(corner + 1) % 3]))) > 0;
+		}
+		if (is_left[0] != is_left[1] || is_left[0] != is_left[2]) {
+			continue;
+		}
+		++(face.is_double_sided ? open_count : is_receiver_before ? away_count : toward_count);
+	}
+	return open_count + std::max(away_count, toward_count);
+}
+
+double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
+		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
+		std::span<const DiscMasks> p_masks) {
+	Counter counter(p_space, p_r, p_masks);
+	if (p_space.disc_radius > 0) {
+		for (const CountEdge &edge : p_edges) {
+			counter.add_edge(edge);
+		}
+	}
+	return counter.resolve(count_solids_in_double(p_space, p_r, p_faces));
+}
+
+} // namespace gnomon

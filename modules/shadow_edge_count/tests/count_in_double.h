@@ -1,0 +1,70 @@
+#pragma once
+
+#include "modules/mesh_tools/topology.h"
+#include "modules/shadow_edge_count/disc_masks.h"
+
+#include <glm/glm.hpp>
+
+#include <span>
+#include <vector>
+
+// edge_count in double, without lists or boxes: each receiver looks at all faces and all edges.
+// What the shaders are tested against.
+
+namespace gnomon {
+
+/// Light space: metres, the light's centre at the origin (directional: its view's origin, the light
+/// shines along z).
+struct CountSpace {
+	bool is_directional = false;
+	double disc_radius = 0; // R in metres; directional: the tangent of half the apparent diameter
+	double nearer_tolerance = 2e-5; // see CountLightConstants
+	double scene_size_m = 1;		// S
+
+	/// Above 0 where the face n.r + d = 0 is turned to the light's centre.
+	double get_light_side(const glm::dvec4 &p_plane) const {
+		return is_directional ? -p_plane.z : p_plane.w;
+	}
+};
+
+/// An edge that may be a silhouette from a point of the light.
+struct CountEdge {
+	glm::dvec3 a = glm::dvec3(0.0);
+	glm::dvec3 b = glm::dvec3(0.0);
+	/// n and d of the faces: n.r + d = 0, n unit, above 0 in front. The second is (0, 0, 0, 0)
+	/// where the edge has one face, and negated where both wind a -> b.
+	glm::dvec4 plane0 = glm::dvec4(0.0);
+	glm::dvec4 plane1 = glm::dvec4(0.0);
+	bool has_face1 = false;
+	bool is_double_sided = false; // of a part of a mesh that is not closed
+
+	/// Signed weight as seen from a point.
+	int compute_weight(const glm::dvec3 &p_r) const;
+};
+
+struct CountFace {
+	glm::dvec3 corners[3];
+	glm::dvec4 plane = glm::dvec4(0.0);
+	bool is_double_sided = false;
+};
+
+struct CountedCasters {
+	std::vector<CountEdge> edges;
+	std::vector<CountFace> faces;
+
+	/// Edges that lie between faces which the whole light sees from one side are not there.
+	void add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
+			const CountSpace &p_space);
+};
+
+/// Faces between a receiver and the light's centre, as solids.
+int count_solids_in_double(
+		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces);
+
+/// The share of the light that a receiver sees, 0..1. p_r: moved off its surface already.
+/// p_edges: all that may matter to it. p_masks: of 64 points of the light each.
+double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
+		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
+		std::span<const DiscMasks> p_masks);
+
+} // namespace gnomon

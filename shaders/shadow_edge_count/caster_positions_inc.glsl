@@ -1,0 +1,22 @@
+// The vertices of one caster in light space, for the passes that find its faces and edges: one expression,
+// so that both have equal bits.
+#ifndef CASTER_POSITIONS_INC_GLSL
+#define CASTER_POSITIONS_INC_GLSL
+
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+layout(std430, set = 0, binding = FIND_BINDING_POSITIONS) readonly buffer Positions {
+	vec4 positions_node[];
+};
+layout(push_constant) uniform Push {
+	CountCasterPush push;
+};
+
+vec3 load_light_position(uint p_vertex) {
+	const vec3 p = positions_node[p_vertex].xyz;
+	const mat4 m = push.light_from_node;
+	precise const vec3 position = ((m[0].xyz * p.x + m[1].xyz * p.y) + m[2].xyz * p.z) + m[3].xyz;
+	return position;
+}
+
+#endif

@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+// Empties the lists of one view, before they are made.
+layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
+layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+	CountLightConstants light;
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_HEADS) writeonly buffer Heads {
+	uint heads[];
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) writeonly buffer Totals {
+	uint totals[];
+};
+layout(push_constant) uniform Push {
+	CountFaceListPush push;
+};
+
+void main() {
+	const uvec2 size_px = light.views[push.view].map_size_px;
+	const uint texel_count = size_px.x * size_px.y;
+	if (gl_GlobalInvocationID.x < texel_count) {
+		heads[push.view * texel_count + gl_GlobalInvocationID.x] = 0u;
+	}
+	if (gl_GlobalInvocationID.x == 0u && push.is_first != 0u) {
+		totals[EDGE_COUNT_TOTAL_NODES + push.view] = 0u;
+		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = 0u;
+	}
+}

@@ -1,0 +1,39 @@
+// The light's edges and their bundles in texel buffers. The block `light` comes first.
+#ifndef COUNT_BUNDLES_INC_GLSL
+#define COUNT_BUNDLES_INC_GLSL
+
+#include "shadow_edge_count/count_box_inc.glsl"
+#include "shadow_edge_count/count_lists_inc.glsl"
+
+layout(set = 0, binding = COUNT_BINDING_EDGES) uniform utextureBuffer edges_buffer;
+layout(set = 0, binding = COUNT_BINDING_BUNDLES) uniform textureBuffer bundles_buffer;
+
+CountEdgeRecord load_count_edge(uint p_index) {
+	const int first = int(2u * p_index);
+	return CountEdgeRecord(texelFetch(edges_buffer, first), texelFetch(edges_buffer, first + 1));
+}
+
+/// The planes of an edge's faces; of a second one that is not there that of the first.
+vec4 load_count_plane0(CountEdgeRecord p_edge) {
+	return load_count_plane(p_edge.a_face0.w & EDGE_COUNT_FACE_MASK);
+}
+vec4 load_count_plane1(CountEdgeRecord p_edge) {
+	return load_count_plane(
+			(p_edge.b_face1.w == EDGE_COUNT_NO_FACE ? p_edge.a_face0.w : p_edge.b_face1.w) &
+			EDGE_COUNT_FACE_MASK);
+}
+
+CountEdgeBundle load_count_bundle(uint p_index) {
+	const int first = int(2u * p_index);
+	return CountEdgeBundle(texelFetch(bundles_buffer, first), texelFetch(bundles_buffer, first + 1));
+}
+
+uint find_edge_count() {
+	return min(texelFetch(totals_buffer, int(EDGE_COUNT_TOTAL_EDGES)).r, light.most_edges);
+}
+
+uint find_bundle_count(uint p_edge_count) {
+	return (p_edge_count + uint(EDGE_COUNT_BUNDLE_SIZE) - 1u) / uint(EDGE_COUNT_BUNDLE_SIZE);
+}
+
+#endif

@@ -1,0 +1,71 @@
+// The number of solids between a receiver and the light's centre: exact, from the faces that the texel of a
+// view's map lists. Which map and which lists there are changes the time it takes, never the number.
+#ifndef COUNT_FACES_INC_GLSL
+#define COUNT_FACES_INC_GLSL
+
+#include "shadow_edge_count/count_space_inc.glsl"
+
+/// The first node of a texel's list, counted from 1; 0: the list is empty. Texels of all views one after
+/// the other, by view, row and column.
+uint load_count_head(uint p_index);
+/// (face, next node) of a node, counted from 0.
+uvec2 load_count_node(uint p_index);
+/// Halvings of a view's map: where its nodes had no room.
+uint load_count_level(uint p_view);
+CountFaceRecord load_count_face(uint p_face);
+vec4 load_count_plane(uint p_face);
+
+/// What the segment from a receiver to the light's centre crosses.
+struct CountCrossings {
+	int away;	// faces of closed parts that are turned away from the light's centre
+	int toward; // and towards it
+	int both;	// faces of other parts
+};
+
+/// Adds a face where it lies between the receiver and the light's centre. p_is_before: the receiver lies in
+/// front of it, and the light's centre does not, or the other way round.
+void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_before, inout CountCrossings r_found) {
+	const vec2 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz)).xy;
+	const vec2 b = count_offset(p_receiver, uintBitsToFloat(p_face.b.xyz)).xy;
+	const vec2 c = count_offset(p_receiver, uintBitsToFloat(p_face.c.xyz)).xy;
+	const bool is_left = is_count_left(a, b);
+	const bool is_crossed = is_left == is_count_left(b, c) && is_left == is_count_left(c, a);
+	const bool is_open = p_face.a_kind.w != 0u;
+	r_found.both += is_crossed && is_open ? 1 : 0;
+	r_found.away += is_crossed && !is_open && p_is_before ? 1 : 0;
+	r_found.toward += is_crossed && !is_open && !p_is_before ? 1 : 0;
+}
+
+/// Solids between a receiver and the light's centre. Where the receiver lies inside closed parts, more faces
+/// are turned towards the light, where the light does, more away from it: the larger number is that of
+/// the parts that hide it.
+int sum_crossings(CountCrossings p_found) {
+	return p_found.both + max(p_found.away, p_found.toward);
+}
+
+/// p_place: x' and y' of the receiver in its view.
+int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
+	const CountViewConstants view = p_light.views[p_view];
+	const vec2 size = vec2(max(view.map_size_px >> load_count_level(p_view), uvec2(1u)));
+	const vec2 texel = (p_place / view.half_extent * 0.5 + 0.5) * size;
+	// Casters beyond the map hide nothing that the light reaches.
+	const bool is_inside = all(lessThanEqual(abs(p_place), view.half_extent));
+	const uvec2 place = uvec2(clamp(texel, vec2(0.0), size - 1.0));
+	uint next = is_inside
+			? load_count_head((p_view * view.map_size_px.y + place.y) * view.map_size_px.x + place.x)
+			: 0u;
+	CountCrossings found = CountCrossings(0, 0, 0);
+	while (next != 0u) {
+		const uvec2 node = load_count_node(p_view * p_light.node_capacity + next - 1u);
+		const vec4 plane = load_count_plane(node.x);
+		const bool is_before = is_count_before(plane, p_receiver.position);
+		const bool is_between = is_before != is_count_light_before(p_light.is_directional != 0u, plane);
+		if (is_between) {
+			count_face(p_receiver, load_count_face(node.x), is_before, found);
+		}
+		next = node.y;
+	}
+	return sum_crossings(found);
+}
+
+#endif

@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+// After an attempt to list a view's faces: where there was no room for all, the next one has larger texels.
+// Texels of twice the width hold about a quarter of the nodes; the last attempt has one texel, and a node a face.
+layout(local_size_x = 1) in;
+layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+	CountLightConstants light;
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) buffer Totals {
+	uint totals[];
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_DISPATCHES) writeonly buffer Dispatches {
+	uint dispatches[];
+};
+layout(push_constant) uniform Push {
+	CountFaceListPush push;
+};
+
+const uint MOST_LEVEL = 31u;
+
+void main() {
+	const uint total = totals[EDGE_COUNT_TOTAL_NODES + push.view];
+	const bool is_short = total > light.node_capacity;
+	const uvec2 size_px = light.views[push.view].map_size_px;
+	const uint group = uint(FACE_LIST_GROUP_SIZE);
+	if (is_short) {
+		uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
+		uint expected = total;
+		do {
+			++level;
+			expected /= 4u;
+		} while (expected > light.node_capacity);
+		totals[EDGE_COUNT_TOTAL_LEVELS + push.view] = push.is_last != 0u ? MOST_LEVEL : level;
+		totals[EDGE_COUNT_TOTAL_NODES + push.view] = 0u;
+	}
+	dispatches[FACE_LIST_DISPATCH_CLEAR] = is_short ? (size_px.x * size_px.y + group - 1u) / group : 0u;
+	dispatches[FACE_LIST_DISPATCH_CLEAR + 1] = 1u;
+	dispatches[FACE_LIST_DISPATCH_CLEAR + 2] = 1u;
+	dispatches[FACE_LIST_DISPATCH_LIST] = is_short ? (light.face_count + group - 1u) / group : 0u;
+	dispatches[FACE_LIST_DISPATCH_LIST + 1] = 1u;
+	dispatches[FACE_LIST_DISPATCH_LIST + 2] = 1u;
+}
