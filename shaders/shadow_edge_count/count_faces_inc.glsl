@@ -43,6 +43,15 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.both + max(p_found.away, p_found.toward);
 }
 
+/// True where a face is crossed so near to the light's centre that a light which moves a little would change all
+/// of the mask at once: what cuts the disc is not known to be before it or behind.
+bool is_count_at_light(CountLightConstants p_light, CountReceiver p_receiver, vec4 p_plane) {
+	const float NEAREST_RADII = 0.01;
+	const float across = abs(dot(p_plane.xyz, p_receiver.position));
+	return p_light.is_directional == 0u &&
+			abs(p_plane.w) * length(p_receiver.position) < NEAREST_RADII * p_light.disc_radius * across;
+}
+
 /// p_place: x' and y' of the receiver in its view.
 int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
 	const CountViewConstants view = p_light.views[p_view];
@@ -59,7 +68,8 @@ int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountRe
 		const uvec2 node = load_count_node(p_view * p_light.node_capacity + next - 1u);
 		const vec4 plane = load_count_plane(node.x);
 		const bool is_before = is_count_before(plane, p_receiver.position);
-		const bool is_between = is_before != is_count_light_before(p_light.is_directional != 0u, plane);
+		const bool is_between = is_before != is_count_light_before(p_light.is_directional != 0u, plane) &&
+				!is_count_at_light(p_light, p_receiver, plane);
 		if (is_between) {
 			count_face(p_receiver, load_count_face(node.x), is_before, found);
 		}

@@ -229,6 +229,11 @@ int count_solids_in_double(
 		if (is_receiver_before == (p_space.get_light_side(face.plane) > 0.0)) {
 			continue;
 		}
+		if (!p_space.is_directional &&
+				std::abs(face.plane.w) * glm::length(p_r) < 0.01 * p_space.disc_radius *
+								std::abs(glm::dot(glm::dvec3(face.plane), p_r))) {
+			continue; // see is_count_at_light
+		}
 		bool is_left[3];
 		for (int corner = 0; corner < 3; ++corner) {
 			is_left[corner] =
