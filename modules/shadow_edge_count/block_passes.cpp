@@ -13,7 +13,7 @@ namespace {
 
 // Edges in all lists: on average so many for each block, and 16 MB at most. Lists without room cost
 // time, not exactness.
-constexpr uint64_t LISTED_EDGES_PER_BLOCK = 512;
+constexpr uint64_t LISTED_EDGES_PER_BLOCK = 1024;
 constexpr uint64_t MOST_LISTED_EDGES = 4'000'000;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
@@ -46,7 +46,7 @@ std::vector<PassBinding> make_count_bindings(
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
 	bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, p_passes.light.edges));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles));
-	bindings.push_back(PassBinding::read(COUNT_BINDING_ENDS, p_blocks.ends));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_LISTS, p_blocks.lists));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
 	return bindings;
@@ -94,13 +94,13 @@ void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 
 } // namespace
 
-uint32_t choose_list_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
-	const glm::uvec2 blocks =
-			divide_up(divide_up(p_size_px, EDGE_COUNT_GROUP_PX), EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
+uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
+	const glm::uvec2 blocks = divide_up(p_size_px, EDGE_COUNT_BLOCK_PX);
 	// In powers of two: few sizes of memory while the scene changes.
 	const uint64_t edges = std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK);
-	return static_cast<uint32_t>(
-			std::clamp<uint64_t>(uint64_t(blocks.x) * blocks.y * edges, 1, MOST_LISTED_EDGES));
+	const uint64_t chunks_per_block = std::max<uint64_t>(edges / EDGE_COUNT_CHUNK_SIZE, 1);
+	return static_cast<uint32_t>(std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * chunks_per_block,
+			MOST_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
 }
 
 shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
@@ -109,10 +109,10 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	shader::CountLightConstants constants =
 			make_count_light_constants({ p_inputs.views.begin(), p_inputs.views.end() },
 					p_settings.disc_radius, p_inputs.scene.scene_size_m);
-	constants.group_count = divide_up(p_inputs.size_px, EDGE_COUNT_GROUP_PX);
-	constants.block_count = divide_up(constants.group_count, EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
+	constants.block_count = divide_up(p_inputs.size_px, EDGE_COUNT_BLOCK_PX);
+	constants.tile_count = divide_up(constants.block_count, EDGE_COUNT_BLOCKS_PER_TILE_SIDE);
 	constants.empty_views = p_empty_views;
-	constants.list_capacity = choose_list_capacity(p_inputs.size_px, p_capacities.edge_count);
+	constants.chunk_capacity = choose_chunk_capacity(p_inputs.size_px, p_capacities.edge_count);
 	constants.budget = p_settings.budget;
 	constants.node_capacity = p_capacities.nodes_per_view;
 	constants.face_count = p_capacities.face_count;
@@ -124,23 +124,24 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountLightConstants constants = make_block_constants(
 			inputs, p_passes.settings, p_passes.capacities, p_passes.empty_views);
-	const uint64_t group_count = uint64_t(constants.group_count.x) * constants.group_count.y;
 	const uint64_t block_count = uint64_t(constants.block_count.x) * constants.block_count.y;
 	CountBlocks blocks;
 	blocks.receivers = make_map_resolve_bindings(r_graph, inputs);
 	blocks.constants = r_graph.upload_constants("counted light", constants);
 	const RGBuffer boxes = r_graph.create_buffer({ "receiver boxes",
-			group_count * constants.view_count * EDGE_COUNT_BOXES_PER_GROUP *
-					sizeof(shader::CountGroupBox),
+			block_count * constants.view_count * EDGE_COUNT_BOXES_PER_BLOCK *
+					sizeof(shader::CountBlockBox),
 			BufferUsage::STORAGE });
 	const RGBuffer present = r_graph.create_buffer(
-			{ "receiver views", group_count * sizeof(uint32_t), BufferUsage::STORAGE });
+			{ "receiver views", block_count * sizeof(uint32_t), BufferUsage::STORAGE });
 	const auto make_texel_buffer = [&](const char *p_name, uint64_t p_count) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t),
 				BufferUsage::STORAGE | BufferUsage::TEXEL, MemoryKind::GPU, Format::R32_UINT });
 	};
-	blocks.ends = make_texel_buffer("block ends", block_count * EDGE_COUNT_ENDS_PER_BLOCK);
-	blocks.lists = make_texel_buffer("block edges", constants.list_capacity);
+	blocks.chains = make_texel_buffer(
+			"block chains", block_count * constants.view_count * EDGE_COUNT_CHAIN_WORDS);
+	blocks.lists = make_texel_buffer(
+			"block edges", uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1));
 	blocks.block_count = static_cast<uint32_t>(block_count);
 	blocks.blocks = make_texel_buffer("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
 	blocks.dispatches = r_graph.create_buffer(
@@ -164,7 +165,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	bindings.push_back(PassBinding::write(COUNT_BINDING_PRESENT, present));
 	add_compute_pass(r_graph, "receiver boxes",
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
-			{ constants.group_count.x * subgroup_size, constants.group_count.y, 1 });
+			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
 	const CountFrameBuffers &light = p_passes.light;
 	add_compute_pass(r_graph, "list blocks", get_pipeline("shadow_edge_count/list_blocks.comp"),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
@@ -174,12 +175,12 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 					PassBinding::read(COUNT_BINDING_BUNDLES, light.bundles),
 					PassBinding::read(COUNT_BINDING_PLANES, light.planes),
 					PassBinding::read(COUNT_BINDING_TOTALS, light.totals),
-					PassBinding::write(COUNT_BINDING_ENDS, blocks.ends),
+					PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),
 					PassBinding::write(COUNT_BINDING_BLOCKS, blocks.blocks),
 					PassBinding::write(COUNT_BINDING_DISPATCHES, blocks.dispatches,
 							PassBuilder::Content::UPDATE) },
-			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
+			{ constants.tile_count.x * subgroup_size, constants.tile_count.y, 1 });
 	return blocks;
 }
 

@@ -22,7 +22,7 @@ struct CountBlockPasses {
 struct CountBlocks {
 	std::vector<PassBinding> receivers; // make_map_resolve_bindings
 	RGBuffer constants;					// CountLightConstants
-	RGBuffer ends;						// of each block's list in `lists`, per view
+	RGBuffer chains;					// of each block and view, EDGE_COUNT_CHAIN_*
 	RGBuffer lists;
 	RGBuffer blocks;	 // by kind, EDGE_COUNT_BLOCKS_*
 	RGBuffer dispatches; // see EDGE_COUNT_BLOCK_KINDS
@@ -34,7 +34,7 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 		const CountSettings &p_settings, const CountCapacities &p_capacities,
 		uint32_t p_empty_views);
 
-/// Passes that find the bounds of each group's receivers and each block's edges.
+/// Passes that find the bounds of each block's receivers and its edges.
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes);
 
 /// A pass for the blocks of each kind. Returns the mask.
@@ -46,7 +46,7 @@ RGTexture add_count_passes(
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
-/// Edges in the lists of all blocks for which there is room.
-uint32_t choose_list_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count);
+/// Chunks in the lists of all blocks for which there is room, 1 or more.
+uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count);
 
 } // namespace gnomon

@@ -26,7 +26,7 @@ void add_count_properties(PropertyList &r_list) {
 			"memory, never the image: more texels have shorter lists.",
 			"px", group });
 	r_list.add({ "edge_count_budget", PropertyType::INT, int64_t(-1), "0,65536,1",
-			"Edges that one block of 16 x 16 pixels may have. Blocks with more are filtered with "
+			"Edges that one block of 8 x 8 pixels may have. Blocks with more are filtered with "
 			"64 "
 			"taps, which is faster and less exact. -1: no limit; 0: every block that has an edge "
 			"is "

@@ -4,17 +4,13 @@
 #define MAP_RESOLVE_INC_GLSL
 
 #include "common/receiver_pixels_inc.glsl"
+#include "common/work_rows_inc.glsl"
 
 layout(local_size_x = MAP_RESOLVE_GROUP_SIZE, local_size_y = MAP_RESOLVE_GROUP_SIZE) in;
-/// The group of pixels of this work group. Rows of work groups are dealt out in two hands, even ones first:
-/// drivers that give each core one half of a dispatch then give it every other row, and no core waits
-/// where one half of the picture costs more. pcss with 64 taps at 512 x 512, 2 cores: terrain 246 ms
-/// so and 298 without, contact_box 172 and 202.
+
+/// The group of pixels of this work group.
 uvec2 find_group() {
-	const uint even_count = (gl_NumWorkGroups.y + 1u) / 2u;
-	const uint group = gl_WorkGroupID.y;
-	const uint row = group < even_count ? 2u * group : 2u * (group - even_count) + 1u;
-	return uvec2(gl_WorkGroupID.x, row);
+	return uvec2(gl_WorkGroupID.x, find_work_row());
 }
 
 /// The pixel of this invocation.

@@ -1,10 +1,10 @@
-// The pixels of a pass over blocks of one kind: a work group deals with one group of a block's pixels.
+// The pixels of a pass over blocks of one kind: a work group deals with one block.
 #ifndef COUNT_BLOCKS_INC_GLSL
 #define COUNT_BLOCKS_INC_GLSL
 
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-layout(local_size_x = MAP_RESOLVE_GROUP_SIZE, local_size_y = MAP_RESOLVE_GROUP_SIZE) in;
+layout(local_size_x = EDGE_COUNT_BLOCK_PX, local_size_y = EDGE_COUNT_BLOCK_PX) in;
 layout(set = 0, binding = COUNT_BINDING_BLOCKS) uniform utextureBuffer blocks_buffer;
 layout(push_constant) uniform Push {
 	CountBlockPush push;
@@ -14,12 +14,9 @@ uint find_block() {
 	return texelFetch(blocks_buffer, int(push.first_block + gl_WorkGroupID.x)).r;
 }
 
-/// The first pixel of the work group.
-uvec2 find_block_group(uint p_block) {
-	const uvec2 block = uvec2(p_block % light.block_count.x, p_block / light.block_count.x);
-	const uint side = uint(EDGE_COUNT_GROUPS_PER_BLOCK_SIDE);
-	const uvec2 group = block * side + uvec2(gl_WorkGroupID.y % side, gl_WorkGroupID.y / side);
-	return group * uint(MAP_RESOLVE_GROUP_SIZE);
+/// The block's first pixel.
+uvec2 find_block_corner(uint p_block) {
+	return uvec2(p_block % light.block_count.x, p_block / light.block_count.x) * uint(EDGE_COUNT_BLOCK_PX);
 }
 
 #endif

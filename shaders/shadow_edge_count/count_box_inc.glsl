@@ -12,7 +12,7 @@
 
 #include "shadow_edge_count/count_classify_inc.glsl"
 
-/// Receivers in one view: see CountGroupBox. None where a least is greater.
+/// Receivers in one view: see CountBlockBox. None where a least is greater.
 struct CountBounds {
 	vec2 least;
 	vec2 greatest;
@@ -54,7 +54,7 @@ CountBounds join_count_bounds(CountBounds p_one, CountBounds p_other) {
 			is_empty ? p_one.range : vec2(min(p_one.range.x, range.x), max(p_one.range.y, range.y)));
 }
 
-CountBounds unpack_count_bounds(CountGroupBox p_box) {
+CountBounds unpack_count_bounds(CountBlockBox p_box) {
 	return CountBounds(p_box.least_greatest.xy, p_box.least_greatest.zw, p_box.slope_range.xy,
 			p_box.slope_range.zw);
 }
@@ -239,8 +239,7 @@ int find_light_side(CountBox p_box, vec3 p_point) {
 // What is known of an edge for the receivers of a box: a sum of these, and its weight where all of them see the
 // same. Lists have an edge and what is known of it in one word.
 const uint COUNT_KNOWS_WEIGHT = 1u;
-const uint COUNT_IS_BEFORE_LIGHT = 2u; // no part of it lies behind the light
-const uint COUNT_WEIGHT_SHIFT = 2u;
+const uint COUNT_WEIGHT_SHIFT = 1u;
 const int COUNT_WEIGHT_BIAS = 2;
 const uint COUNT_KNOWN_SHIFT = 26u;
 const uint COUNT_EDGE_MASK = (1u << COUNT_KNOWN_SHIFT) - 1u;

@@ -96,29 +96,24 @@ void count_add_sector(
 	}
 }
 
-/// Moves one end of a segment of offsets to where d is p_d, which lies between those of both ends.
-vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_d) {
-	const float share = (p_d - p_end.z) / (p_other.z - p_end.z);
-	return vec3(mix(p_end.xy, p_other.xy, share), p_d);
+/// Moves one end of a segment of offsets along it until d lies in a range, which has some of the segment's.
+vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_least, float p_most) {
+	const float d = clamp(p_end.z, p_least, p_most);
+	const float share = (d - p_end.z) / (p_other.z - p_end.z);
+	return d == p_end.z ? p_end : vec3(mix(p_end.xy, p_other.xy, share), d);
 }
 
 /// What the part of the light beyond an edge adds. p_weight: as the receiver sees it; 0: nothing.
-/// p_may_be_behind: a part of the edge may lie behind the light's disc.
-void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, bool p_may_be_behind,
-		inout CountState r_state) {
+void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, inout CountState r_state) {
 	const vec3 from = count_offset(p_receiver, p_a);
 	const vec3 to = count_offset(p_receiver, p_b);
 	const bool is_left = is_count_left(from.xy, to.xy);
 	// Cut where it is no nearer to the light than the receiver, and where it is behind the light.
 	const float least = p_receiver.least_d;
-	const float most = p_may_be_behind ? 1.0 : COUNT_MOST_D;
+	const float most = p_receiver.most_d;
 	const bool is_there = p_weight != 0 && max(from.z, to.z) > least && min(from.z, to.z) < most;
-	vec3 first = from.z <= least ? cut_count_offset(from, to, least) : from;
-	vec3 second = to.z <= least ? cut_count_offset(to, from, least) : to;
-	if (p_may_be_behind) {
-		first = from.z > most ? cut_count_offset(from, to, most) : first;
-		second = to.z > most ? cut_count_offset(to, from, most) : second;
-	}
+	const vec3 first = cut_count_offset(from, to, least, most);
+	const vec3 second = cut_count_offset(to, from, least, most);
 	const float inverse = p_receiver.inverse_radius / (first.z * second.z);
 	const vec2 x_first = first.xy * (second.z * inverse);
 	const vec2 x_second = second.xy * (first.z * inverse);
@@ -128,9 +123,9 @@ void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, 
 }
 
 /// Signed weight of an edge as the receiver sees it.
-int count_weight(CountReceiver p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_kind) {
-	return count_sum_weights(is_count_before(p_plane0, p_receiver.position),
-			p_kind.is_inconsistent != is_count_before(p_plane1, p_receiver.position), p_kind);
+int count_weight(vec3 p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_kind) {
+	return count_sum_weights(is_count_before(p_plane0, p_receiver),
+			p_kind.is_inconsistent != is_count_before(p_plane1, p_receiver), p_kind);
 }
 
 /// Sums over the points of the light.

@@ -9,7 +9,7 @@
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_ENDS) uniform utextureBuffer ends_buffer;
+layout(set = 0, binding = COUNT_BINDING_CHAINS) uniform utextureBuffer chains_buffer;
 layout(set = 0, binding = COUNT_BINDING_LISTS) uniform utextureBuffer lists_buffer;
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
@@ -20,15 +20,18 @@ uvec2 load_count_mask(uint p_index) {
 	return texelFetch(masks_buffer, int(p_index)).rg;
 }
 
-// Edges that a subgroup has to count, and what is known of them, in one word each. Each
-// subgroup has a slice; common ones stand at its begin, the others at its end.
-const uint CHOSEN_PER_INVOCATION = 32u;
-shared uint chosen_edges[CHOSEN_PER_INVOCATION * MAP_RESOLVE_GROUP_SIZE * MAP_RESOLVE_GROUP_SIZE];
+// Edges that some receiver of a subgroup may have to count, and what is known of them, in one word each: a slice
+// for each subgroup.
+const uint SLICE_SIZE = 64u;
+shared uint chosen_edges[SLICE_SIZE * EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / 4];
+// Edges that a receiver has to count, and their weights. All entries 0 of a subgroup, then all entries 1.
+const uint MOST_OWN_EDGES = 112u;
+shared uint own_edges[MOST_OWN_EDGES * EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX];
 
 /// One pixel: what it receives, and what was counted.
 struct CountPixel {
 	ivec2 pixel;
-	uint edge_count; // that its subgroup looked at
+	uint edge_count; // that it counted
 	float visibility; // 0 where it is no receiver
 	int solid_count; // between it and the light's centre
 };
@@ -41,58 +44,42 @@ uvec2 find_count_place() {
 	return uvec2(x, y);
 }
 
-/// Edges that any of a box's receivers needs: numbers of common and of other ones.
+/// Edges that a box's receivers may need.
 struct CountChoice {
 	uint next; // index in the list, or edge, from where to go on
-	uint common_count;
-	uint other_count;
+	uint count;
 };
 
 /// Each invocation tests one edge. p_entry: the edge and what is known of it for the block.
 void choose_edge(CountBox p_box, uint p_entry, bool p_is_there, inout CountChoice r_choice) {
-	const uint slice_size = CHOSEN_PER_INVOCATION * gl_SubgroupSize;
-	const uint slice = gl_SubgroupID * slice_size;
 	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
-	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
-	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-	uint known = p_entry >> COUNT_KNOWN_SHIFT;
-	bool is_used = p_is_there && is_edge_in_reach(p_box, a, b);
-	const uint common_known = COUNT_KNOWS_WEIGHT | COUNT_IS_BEFORE_LIGHT;
-	bool is_unknown = is_used && (known & common_known) != common_known;
-	while (is_unknown) { // not a branch
-		const uint weight = find_known_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
-				load_count_plane0(edge), load_count_plane1(edge));
-		const ivec2 sides = ivec2(find_light_side(p_box, a), find_light_side(p_box, b));
-		known = weight | (min(sides.x, sides.y) > 0 ? COUNT_IS_BEFORE_LIGHT : 0u);
-		is_used = max(sides.x, sides.y) >= 0;
-		is_unknown = false;
+	const bool is_chosen = p_is_there &&
+			is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
+	const uvec4 chosen = subgroupBallot(is_chosen);
+	if (is_chosen) {
+		chosen_edges[gl_SubgroupID * SLICE_SIZE + r_choice.count + subgroupBallotExclusiveBitCount(chosen)] =
+				p_entry;
 	}
-	is_used = is_used && (known & ~COUNT_IS_BEFORE_LIGHT) != COUNT_ADDS_NOTHING;
-	const bool is_common = (known & common_known) == common_known;
-	const uvec4 common_edges = subgroupBallot(is_used && is_common);
-	const uvec4 other_edges = subgroupBallot(is_used && !is_common);
-	if (is_used) {
-		const uint at = is_common ? r_choice.common_count + subgroupBallotExclusiveBitCount(common_edges)
-								  : slice_size - 1u - r_choice.other_count -
-						subgroupBallotExclusiveBitCount(other_edges);
-		chosen_edges[slice + at] = (p_entry & COUNT_EDGE_MASK) | known << COUNT_KNOWN_SHIFT;
-	}
-	r_choice.common_count += subgroupBallotBitCount(common_edges);
-	r_choice.other_count += subgroupBallotBitCount(other_edges);
+	r_choice.count += subgroupBallotBitCount(chosen);
 }
 
 bool has_choice_room(CountChoice p_choice, uint p_more) {
-	return p_choice.common_count + p_choice.other_count + p_more <= CHOSEN_PER_INVOCATION * gl_SubgroupSize;
+	return p_choice.count + p_more <= SLICE_SIZE;
 }
 
-/// From the block's list. Ends where the slice may be full.
-CountChoice choose_from_list(uint p_first, uint p_end, CountBox p_box) {
-	CountChoice choice = CountChoice(p_first, 0u, 0u);
+/// From the block's list, which has p_end edges. Ends where the slice may be full.
+CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, CountBox p_box) {
+	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
+	CountChoice choice = CountChoice(p_first, 0u);
 	do {
-		const uint place = choice.next + gl_SubgroupInvocationID;
-		const uint entry = texelFetch(lists_buffer, int(min(place, p_end - 1u))).r;
-		choose_edge(p_box, entry, place < p_end, choice);
+		const uint index = choice.next + gl_SubgroupInvocationID;
+		const bool is_there = index < p_end;
+		const uint entry = texelFetch(lists_buffer, is_there ? int(r_chunk * size + index % size) : 0).r;
+		choose_edge(p_box, is_there ? entry : 0u, is_there, choice);
 		choice.next += gl_SubgroupSize;
+		r_chunk = choice.next % size == 0u
+				? texelFetch(lists_buffer, int(light.chunk_capacity * size + r_chunk)).r
+				: r_chunk;
 	} while (choice.next < p_end && has_choice_room(choice, gl_SubgroupSize));
 	return choice;
 }
@@ -101,7 +88,7 @@ CountChoice choose_from_list(uint p_first, uint p_end, CountBox p_box) {
 CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint bundle_count = find_bundle_count(p_end);
-	CountChoice choice = CountChoice(p_first, 0u, 0u);
+	CountChoice choice = CountChoice(p_first, 0u);
 	do {
 		const uint first_bundle = choice.next / size;
 		const uint bundle = first_bundle + gl_SubgroupInvocationID;
@@ -111,7 +98,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 		choice.next += gl_SubgroupSize * size;
 		while (subgroupBallotBitCount(wanted) != 0u) {
 			const uint lane = subgroupBallotFindLSB(wanted);
-			if (has_choice_room(choice, size + gl_SubgroupSize)) {
+			if (has_choice_room(choice, size)) {
 				wanted[lane / 32u] &= ~(1u << (lane & 31u));
 				for (uint i = 0u; i < size; i += gl_SubgroupSize) {
 					const uint edge = (first_bundle + lane) * size + i + gl_SubgroupInvocationID;
@@ -123,63 +110,107 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 				wanted = uvec4(0u);
 			}
 		}
-	} while (choice.next < p_end && has_choice_room(choice, size + gl_SubgroupSize));
+	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
 }
 
-/// One common edge. p_is_there: the invocation counts one.
-void count_common(CountReceiver p_receiver, uint p_chosen, bool p_is_there, inout CountState r_state) {
-	const CountEdgeRecord edge = load_count_edge(p_chosen & COUNT_EDGE_MASK);
-	const int weight = p_is_there ? get_known_weight(p_chosen >> COUNT_KNOWN_SHIFT) : 0;
-	count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight,
-			false, r_state);
+/// False: the part of the edge that lies between a receiver and its disc hides nothing of it. Wider than
+/// what count_add_edge does by more than rounding.
+bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
+	const float ROUNDING = 4e-6;
+	const float radius = 1.001 * light.disc_radius;
+	const vec3 a = p_a - p_receiver;
+	const vec3 b = p_b - p_receiver;
+	const float d_a = dot(p_to_light, a);
+	const float d_b = dot(p_to_light, b);
+	const float length_a = length(a);
+	const float length_b = length(b);
+	const float inverse = length(p_to_light);
+	// The edge on the disc's plane goes along `way`, at least `aside` from the centre.
+	const vec3 way = b * d_a - a * d_b;
+	const float length_way = length(way);
+	const float aside = abs(dot(p_to_light, cross(a, b)));
+	const bool is_aside = aside > inverse * (radius * length_way + ROUNDING * length_a * length_b);
+	const bool is_beyond = min(d_a, d_b) > 0.0 &&
+			(dot(a, way) > length_way * (radius * d_a + ROUNDING * length_a) ||
+					dot(b, way) < -length_way * (radius * d_b + ROUNDING * length_b));
+	const bool is_below = max(d_a, d_b) <= 0.0;
+	const bool is_above = light.is_directional == 0u && min(d_a, d_b) > 1.001;
+	return !is_aside && !is_beyond && !is_below && !is_above;
 }
 
-/// One of which receivers see different weights, or which may lie behind the light.
-void count_other(CountReceiver p_receiver, uint p_chosen, bool p_is_there, inout CountState r_state) {
-	const CountEdgeRecord edge = load_count_edge(p_chosen & COUNT_EDGE_MASK);
-	const int seen = count_weight(p_receiver, load_count_plane0(edge), load_count_plane1(edge),
-			make_count_kind(edge.a_face0.w, edge.b_face1.w));
-	const int weight = p_is_there ? seen : 0;
-	count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight,
-			light.is_directional == 0u, r_state);
+/// An edge that a subgroup may have to count; each invocation has one.
+struct CountCandidate {
+	uint entry;
+	bool is_there;
+	vec3 a;
+	vec3 b;
+	CountEdgeKind kind;
+	vec4 plane0;
+	vec4 plane1;
+};
+
+/// Gives the candidates to one receiver, if it is in the cluster and has to count them.
+void share_with(uint p_lane, CountCandidate p_candidate, uvec4 p_cluster, CountReceiver p_receiver,
+		inout uint r_own_count) {
+	const uint own_begin = gl_SubgroupID * gl_SubgroupSize * MOST_OWN_EDGES;
+	const vec3 receiver = subgroupBroadcast(p_receiver.position, p_lane);
+	const vec3 to_light = subgroupBroadcast(p_receiver.to_light, p_lane);
+	const int weight = count_weight(receiver, p_candidate.plane0, p_candidate.plane1, p_candidate.kind);
+	const bool is_own = p_candidate.is_there && subgroupBallotBitExtract(p_cluster, p_lane) && weight != 0 &&
+			may_hide(receiver, to_light, p_candidate.a, p_candidate.b);
+	const uvec4 own = subgroupBallot(is_own);
+	const uint place = subgroupBroadcast(r_own_count, p_lane) + subgroupBallotExclusiveBitCount(own);
+	if (is_own) {
+		own_edges[own_begin + place * gl_SubgroupSize + p_lane] = (p_candidate.entry) |
+				uint(weight + COUNT_WEIGHT_BIAS) << (COUNT_WEIGHT_SHIFT + COUNT_KNOWN_SHIFT);
+	}
+	r_own_count += gl_SubgroupInvocationID == p_lane ? subgroupBallotBitCount(own) : 0u;
 }
 
-/// The edges p_first .. p_end of a list, or of the light, counted by those invocations of a subgroup whose
-/// receivers are in the box.
-uint count_edges(uint p_first, uint p_end, CountBox p_box, bool p_is_here, CountReceiver p_receiver,
-		inout CountState r_state) {
-	const uint slice_size = CHOSEN_PER_INVOCATION * gl_SubgroupSize;
-	const uint slice = gl_SubgroupID * slice_size;
-	uint edge_count = 0u;
-	uint next = p_first;
+/// Gives the chosen edges to those receivers of a cluster that have to count them. r_own_count: how many edges
+/// this invocation's receiver has. Four receivers a turn: llvmpipe ends all loops of an invocation after 65535
+/// turns together.
+void share_choice(uint p_count, uvec4 p_cluster, CountReceiver p_receiver, inout uint r_own_count) {
+	uint first = 0u;
 	do {
-		CountChoice choice;
-		if (HAS_NO_LIST) {
-			choice = choose_from_bundles(next, p_end, p_box);
-		} else {
-			choice = choose_from_list(next, p_end, p_box);
+		const uint item = first + gl_SubgroupInvocationID;
+		CountCandidate candidate;
+		candidate.is_there = item < p_count;
+		candidate.entry = candidate.is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item] : 0u;
+		const CountEdgeRecord edge = load_count_edge(candidate.entry);
+		candidate.a = uintBitsToFloat(edge.a_face0.xyz);
+		candidate.b = uintBitsToFloat(edge.b_face1.xyz);
+		candidate.kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);
+		candidate.plane0 = load_count_plane0(edge);
+		candidate.plane1 = load_count_plane1(edge);
+		for (uint lane = 0u; lane < gl_SubgroupSize; lane += 4u) {
+			share_with(lane, candidate, p_cluster, p_receiver, r_own_count);
+			share_with(lane + 1u, candidate, p_cluster, p_receiver, r_own_count);
+			share_with(lane + 2u, candidate, p_cluster, p_receiver, r_own_count);
+			share_with(lane + 3u, candidate, p_cluster, p_receiver, r_own_count);
 		}
-		subgroupMemoryBarrierShared();
-		subgroupBarrier();
-		next = choice.next;
-		uint i = 0u;
-		do {
-			const uint chosen = chosen_edges[slice + i];
-			count_common(p_receiver, chosen, p_is_here && i < choice.common_count, r_state);
-			++i;
-		} while (i < choice.common_count);
-		i = 0u;
-		do {
-			const uint chosen = chosen_edges[slice + slice_size - 1u - i];
-			count_other(p_receiver, chosen, p_is_here && i < choice.other_count, r_state);
-			++i;
-		} while (i < choice.other_count);
-		edge_count += choice.common_count + choice.other_count;
-		subgroupMemoryBarrierShared();
-		subgroupBarrier();
-	} while (next < p_end);
-	return edge_count;
+		first += gl_SubgroupSize;
+	} while (first < p_count);
+}
+
+/// Counts the edges that each invocation's receiver has.
+void count_own_edges(CountReceiver p_receiver, uint p_own_count, inout CountState r_state) {
+	const uint own_begin = gl_SubgroupID * gl_SubgroupSize * MOST_OWN_EDGES + gl_SubgroupInvocationID;
+	const uint most = subgroupMax(p_own_count);
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
+	uint i = 0u;
+	do {
+		const bool is_there = i < p_own_count;
+		const uint entry = is_there ? own_edges[own_begin + i * gl_SubgroupSize] : 0u;
+		const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
+		count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
+				is_there ? get_known_weight(entry >> COUNT_KNOWN_SHIFT) : 0, r_state);
+		++i;
+	} while (i < most);
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
 }
 
 /// The bounds of those receivers of a subgroup that are in it.
@@ -191,10 +222,10 @@ CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slop
 }
 
 CountPixel count_pixel() {
-	const float GROUP_SIZES = 0.05; // of S
+	const float CLUSTER_SIZES = 0.05; // of S
 	const uint block = find_block();
 	CountPixel result;
-	result.pixel = ivec2(find_block_group(block) + find_count_place());
+	result.pixel = ivec2(find_block_corner(block) + find_count_place());
 	result.edge_count = 0u;
 	const bool is_receiver = is_in_picture(result.pixel) && is_receiver_pixel(result.pixel);
 	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
@@ -203,33 +234,55 @@ CountPixel count_pixel() {
 	}
 	const bool is_counted = is_receiver && may_count_at(point);
 	const CountReceiver receiver = make_count_receiver(light, point.position);
-	bool waits = is_counted;
 	CountState state = make_count_state(
 			is_counted ? count_solids(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver) : 0);
-	const uint first_end = block * uint(EDGE_COUNT_ENDS_PER_BLOCK);
-	const uint list = HAS_NO_LIST ? 0u : texelFetch(ends_buffer, int(first_end)).r;
+	bool waits = is_counted;
+	uint next = 0u; // in the list of the cluster
+	uint chunk = 0u;
 	do {
-		// Those beside the first one: where pixels lie far apart, as beside an object's outline, what
-		// is between them would make a group of them ask for many edges that none of them needs.
-		const bool is_any = subgroupAny(waits);
-		const uint leader = is_any ? subgroupBallotFindLSB(subgroupBallot(waits)) : 0u;
-		const uint view = VIEW_COUNT == 1u ? 0u : subgroupBroadcast(point.view, leader);
-		const vec3 away = point.position - subgroupBroadcast(point.position, leader);
-		const float widest = GROUP_SIZES * light.scene_size_m;
-		const bool is_here = waits && point.view == view && dot(away, away) <= widest * widest;
-		const CountBox box = make_count_box(light, light.views[view],
-				find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
-		uint begin = 0u;
-		uint end = 0u;
-		if (HAS_NO_LIST) {
-			end = find_edge_count();
-		} else {
-			end = list + texelFetch(ends_buffer, int(first_end + 1u + view)).r;
-			begin = view == 0u ? list : list + texelFetch(ends_buffer, int(first_end + view)).r;
-		}
-		result.edge_count +=
-				count_edges(begin, is_any ? end : begin, box, is_here, receiver, state);
-		waits = waits && !is_here;
+		uint own_count = 0u;
+		bool is_full = false;
+		do {
+			// A cluster: those beside the first one. Where pixels lie far apart, as beside an object's outline,
+			// what is between them would make them ask for many edges that none of them needs.
+			const bool is_any = subgroupAny(waits);
+			const uint leader = is_any ? subgroupBallotFindLSB(subgroupBallot(waits)) : 0u;
+			const uint view = VIEW_COUNT == 1u ? 0u : subgroupBroadcast(point.view, leader);
+			const vec3 away = point.position - subgroupBroadcast(point.position, leader);
+			const float widest = CLUSTER_SIZES * light.scene_size_m;
+			const bool is_here = waits && point.view == view && dot(away, away) <= widest * widest;
+			const uvec4 cluster = subgroupBallot(is_here);
+			const CountBox box = make_count_box(light, light.views[view],
+					find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
+			uint end = find_edge_count();
+			if (!HAS_NO_LIST) {
+				const uint chain = (block * VIEW_COUNT + view) * uint(EDGE_COUNT_CHAIN_WORDS);
+				end = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r;
+				chunk = next > 0u ? chunk
+								  : texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
+			}
+			end = is_any ? end : 0u;
+			do {
+				CountChoice choice;
+				if (HAS_NO_LIST) {
+					choice = choose_from_bundles(next, end, box);
+				} else {
+					choice = choose_from_list(next, end, chunk, box);
+				}
+				next = choice.next;
+				subgroupMemoryBarrierShared();
+				subgroupBarrier();
+				share_choice(choice.count, cluster, receiver, own_count);
+				subgroupMemoryBarrierShared();
+				subgroupBarrier();
+				is_full = subgroupAny(own_count + SLICE_SIZE > MOST_OWN_EDGES);
+			} while (next < end && !is_full);
+			const bool is_done = next >= end;
+			waits = waits && !(is_done && is_here);
+			next = is_done ? 0u : next;
+		} while (!is_full && subgroupAny(waits));
+		count_own_edges(receiver, own_count, state);
+		result.edge_count += own_count;
 	} while (subgroupAny(waits));
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);

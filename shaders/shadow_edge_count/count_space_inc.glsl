@@ -17,6 +17,7 @@ struct CountReceiver {
 	vec3 to_light;
 	float inverse_radius; // 1 / R; R = 0 has no penumbra, and no edge is counted for it
 	float least_d;		  // an edge counts only where it is nearer to the light than this
+	float most_d;		  // and not behind the light
 	float least_near;	  // of dot(to_light, point): it is nearer to the light than to the receiver
 };
 
@@ -36,6 +37,7 @@ CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position) 
 		receiver.disc_y = vec3(0.0, 1.0, 0.0);
 		receiver.to_light = vec3(0.0, 0.0, -1.0);
 		receiver.least_near = COUNT_MOST_D;
+		receiver.most_d = COUNT_MOST_D;
 		return receiver;
 	}
 	// An orthonormal basis (Duff et al. 2017, "Building an Orthonormal Basis, Revisited", listing 3):
@@ -49,6 +51,7 @@ CountReceiver make_count_receiver(CountLightConstants p_light, vec3 p_position) 
 	receiver.disc_y = vec3(b, turn + n.y * n.y * a, -n.y);
 	receiver.to_light = -p_position / square;
 	receiver.least_near = -0.5;
+	receiver.most_d = 1.0;
 	return receiver;
 }
 

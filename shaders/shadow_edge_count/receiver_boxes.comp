@@ -4,28 +4,29 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_vote : require
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_box_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-// The bounds of the receivers of each group of 8 x 8 pixels, in each light view that holds some of them. One
-// subgroup deals with one group.
+// The bounds of the receivers of each block of pixels, in each light view that holds some of them. One
+// subgroup deals with one block.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
-	CountGroupBox boxes[];
+	CountBlockBox boxes[];
 };
 layout(std430, set = 0, binding = COUNT_BINDING_PRESENT) writeonly buffer Present {
-	uint present_boxes[]; // of each group, bit EDGE_COUNT_BOXES_PER_GROUP * view + box
+	uint present_boxes[]; // of each block, bit EDGE_COUNT_BOXES_PER_BLOCK * view + box
 };
 
-const uint PIXEL_COUNT = uint(EDGE_COUNT_GROUP_PX * EDGE_COUNT_GROUP_PX);
+const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
 const uint NO_VIEW = 0xffffffffu;
 
-/// The receiver of one of the group's pixels. Its view is NO_VIEW where there is none, or none that a caster
+/// The receiver of one of the block's pixels. Its view is NO_VIEW where there is none, or none that a caster
 /// can hide.
 CountPoint load_point(uint p_index) {
-	const uint side = uint(EDGE_COUNT_GROUP_PX);
-	const ivec2 pixel = ivec2(gl_WorkGroupID.xy * side + uvec2(p_index % side, p_index / side));
+	const uint side = uint(EDGE_COUNT_BLOCK_PX);
+	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * side + uvec2(p_index % side, p_index / side));
 	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0), vec2(0.0));
 	if (p_index < PIXEL_COUNT && is_in_picture(pixel) && is_receiver_pixel(pixel)) {
 		const CountPoint loaded = load_count_point(pixel);
@@ -44,7 +45,7 @@ float find_split(float p_least, float p_greatest) {
 	return apart_m > APART_SIZES * light.scene_size_m ? 0.5 * (p_least + p_greatest) : -COUNT_FAR;
 }
 
-/// The bounds of some of the group's receivers, about the plane of one of them. Empty where there is none.
+/// The bounds of some of the block's receivers, about the plane of one of them. Empty where there is none.
 CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_here[PIXELS_PER_INVOCATION]) {
 	CountBounds bounds = make_count_bounds();
 	bool is_any = false;
@@ -73,7 +74,7 @@ void main() {
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		points[i] = load_point(i * gl_WorkGroupSize.x + gl_SubgroupInvocationID);
 	}
-	const uint group = gl_WorkGroupID.y * light.group_count.x + gl_WorkGroupID.x;
+	const uint block = find_work_row() * light.block_count.x + gl_WorkGroupID.x;
 	uint present = 0u;
 	uint view = 0u;
 	while (true) {
@@ -93,7 +94,7 @@ void main() {
 			greatest_w = points[i].view == view ? max(greatest_w, points[i].warped.z) : greatest_w;
 		}
 		const float split = find_split(subgroupMin(least_w), subgroupMax(greatest_w));
-		for (uint box = 0u; box < uint(EDGE_COUNT_BOXES_PER_GROUP); ++box) {
+		for (uint box = 0u; box < uint(EDGE_COUNT_BOXES_PER_BLOCK); ++box) {
 			bool is_here[PIXELS_PER_INVOCATION];
 			for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 				is_here[i] = points[i].view == view &&
@@ -101,16 +102,16 @@ void main() {
 			}
 			const CountBounds bounds = find_bounds(points, is_here);
 			if (!is_count_bounds_empty(bounds)) {
-				present |= 1u << (uint(EDGE_COUNT_BOXES_PER_GROUP) * view + box);
+				present |= 1u << (uint(EDGE_COUNT_BOXES_PER_BLOCK) * view + box);
 				if (subgroupElect()) {
-					boxes[(group * VIEW_COUNT + view) * uint(EDGE_COUNT_BOXES_PER_GROUP) + box] =
-							CountGroupBox(vec4(bounds.least, bounds.greatest), vec4(bounds.slope, bounds.range));
+					boxes[(block * VIEW_COUNT + view) * uint(EDGE_COUNT_BOXES_PER_BLOCK) + box] =
+							CountBlockBox(vec4(bounds.least, bounds.greatest), vec4(bounds.slope, bounds.range));
 				}
 			}
 		}
 		++view;
 	}
 	if (subgroupElect()) {
-		present_boxes[group] = present;
+		present_boxes[block] = present;
 	}
 }

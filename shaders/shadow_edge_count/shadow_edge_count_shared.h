@@ -92,13 +92,18 @@ SHARED_SIZE(CountCasterPush, 96);
 #define EDGE_COUNT_CASTER_DIRECTIONAL 4u
 
 #define EDGE_COUNT_MAX_VIEWS 6
-// Pixels are bounded in groups of 8 x 8, and share a list of edges in blocks of 16 x 16.
-#define EDGE_COUNT_GROUP_PX 8
-#define EDGE_COUNT_GROUPS_PER_BLOCK_SIDE 2
+// Pixels are bounded, and share a list of edges, in blocks of 8 x 8; tiles of 2 x 2 blocks find these lists.
+#define EDGE_COUNT_BLOCK_PX 8
+#define EDGE_COUNT_BLOCKS_PER_TILE_SIDE 2
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_VIEW_COUNT 1 // so that one view needs no search
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2 // the blocks of the pass read all edges of the light
-#define EDGE_COUNT_ENDS_PER_BLOCK 8 // the list's begin, then its end in each view; the last is unused
+// A block's list, view by view, is a chain of chunks. Behind all chunks stands the next one of each.
+#define EDGE_COUNT_CHUNK_SIZE 64
+// Of each block and view: the first chunk, and how many edges are listed.
+#define EDGE_COUNT_CHAIN_FIRST 0
+#define EDGE_COUNT_CHAIN_COUNT 1
+#define EDGE_COUNT_CHAIN_WORDS 2
 #define EDGE_COUNT_NO_BUDGET 0xffffffffu
 
 /// A light view: a map of face lists.
@@ -120,12 +125,12 @@ struct SHARED_ALIGN CountLightConstants {
 	float scene_size_m;	 // S
 	float nearer_tolerance; // an edge counts only where it is so much nearer to the light: a share of the
 							// receiver's distance; directional: metres
-	uvec2 group_count; // over the image
-	uvec2 block_count;
+	uvec2 block_count; // over the image
+	uvec2 tile_count;
 	uint is_directional;
 	uint view_count;
 	uint empty_views; // bit i: view i has no casters or no receivers
-	uint list_capacity; // edges in the lists of all blocks
+	uint chunk_capacity; // of the lists of all blocks
 	uint budget;	   // edges that a block may have, or EDGE_COUNT_NO_BUDGET
 	uint node_capacity; // of each view's face lists
 	uint face_count;
@@ -133,18 +138,18 @@ struct SHARED_ALIGN CountLightConstants {
 };
 SHARED_SIZE(CountLightConstants, 448);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
-SHARED_OFFSET(CountLightConstants, group_count, 400);
+SHARED_OFFSET(CountLightConstants, block_count, 400);
 
-/// Receivers of one group in one view: (x', y') lies in a rectangle, and w in a range about a plane. Where
+/// Receivers of one block in one view: (x', y') lies in a rectangle, and w in a range about a plane. Where
 /// they lie at very different depths, as at an object's outline, they are two boxes.
-struct SHARED_ALIGN CountGroupBox {
+struct SHARED_ALIGN CountBlockBox {
 	vec4 least_greatest; // x' and y'
 	vec4 slope_range;	 // w per x' and y' of the plane; least and greatest of w - slope.(x', y')
 };
-SHARED_SIZE(CountGroupBox, 32);
+SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them where there is one box
 #define EDGE_COUNT_BOX_FAR 1
-#define EDGE_COUNT_BOXES_PER_GROUP 2 // and view; which of them are there is a bit each
+#define EDGE_COUNT_BOXES_PER_BLOCK 2 // and view; which of them are there is a bit each
 
 // What passes count.
 #define EDGE_COUNT_TOTAL_EDGES 0
@@ -157,7 +162,7 @@ SHARED_SIZE(CountGroupBox, 32);
 #define COUNT_BINDING_BOXES (MAP_RESOLVE_OWN_BINDING + 1)
 #define COUNT_BINDING_EDGES (MAP_RESOLVE_OWN_BINDING + 2)
 #define COUNT_BINDING_TOTALS (MAP_RESOLVE_OWN_BINDING + 3)
-#define COUNT_BINDING_ENDS (MAP_RESOLVE_OWN_BINDING + 4)
+#define COUNT_BINDING_CHAINS (MAP_RESOLVE_OWN_BINDING + 4)
 #define COUNT_BINDING_LISTS (MAP_RESOLVE_OWN_BINDING + 5)
 #define COUNT_BINDING_HEADS (MAP_RESOLVE_OWN_BINDING + 6)
 #define COUNT_BINDING_NODES (MAP_RESOLVE_OWN_BINDING + 7)
@@ -172,14 +177,14 @@ SHARED_SIZE(CountGroupBox, 32);
 #define COUNT_BINDING_PRESENT (MAP_RESOLVE_OWN_BINDING + 16)
 
 // Blocks by what they have: no edges; a list of edges; edges, but no room for a list; more edges than the
-// budget. For each kind the arguments of a dispatch (blocks, groups of a block, 1) and the blocks. Behind
-// these arguments the number of edges in all blocks' lists, also those without room.
+// budget. For each kind the arguments of a dispatch (blocks, 1, 1) and the blocks. Behind these arguments the
+// number of chunks that were asked for, also those without room.
 #define EDGE_COUNT_BLOCKS_PLAIN 0
 #define EDGE_COUNT_BLOCKS_LISTED 1
 #define EDGE_COUNT_BLOCKS_UNLISTED 2
 #define EDGE_COUNT_BLOCKS_FILTERED 3
 #define EDGE_COUNT_BLOCK_KINDS 4
-#define EDGE_COUNT_DISPATCH_LISTED 12
+#define EDGE_COUNT_DISPATCH_CHUNKS 12
 #define EDGE_COUNT_DISPATCH_WORDS 13
 
 // Layers of the debug image.

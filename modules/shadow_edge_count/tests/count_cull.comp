@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_edge_count/count_box_inc.glsl"
 
-// Input 2 i, 2 i + 1: a CountGroupBox. Output per box and edge: may the edge matter to a receiver of the box;
+// Input 2 i, 2 i + 1: a CountBlockBox. Output per box and edge: may the edge matter to a receiver of the box;
 // what is known of its weight; are bundles of this edge alone, and of all edges, tested.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
@@ -47,7 +47,7 @@ void main() {
 		return;
 	}
 	const CountBox box = make_count_box(light, light.views[0],
-			unpack_count_bounds(CountGroupBox(items[2u * box_index], items[2u * box_index + 1u])));
+			unpack_count_bounds(CountBlockBox(items[2u * box_index], items[2u * box_index + 1u])));
 	const CountEdgeKind kind = make_count_kind(edges[index].a_face0.w, edges[index].b_face1.w);
 	const uint known = find_known_weight(box, kind, planes[edges[index].a_face0.w & EDGE_COUNT_FACE_MASK],
 			kind.has_face1 ? planes[edges[index].b_face1.w] : vec4(0.0));

@@ -61,9 +61,9 @@ void main() {
 		const CountEdgeKind kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);
 		const uint face0 = edge.a_face0.w & EDGE_COUNT_FACE_MASK;
 		const int weight = count_weight(
-				receiver, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
+				receiver.position, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
 		count_add_edge(receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight,
-				light.is_directional == 0u, state);
+				state);
 	}
 	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
 }

@@ -18,7 +18,7 @@ const int UNKNOWN_WEIGHT = 9; // see count_cull.comp
 /// Receivers in light space, and the box of their (x', y') and w about a plane.
 struct ReceiverBox {
 	std::vector<glm::dvec3> receivers;
-	shader::CountGroupBox box;
+	shader::CountBlockBox box;
 };
 
 glm::dvec3 warp(const CountScene &p_scene, const glm::dvec3 &p_r) {
