@@ -156,29 +156,33 @@ void share_with(uint p_lane, CountCandidate p_candidate, uvec4 p_cluster, CountR
 	const uint own_begin = gl_SubgroupID * gl_SubgroupSize * MOST_OWN_EDGES;
 	const vec3 receiver = subgroupBroadcast(p_receiver.position, p_lane);
 	const vec3 to_light = subgroupBroadcast(p_receiver.to_light, p_lane);
-	const int weight = count_weight(receiver, p_candidate.plane0, p_candidate.plane1, p_candidate.kind);
+	const uint known = p_candidate.entry >> COUNT_KNOWN_SHIFT;
+	const int weight = (known & COUNT_KNOWS_WEIGHT) != 0u
+			? get_known_weight(known)
+			: count_weight(receiver, p_candidate.plane0, p_candidate.plane1, p_candidate.kind);
 	const bool is_own = p_candidate.is_there && subgroupBallotBitExtract(p_cluster, p_lane) && weight != 0 &&
 			may_hide(receiver, to_light, p_candidate.a, p_candidate.b);
 	const uvec4 own = subgroupBallot(is_own);
 	const uint place = subgroupBroadcast(r_own_count, p_lane) + subgroupBallotExclusiveBitCount(own);
 	if (is_own) {
-		own_edges[own_begin + place * gl_SubgroupSize + p_lane] = (p_candidate.entry) |
+		own_edges[own_begin + place * gl_SubgroupSize + p_lane] = (p_candidate.entry & COUNT_EDGE_MASK) |
 				uint(weight + COUNT_WEIGHT_BIAS) << (COUNT_WEIGHT_SHIFT + COUNT_KNOWN_SHIFT);
 	}
 	r_own_count += gl_SubgroupInvocationID == p_lane ? subgroupBallotBitCount(own) : 0u;
 }
 
 /// Gives the chosen edges to those receivers of a cluster that have to count them. r_own_count: how many edges
-/// this invocation's receiver has. Four receivers a turn: llvmpipe ends all loops of an invocation after 65535
-/// turns together.
+/// this invocation's receiver has. Four receivers an iteration: llvmpipe ends every loop once an
+/// invocation has made 65535 iterations, of all its loops together.
 void share_choice(uint p_count, uvec4 p_cluster, CountReceiver p_receiver, inout uint r_own_count) {
 	uint first = 0u;
 	do {
 		const uint item = first + gl_SubgroupInvocationID;
 		CountCandidate candidate;
 		candidate.is_there = item < p_count;
-		candidate.entry = candidate.is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item] : 0u;
-		const CountEdgeRecord edge = load_count_edge(candidate.entry);
+		candidate.entry = candidate.is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item]
+											 : COUNT_KNOWS_WEIGHT << COUNT_KNOWN_SHIFT;
+		const CountEdgeRecord edge = load_count_edge(candidate.entry & COUNT_EDGE_MASK);
 		candidate.a = uintBitsToFloat(edge.a_face0.xyz);
 		candidate.b = uintBitsToFloat(edge.b_face1.xyz);
 		candidate.kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);

@@ -40,6 +40,11 @@ const uint BLOCKS_PER_TILE = uint(EDGE_COUNT_BLOCKS_PER_TILE_SIDE * EDGE_COUNT_B
 const uint BOXES_PER_TILE = BLOCKS_PER_TILE * MOST_BOXES;
 const uint NO_BLOCK = 0xffffffffu;
 
+// llvmpipe ends every loop once an invocation has made 65535 iterations, of all its loops together. A tile that would
+// need more gets no lists. The margin is more than what is done between two checks.
+const uint MOST_ITERATIONS = 40000u;
+uint iteration_count = 0u;
+
 /// Receivers in one view: in either of two boxes, or in the first alone.
 struct BoxPair {
 	CountBox near;
@@ -149,7 +154,9 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 		}
 		count += subgroupBallotBitCount(wanted);
 		r_next += gl_SubgroupSize;
-	} while (r_next < p_bundle_count && count + gl_SubgroupSize <= MOST_WANTED);
+		iteration_count += 2u;
+	} while (r_next < p_bundle_count && count + gl_SubgroupSize <= MOST_WANTED &&
+			iteration_count < MOST_ITERATIONS);
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
 	return count;
@@ -165,28 +172,51 @@ bool is_in_reach_of_pair(BoxPair p_pair, vec3 p_a, vec3 p_b) {
 	return is_in_reach;
 }
 
-/// Appends the edges of those invocations that use theirs.
-void append_edges(uint p_edge, bool p_is_used, inout Chain r_chain) {
+/// An edge, as a list has it. r_is_used: false where it adds nothing to any receiver of the block.
+uint test_edge(BoxPair p_pair, uint p_index, out bool r_is_used) {
+	const CountEdgeRecord edge = load_count_edge(p_index);
+	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
+	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
+	const bool is_in_reach = is_in_reach_of_pair(p_pair, a, b);
+	uint known = 0u;
+	ivec2 sides = ivec2(1);
+	bool is_tested = !is_in_reach;
+	while (!is_tested) { // not a branch
+		const CountEdgeKind kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);
+		const vec4 plane0 = load_count_plane0(edge);
+		const vec4 plane1 = load_count_plane1(edge);
+		// Where there is one box, `far` is the same.
+		const uint known_far = find_known_weight(p_pair.far, kind, plane0, plane1);
+		const ivec2 sides_far = ivec2(find_light_side(p_pair.far, a), find_light_side(p_pair.far, b));
+		known = find_known_weight(p_pair.near, kind, plane0, plane1);
+		known = known == known_far ? known : 0u;
+		sides = ivec2(find_light_side(p_pair.near, a), find_light_side(p_pair.near, b));
+		sides = sides == sides_far ? sides : ivec2(0);
+		is_tested = true;
+	}
+	r_is_used = is_in_reach && known != COUNT_ADDS_NOTHING && max(sides.x, sides.y) >= 0;
+	return p_index | known << COUNT_KNOWN_SHIFT;
+}
+
+/// Appends the entries of those invocations that use theirs.
+void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
 	const uvec4 used = subgroupBallot(p_is_used);
 	const uint begin = r_chain.edge_count % size;
 	const uint end = begin + subgroupBallotBitCount(used);
 	uint chunk = r_chain.chunk;
-	bool is_full = end > begin && (begin == 0u || end > size);
-	while (is_full) { // not a branch
-		if (subgroupElect()) {
-			chunk = atomicAdd(dispatches[EDGE_COUNT_DISPATCH_CHUNKS], 1u);
-			if (r_chain.edge_count > 0u && max(r_chain.chunk, chunk) < light.chunk_capacity) {
-				lists[light.chunk_capacity * size + r_chain.chunk] = chunk;
-			}
+	const bool is_full = end > begin && (begin == 0u || end > size);
+	if (is_full && subgroupElect()) {
+		chunk = atomicAdd(dispatches[EDGE_COUNT_DISPATCH_CHUNKS], 1u);
+		if (r_chain.edge_count > 0u && max(r_chain.chunk, chunk) < light.chunk_capacity) {
+			lists[light.chunk_capacity * size + r_chain.chunk] = chunk;
 		}
-		chunk = subgroupBroadcastFirst(chunk);
-		is_full = false;
 	}
+	chunk = subgroupBroadcastFirst(chunk);
 	const uint place = begin + subgroupBallotExclusiveBitCount(used);
 	const uint target = begin == 0u || place >= size ? chunk : r_chain.chunk;
 	if (p_is_used && target < light.chunk_capacity) {
-		lists[target * size + place % size] = p_edge;
+		lists[target * size + place % size] = p_entry;
 	}
 	r_chain.first = r_chain.edge_count == 0u ? chunk : r_chain.first;
 	r_chain.chunk = chunk;
@@ -205,12 +235,10 @@ void share_edges(uvec2 p_tile, uint p_view, uint p_held_count) {
 		Chain chain = block_chains[i];
 		for (uint first = 0u; !is_empty && first < p_held_count; first += gl_SubgroupSize) {
 			const uint item = first + gl_SubgroupInvocationID;
-			const uint index = held_edges[min(item, p_held_count - 1u)];
-			const CountEdgeRecord edge = load_count_edge(index);
-			const bool is_used = item < p_held_count &&
-					is_in_reach_of_pair(
-							pair, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
-			append_edges(index, is_used, chain);
+			bool is_used;
+			const uint entry = test_edge(pair, held_edges[min(item, p_held_count - 1u)], is_used);
+			append_edges(entry, is_used && item < p_held_count, chain);
+			iteration_count += 3u;
 		}
 		if (subgroupElect()) {
 			block_chains[i] = chain;
@@ -225,7 +253,7 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_wanted_count
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint item_count = p_wanted_count * size;
 	uint first = 0u;
-	while (first < item_count) {
+	while (first < item_count && iteration_count < MOST_ITERATIONS) {
 		uint held_count = 0u;
 		do {
 			const uint item = first + gl_SubgroupInvocationID;
@@ -241,6 +269,7 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_wanted_count
 			}
 			held_count += subgroupBallotBitCount(held);
 			first += gl_SubgroupSize;
+			iteration_count += 2u;
 		} while (first < item_count && held_count + gl_SubgroupSize <= MOST_HELD);
 		share_edges(p_tile, p_view, held_count);
 	}
@@ -256,7 +285,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
 	const BoxPair pair = find_tile_pair(p_tile, p_view);
-	for (uint next = 0u; next < bundle_count;) {
+	for (uint next = 0u; next < bundle_count && iteration_count < MOST_ITERATIONS;) {
 		const uint wanted_count = choose_bundles(pair, bundle_count, next);
 		list_bundles(pair, p_tile, p_view, wanted_count, edge_count);
 	}
@@ -294,7 +323,7 @@ void main() {
 	}
 	views = subgroupOr(views);
 	views = (views | views >> 1) & 0x555u;
-	while (views != 0u) {
+	while (views != 0u && iteration_count < MOST_ITERATIONS) {
 		list_view(tile, uint(findLSB(views)) / MOST_BOXES);
 		views &= views - 1u;
 	}
@@ -302,10 +331,11 @@ void main() {
 		const uint block = find_block(tile, i);
 		if (block != NO_BLOCK) {
 			const uint edge_count = block_edge_counts[i];
-			uint kind = blocks_have_room[i] != 0u ? uint(EDGE_COUNT_BLOCKS_LISTED)
-												  : uint(EDGE_COUNT_BLOCKS_UNLISTED);
+			const bool is_whole = iteration_count < MOST_ITERATIONS;
+			uint kind = is_whole && blocks_have_room[i] != 0u ? uint(EDGE_COUNT_BLOCKS_LISTED)
+															  : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
-			add_block(block, edge_count == 0u ? uint(EDGE_COUNT_BLOCKS_PLAIN) : kind);
+			add_block(block, is_whole && edge_count == 0u ? uint(EDGE_COUNT_BLOCKS_PLAIN) : kind);
 		}
 	}
 }

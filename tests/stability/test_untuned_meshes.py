@@ -3,15 +3,17 @@
 STABILITY_EXTENT=full takes all scenes, those of a second seed, and all techniques; else some of them.
 """
 
+import json
 import os
 import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from stability_case import IS_FULL, StabilityCase, find_techniques  # noqa: E402
-from untuned_project import DEFAULT_SEED, PACKAGE_MESHES, make_untuned_project  # noqa: E402
+from stability_case import IS_FULL, StabilityCase, find_techniques, run_program  # noqa: E402
+from untuned_project import DEFAULT_SEED, PACKAGE_MESHES, make_untuned_project, save_artist_scene  # noqa: E402
 
 SECOND_SEED = 7
+ROPE_COUNT = 1000
 QUICK_PACKAGE_MESHES = ("jeep", "regr01")
 QUICK_TECHNIQUES = ("shadow_map", "pcss", "shadow_volume", "edge_count")
 # Techniques for area lights have a penumbra MAE of 0.03 to 0.13 on these scenes; a hard shadow has 0.18 to 0.3, and so
@@ -60,6 +62,23 @@ class UntunedMeshes(StabilityCase):
             if technique in EXACT_TECHNIQUES:
                 with self.subTest(technique=technique, scene=point["label"], light=light):
                     self.assertLess(cell["stability"]["wrong_share"], MOST_WRONG_SHARE)
+
+    def test_edge_count_is_exact_among_a_thousand_ropes(self):
+        # So many edges over a tile of pixels that its lists would exceed the iterations of llvmpipe's loops.
+        folder = os.path.join(self.holder.name, "ropes")
+        os.mkdir(folder)
+        scene = save_artist_scene("rigging", DEFAULT_SEED, ROPE_COUNT, "rigging", folder)
+        masks = []
+        for technique, setting in (("reference", "reference_samples=256"), ("edge_count", "edge_count_quality=64")):
+            masks.append(os.path.join(folder, technique + ".exr"))
+            result = run_program(
+                "visibility", scene, "--technique", technique, "--light", "Sun", "--set", setting, "--size", "256x256",
+                "--out", masks[-1], "--validation",
+            )  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stderr)
+        errors = json.loads(run_program("compare", *masks).stdout)
+        self.assertGreater(errors["penumbra"]["pixels"], 1000)
+        self.assertEqual(errors["receiver"]["wrong"], 0.0)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,12 @@ DEFAULT_SEED = make_artist_scenes.DEFAULT_SEED
 PACKAGE_MESHES = tuple(make_package_meshes.MESHES)
 
 
+def save_artist_scene(name, seed, count, stem, folder):
+    """The path. count: of parts; None: the scene's own."""
+    gltf_writer.save_files(make_artist_scenes.build_scene(name, seed, count).build_files(stem), folder)
+    return os.path.join(folder, stem + ".gltf")
+
+
 def make_untuned_project(folder, seeds=(DEFAULT_SEED,), package_meshes=PACKAGE_MESHES):
     """Names of the scenes that are written, and of the package meshes that could not be; those are named on stderr."""
     for kind in (".gltf", ".bin"):
@@ -26,7 +32,7 @@ def make_untuned_project(folder, seeds=(DEFAULT_SEED,), package_meshes=PACKAGE_M
     for seed in seeds:
         for name in make_artist_scenes.SCENES:
             stem = name if seed == DEFAULT_SEED else "%s_%d" % (name, seed)
-            gltf_writer.save_files(make_artist_scenes.build_scene(name, seed).build_files(stem), folder)
+            save_artist_scene(name, seed, None, stem, folder)
             names.append(stem)
     with contextlib.redirect_stdout(io.StringIO()):
         failed = make_package_meshes.make_scenes({name: make_package_meshes.MESHES[name] for name in package_meshes}, folder)
