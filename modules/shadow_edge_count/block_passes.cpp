@@ -11,10 +11,10 @@ namespace gnomon {
 
 namespace {
 
-// Edges in all lists: on average so many for each block, and 16 MB at most. Lists without room cost
+// Edges in all lists: on average so many for each block, and 24 MB at most. Lists without room cost
 // time, not exactness.
-constexpr uint64_t LISTED_EDGES_PER_BLOCK = 1024;
-constexpr uint64_t MOST_LISTED_EDGES = 4'000'000;
+constexpr uint64_t LISTED_EDGES_PER_BLOCK = 2048;
+constexpr uint64_t MOST_LISTED_EDGES = 6'000'000;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
@@ -46,6 +46,7 @@ std::vector<PassBinding> make_count_bindings(
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
 	bindings.push_back(PassBinding::read(COUNT_BINDING_EDGES, p_passes.light.edges));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_BUNDLES, p_passes.light.bundles));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_RECEIVES, p_blocks.receives));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_CHAINS, p_blocks.chains));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_LISTS, p_blocks.lists));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_MASKS, p_passes.masks));
@@ -61,6 +62,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		p_kind == EDGE_COUNT_BLOCKS_FILTERED ? compute_nearest_w(inputs) : 0.0f, 0 };
 	const PipelineRID pipeline = inputs.device.get_compute_pipeline({ p_shader, p_shader,
 			{ { EDGE_COUNT_CONSTANT_VIEW_COUNT, static_cast<uint32_t>(inputs.views.size()) },
+					{ EDGE_COUNT_CONSTANT_GROUP_SIZE, inputs.device.get_features().subgroup_size },
 					{ EDGE_COUNT_CONSTANT_HAS_NO_LIST,
 							p_kind == EDGE_COUNT_BLOCKS_UNLISTED ||
 											p_kind == EDGE_COUNT_BLOCKS_FILTERED
@@ -99,8 +101,9 @@ uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
 	// In powers of two: few sizes of memory while the scene changes.
 	const uint64_t edges = std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK);
 	const uint64_t chunks_per_block = std::max<uint64_t>(edges / EDGE_COUNT_CHUNK_SIZE, 1);
-	return static_cast<uint32_t>(std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * chunks_per_block,
-			MOST_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
+	return static_cast<uint32_t>(
+			std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * chunks_per_block,
+					MOST_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
 }
 
 shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
@@ -125,21 +128,20 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	const shader::CountLightConstants constants = make_block_constants(
 			inputs, p_passes.settings, p_passes.capacities, p_passes.empty_views);
 	const uint64_t block_count = uint64_t(constants.block_count.x) * constants.block_count.y;
+	const uint32_t part_count =
+			constants.view_count == 1 ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS;
 	CountBlocks blocks;
 	blocks.receivers = make_map_resolve_bindings(r_graph, inputs);
 	blocks.constants = r_graph.upload_constants("counted light", constants);
 	const RGBuffer boxes = r_graph.create_buffer({ "receiver boxes",
-			block_count * constants.view_count * EDGE_COUNT_BOXES_PER_BLOCK *
-					sizeof(shader::CountBlockBox),
-			BufferUsage::STORAGE });
-	const RGBuffer present = r_graph.create_buffer(
-			{ "receiver views", block_count * sizeof(uint32_t), BufferUsage::STORAGE });
+			block_count * part_count * sizeof(shader::CountBlockBox), BufferUsage::STORAGE });
 	const auto make_texel_buffer = [&](const char *p_name, uint64_t p_count) {
 		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t),
 				BufferUsage::STORAGE | BufferUsage::TEXEL, MemoryKind::GPU, Format::R32_UINT });
 	};
-	blocks.chains = make_texel_buffer(
-			"block chains", block_count * constants.view_count * EDGE_COUNT_CHAIN_WORDS);
+	blocks.receives = make_texel_buffer("block receivers", block_count * EDGE_COUNT_RECEIVES_WORDS);
+	blocks.chains =
+			make_texel_buffer("block chains", block_count * part_count * EDGE_COUNT_CHAIN_WORDS);
 	blocks.lists = make_texel_buffer(
 			"block edges", uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1));
 	blocks.block_count = static_cast<uint32_t>(block_count);
@@ -162,7 +164,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	std::vector<PassBinding> bindings = blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants));
 	bindings.push_back(PassBinding::write(COUNT_BINDING_BOXES, boxes));
-	bindings.push_back(PassBinding::write(COUNT_BINDING_PRESENT, present));
+	bindings.push_back(PassBinding::write(COUNT_BINDING_RECEIVES, blocks.receives));
 	add_compute_pass(r_graph, "receiver boxes",
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
 			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
@@ -170,9 +172,12 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	add_compute_pass(r_graph, "list blocks", get_pipeline("shadow_edge_count/list_blocks.comp"),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
 					PassBinding::read(COUNT_BINDING_BOXES, boxes),
-					PassBinding::read(COUNT_BINDING_PRESENT, present),
+					PassBinding::read(COUNT_BINDING_RECEIVES, blocks.receives),
 					PassBinding::read(COUNT_BINDING_EDGES, light.edges),
 					PassBinding::read(COUNT_BINDING_BUNDLES, light.bundles),
+					PassBinding::read(COUNT_BINDING_HEADS, light.heads),
+					PassBinding::read(COUNT_BINDING_NODES, light.nodes),
+					PassBinding::read(COUNT_BINDING_FACES, light.faces),
 					PassBinding::read(COUNT_BINDING_PLANES, light.planes),
 					PassBinding::read(COUNT_BINDING_TOTALS, light.totals),
 					PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains),
@@ -187,8 +192,13 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	const RGTexture mask = create_mask(r_graph, p_passes.inputs.size_px);
-	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
+	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
 	bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, mask));
+	add_kind_pass(r_graph, p_passes, p_blocks, "resolve even",
+			"shadow_edge_count/resolve_even.comp", EDGE_COUNT_BLOCKS_EVEN, std::move(bindings));
+	bindings = make_plain_bindings(p_passes, p_blocks);
+	bindings.push_back(
+			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
 	add_kind_pass(r_graph, p_passes, p_blocks, "resolve plain",
 			"shadow_edge_count/resolve_plain.comp", EDGE_COUNT_BLOCKS_PLAIN, std::move(bindings));
 	const char *resolve = p_passes.settings.get_turn_count() > 1

@@ -22,7 +22,8 @@ struct CountBlockPasses {
 struct CountBlocks {
 	std::vector<PassBinding> receivers; // make_map_resolve_bindings
 	RGBuffer constants;					// CountLightConstants
-	RGBuffer chains;					// of each block and view, EDGE_COUNT_CHAIN_*
+	RGBuffer receives;					// of each block, EDGE_COUNT_RECEIVES_*
+	RGBuffer chains;					// of each block and part, EDGE_COUNT_CHAIN_*
 	RGBuffer lists;
 	RGBuffer blocks;	 // by kind, EDGE_COUNT_BLOCKS_*
 	RGBuffer dispatches; // see EDGE_COUNT_BLOCK_KINDS

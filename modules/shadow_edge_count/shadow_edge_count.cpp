@@ -235,7 +235,7 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 		r_views.push_back({ "edges", debug_image, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
 		r_views.push_back(
 				{ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS, 8 });
-		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 3.0f), EDGE_COUNT_DEBUG_BLOCKS,
+		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 4.0f), EDGE_COUNT_DEBUG_BLOCKS,
 				EDGE_COUNT_BLOCK_KINDS });
 	}
 }
@@ -244,8 +244,8 @@ std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
 				 "bound_edges.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
-				 "receiver_boxes.comp", "list_blocks.comp", "resolve_plain.comp", "resolve.comp",
-				 "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
+				 "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp", "resolve_plain.comp",
+				 "resolve.comp", "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	return files;

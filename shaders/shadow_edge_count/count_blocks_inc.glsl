@@ -10,8 +10,12 @@ layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
-uint find_block() {
+uint load_block_entry() {
 	return texelFetch(blocks_buffer, int(push.first_block + gl_WorkGroupID.x)).r;
+}
+
+uint find_block() {
+	return load_block_entry() & ~EDGE_COUNT_BLOCK_IS_DARK;
 }
 
 /// The block's first pixel.

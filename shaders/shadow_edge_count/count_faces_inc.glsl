@@ -5,6 +5,8 @@
 
 #include "shadow_edge_count/count_space_inc.glsl"
 
+/// Read where it stands: drivers copy all views of constants that are handed on.
+CountViewConstants load_count_view(uint p_view);
 /// The first node of a texel's list, counted from 1; 0: the list is empty. Texels of all views one after
 /// the other, by view, row and column.
 uint load_count_head(uint p_index);
@@ -52,28 +54,45 @@ bool is_count_at_light(CountLightConstants p_light, CountReceiver p_receiver, ve
 			abs(p_plane.w) * length(p_receiver.position) < NEAREST_RADII * p_light.disc_radius * across;
 }
 
-/// p_place: x' and y' of the receiver in its view.
-int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
-	const CountViewConstants view = p_light.views[p_view];
+/// The texel of a view's map that holds x' and y', or the nearest one.
+uvec2 find_count_texel(uint p_view, vec2 p_place) {
+	const CountViewConstants view = load_count_view(p_view);
 	const vec2 size = vec2(max(view.map_size_px >> load_count_level(p_view), uvec2(1u)));
 	const vec2 texel = (p_place / view.half_extent * 0.5 + 0.5) * size;
+	return uvec2(clamp(texel, vec2(0.0), size - 1.0));
+}
+
+/// The first node of a texel's list, see load_count_head.
+uint load_count_first_node(uint p_view, uvec2 p_texel) {
+	const uvec2 size = load_count_view(p_view).map_size_px;
+	return load_count_head((p_view * size.y + p_texel.y) * size.x + p_texel.x);
+}
+
+/// Adds the face of a node, counted from 1, and returns the next node; nothing and 0 of node 0.
+uint count_node(CountLightConstants p_light, uint p_view, uint p_node, CountReceiver p_receiver,
+		inout CountCrossings r_found) {
+	const uvec2 node = load_count_node(p_view * p_light.node_capacity + max(p_node, 1u) - 1u);
+	const vec4 plane = load_count_plane(node.x);
+	const bool is_before = is_count_before(plane, p_receiver.position);
+	const bool is_between = p_node != 0u &&
+			is_before != is_count_light_before(p_light.is_directional != 0u, plane) &&
+			!is_count_at_light(p_light, p_receiver, plane);
+	if (is_between) {
+		count_face(p_receiver, load_count_face(node.x), is_before, r_found);
+	}
+	return p_node != 0u ? node.y : 0u;
+}
+
+/// p_place: x' and y' of the receiver in its view.
+int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
 	// Casters beyond the map hide nothing that the light reaches.
-	const bool is_inside = all(lessThanEqual(abs(p_place), view.half_extent));
-	const uvec2 place = uvec2(clamp(texel, vec2(0.0), size - 1.0));
-	uint next = is_inside
-			? load_count_head((p_view * view.map_size_px.y + place.y) * view.map_size_px.x + place.x)
-			: 0u;
+	const bool is_inside = all(lessThanEqual(abs(p_place), load_count_view(p_view).half_extent));
+	uint next = is_inside ? load_count_first_node(p_view, find_count_texel(p_view, p_place)) : 0u;
 	CountCrossings found = CountCrossings(0, 0, 0);
+	// Two an iteration, since llvmpipe ends every loop once an invocation has made 65535 iterations.
 	while (next != 0u) {
-		const uvec2 node = load_count_node(p_view * p_light.node_capacity + next - 1u);
-		const vec4 plane = load_count_plane(node.x);
-		const bool is_before = is_count_before(plane, p_receiver.position);
-		const bool is_between = is_before != is_count_light_before(p_light.is_directional != 0u, plane) &&
-				!is_count_at_light(p_light, p_receiver, plane);
-		if (is_between) {
-			count_face(p_receiver, load_count_face(node.x), is_before, found);
-		}
-		next = node.y;
+		next = count_node(p_light, p_view, next, p_receiver, found);
+		next = count_node(p_light, p_view, next, p_receiver, found);
 	}
 	return sum_crossings(found);
 }

@@ -1,5 +1,5 @@
 // The light's faces, and the lists of them, in texel buffers, which software drivers read a fifth faster than
-// storage buffers.
+// storage buffers. The block `light` comes first.
 #ifndef COUNT_LISTS_INC_GLSL
 #define COUNT_LISTS_INC_GLSL
 
@@ -10,6 +10,10 @@ layout(set = 0, binding = COUNT_BINDING_NODES) uniform utextureBuffer nodes_buff
 layout(set = 0, binding = COUNT_BINDING_FACES) uniform utextureBuffer faces_buffer;
 layout(set = 0, binding = COUNT_BINDING_PLANES) uniform textureBuffer planes_buffer;
 layout(set = 0, binding = COUNT_BINDING_TOTALS) uniform utextureBuffer totals_buffer;
+
+CountViewConstants load_count_view(uint p_view) {
+	return light.views[p_view];
+}
 
 uint load_count_head(uint p_index) {
 	return texelFetch(heads_buffer, int(p_index)).r;

@@ -9,7 +9,14 @@ layout(set = 0, binding = COUNT_BINDING_LIGHT) uniform Light {
 	CountLightConstants light;
 };
 
-layout(constant_id = EDGE_COUNT_CONSTANT_VIEW_COUNT) const uint VIEW_COUNT = 1u;
+#include "shadow_edge_count/count_parts_inc.glsl"
+
+/// A block's pixels so that those that follow one another lie close together: the place of each in the block.
+uvec2 find_pixel_in_block(uint p_index) {
+	const uint x = (p_index & 1u) | ((p_index >> 1) & 2u) | ((p_index >> 2) & 4u);
+	const uint y = ((p_index >> 1) & 1u) | ((p_index >> 2) & 2u) | ((p_index >> 3) & 4u);
+	return uvec2(x, y);
+}
 
 /// A pixel's receiver.
 struct CountPoint {

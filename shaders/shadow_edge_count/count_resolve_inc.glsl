@@ -9,10 +9,12 @@
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
 
+layout(set = 0, binding = COUNT_BINDING_RECEIVES) uniform utextureBuffer receives_buffer;
 layout(set = 0, binding = COUNT_BINDING_CHAINS) uniform utextureBuffer chains_buffer;
 layout(set = 0, binding = COUNT_BINDING_LISTS) uniform utextureBuffer lists_buffer;
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
+layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint SUBGROUP_SIZE = 8u;
 /// The blocks have no lists: each group of pixels goes through all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
@@ -24,9 +26,6 @@ uvec2 load_count_mask(uint p_index) {
 // for each subgroup.
 const uint SLICE_SIZE = 64u;
 shared uint chosen_edges[SLICE_SIZE * EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / 4];
-// Edges that a receiver has to count, and their weights. All entries 0 of a subgroup, then all entries 1.
-const uint MOST_OWN_EDGES = 112u;
-shared uint own_edges[MOST_OWN_EDGES * EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX];
 
 /// One pixel: what it receives, and what was counted.
 struct CountPixel {
@@ -35,14 +34,6 @@ struct CountPixel {
 	float visibility; // 0 where it is no receiver
 	int solid_count; // between it and the light's centre
 };
-
-/// Pixels of a work group so that those of a subgroup lie close together: 4 x 2, 8 x 4 or 8 x 8.
-uvec2 find_count_place() {
-	const uint index = gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
-	const uint x = (index & 1u) | ((index >> 1) & 2u) | ((index >> 2) & 4u);
-	const uint y = ((index >> 1) & 1u) | ((index >> 2) & 2u) | ((index >> 3) & 4u);
-	return uvec2(x, y);
-}
 
 /// Edges that a box's receivers may need.
 struct CountChoice {
@@ -76,12 +67,19 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 		const bool is_there = index < p_end;
 		const uint entry = texelFetch(lists_buffer, is_there ? int(r_chunk * size + index % size) : 0).r;
 		choose_edge(p_box, is_there ? entry : 0u, is_there, choice);
-		choice.next += gl_SubgroupSize;
+		choice.next += SUBGROUP_SIZE;
 		r_chunk = choice.next % size == 0u
 				? texelFetch(lists_buffer, int(light.chunk_capacity * size + r_chunk)).r
 				: r_chunk;
-	} while (choice.next < p_end && has_choice_room(choice, gl_SubgroupSize));
+	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE));
 	return choice;
+}
+
+/// p_index: of the edge in the bundle. p_end: edges of the light.
+void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_end, inout CountChoice r_choice) {
+	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
+	const uint edge = p_bundle * size + p_index;
+	choose_edge(p_box, min(edge, p_end - 1u), p_index < size && edge < p_end, r_choice);
 }
 
 /// From all edges of the light, bundle by bundle. Edges p_first .. p_end, whole bundles.
@@ -95,15 +93,14 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 		const bool is_wanted = bundle < bundle_count &&
 				may_use_bundle(p_box, load_count_bundle(min(bundle, bundle_count - 1u)));
 		uvec4 wanted = subgroupBallot(is_wanted);
-		choice.next += gl_SubgroupSize * size;
+		choice.next += SUBGROUP_SIZE * size;
 		while (subgroupBallotBitCount(wanted) != 0u) {
 			const uint lane = subgroupBallotFindLSB(wanted);
 			if (has_choice_room(choice, size)) {
 				wanted[lane / 32u] &= ~(1u << (lane & 31u));
-				for (uint i = 0u; i < size; i += gl_SubgroupSize) {
-					const uint edge = (first_bundle + lane) * size + i + gl_SubgroupInvocationID;
-					choose_edge(p_box, min(edge, p_end - 1u),
-							i + gl_SubgroupInvocationID < size && edge < p_end, choice);
+				for (uint i = gl_SubgroupInvocationID; i - gl_SubgroupInvocationID < size; i += 2u * SUBGROUP_SIZE) {
+					choose_edge_of_bundle(p_box, first_bundle + lane, i, p_end, choice);
+					choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, p_end, choice);
 				}
 			} else {
 				choice.next = (first_bundle + lane) * size; // from here on the next time
@@ -139,82 +136,102 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	return !is_aside && !is_beyond && !is_below && !is_above;
 }
 
-/// An edge that a subgroup may have to count; each invocation has one.
-struct CountCandidate {
-	uint entry;
-	bool is_there;
-	vec3 a;
-	vec3 b;
-	CountEdgeKind kind;
-	vec4 plane0;
-	vec4 plane1;
+/// Of a slice's edges those that the invocation's receiver has to count, a bit for each.
+struct CountShare {
+	uvec2 own;
+	uvec2 is_negative; // its weight
+	uvec2 is_twice;
 };
 
-/// Gives the candidates to one receiver, if it is in the cluster and has to count them.
-void share_with(uint p_lane, CountCandidate p_candidate, uvec4 p_cluster, CountReceiver p_receiver,
-		inout uint r_own_count) {
-	const uint own_begin = gl_SubgroupID * gl_SubgroupSize * MOST_OWN_EDGES;
-	const vec3 receiver = subgroupBroadcast(p_receiver.position, p_lane);
-	const vec3 to_light = subgroupBroadcast(p_receiver.to_light, p_lane);
-	const uint known = p_candidate.entry >> COUNT_KNOWN_SHIFT;
-	const int weight = (known & COUNT_KNOWS_WEIGHT) != 0u
+/// The weight of an edge for a receiver, which the edge's list may know.
+int find_weight(uint p_entry, CountReceiver p_receiver) {
+	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
+	const uint known = p_entry >> COUNT_KNOWN_SHIFT;
+	return (known & COUNT_KNOWS_WEIGHT) != 0u
 			? get_known_weight(known)
-			: count_weight(receiver, p_candidate.plane0, p_candidate.plane1, p_candidate.kind);
-	const bool is_own = p_candidate.is_there && subgroupBallotBitExtract(p_cluster, p_lane) && weight != 0 &&
-			may_hide(receiver, to_light, p_candidate.a, p_candidate.b);
-	const uvec4 own = subgroupBallot(is_own);
-	const uint place = subgroupBroadcast(r_own_count, p_lane) + subgroupBallotExclusiveBitCount(own);
-	if (is_own) {
-		own_edges[own_begin + place * gl_SubgroupSize + p_lane] = (p_candidate.entry & COUNT_EDGE_MASK) |
-				uint(weight + COUNT_WEIGHT_BIAS) << (COUNT_WEIGHT_SHIFT + COUNT_KNOWN_SHIFT);
-	}
-	r_own_count += gl_SubgroupInvocationID == p_lane ? subgroupBallotBitCount(own) : 0u;
+			: count_weight(p_receiver.position, load_count_plane0(edge), load_count_plane1(edge),
+					  make_count_kind(edge.a_face0.w, edge.b_face1.w));
 }
 
-/// Gives the chosen edges to those receivers of a cluster that have to count them. r_own_count: how many edges
-/// this invocation's receiver has. Four receivers an iteration: llvmpipe ends every loop once an
-/// invocation has made 65535 iterations, of all its loops together.
-void share_choice(uint p_count, uvec4 p_cluster, CountReceiver p_receiver, inout uint r_own_count) {
-	uint first = 0u;
-	do {
-		const uint item = first + gl_SubgroupInvocationID;
-		CountCandidate candidate;
-		candidate.is_there = item < p_count;
-		candidate.entry = candidate.is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item]
-											 : COUNT_KNOWS_WEIGHT << COUNT_KNOWN_SHIFT;
-		const CountEdgeRecord edge = load_count_edge(candidate.entry & COUNT_EDGE_MASK);
-		candidate.a = uintBitsToFloat(edge.a_face0.xyz);
-		candidate.b = uintBitsToFloat(edge.b_face1.xyz);
-		candidate.kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);
-		candidate.plane0 = load_count_plane0(edge);
-		candidate.plane1 = load_count_plane1(edge);
-		for (uint lane = 0u; lane < gl_SubgroupSize; lane += 4u) {
-			share_with(lane, candidate, p_cluster, p_receiver, r_own_count);
-			share_with(lane + 1u, candidate, p_cluster, p_receiver, r_own_count);
-			share_with(lane + 2u, candidate, p_cluster, p_receiver, r_own_count);
-			share_with(lane + 3u, candidate, p_cluster, p_receiver, r_own_count);
+ivec4 find_weights(uvec4 p_entries, CountReceiver p_receiver) {
+	return ivec4(find_weight(p_entries.x, p_receiver), find_weight(p_entries.y, p_receiver),
+			find_weight(p_entries.z, p_receiver), find_weight(p_entries.w, p_receiver));
+}
+
+/// Adds one of the chosen edges if the receiver has to count it.
+void share_edge(uint p_item, uint p_entry, int p_weight, CountReceiver p_receiver, inout CountShare r_share) {
+	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
+	const bool is_own = p_weight != 0 &&
+			may_hide(p_receiver.position, p_receiver.to_light, uintBitsToFloat(edge.a_face0.xyz),
+					uintBitsToFloat(edge.b_face1.xyz));
+	const uint bit = is_own ? 1u << (p_item & 31u) : 0u;
+	const uvec2 bits = p_item < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
+	r_share.own |= bits;
+	r_share.is_negative |= p_weight < 0 ? bits : uvec2(0u);
+	r_share.is_twice |= abs(p_weight) == 2 ? bits : uvec2(0u);
+}
+
+/// One of the slice's edges, or one that adds nothing.
+uint load_chosen(uint p_item, uint p_count) {
+	return p_item < p_count ? chosen_edges[gl_SubgroupID * SLICE_SIZE + p_item]
+							: COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT;
+}
+
+/// Which of the chosen edges the invocation's receiver has to count. Each invocation reads all of them: to hand
+/// on what another one has read takes software drivers longer. Four edges an iteration: llvmpipe ends
+/// every loop once an invocation has made 65535 iterations, of all its loops together.
+CountShare share_choice(uint p_count, bool p_is_here, CountReceiver p_receiver) {
+	CountShare share = CountShare(uvec2(0u), uvec2(0u), uvec2(0u));
+	for (uint i = 0u; i < p_count; i += 4u) {
+		const uvec4 entries = uvec4(load_chosen(i, p_count), load_chosen(i + 1u, p_count),
+				load_chosen(i + 2u, p_count), load_chosen(i + 3u, p_count));
+		ivec4 weights = ivec4(get_known_weight(entries.x >> COUNT_KNOWN_SHIFT),
+				get_known_weight(entries.y >> COUNT_KNOWN_SHIFT),
+				get_known_weight(entries.z >> COUNT_KNOWN_SHIFT),
+				get_known_weight(entries.w >> COUNT_KNOWN_SHIFT));
+		const uint all_known = entries.x & entries.y & entries.z & entries.w;
+		bool is_open = (all_known >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u;
+		if (HAS_NO_LIST) { // no weight is known
+			weights = find_weights(entries, p_receiver);
+		} else {
+			while (is_open) { // not a branch: software drivers run what a branch skips
+				weights = find_weights(entries, p_receiver);
+				is_open = false;
+			}
 		}
-		first += gl_SubgroupSize;
-	} while (first < p_count);
+		weights = p_is_here ? weights : ivec4(0);
+		share_edge(i, entries.x, weights.x, p_receiver, share);
+		share_edge(i + 1u, entries.y, weights.y, p_receiver, share);
+		share_edge(i + 2u, entries.z, weights.z, p_receiver, share);
+		share_edge(i + 3u, entries.w, weights.w, p_receiver, share);
+	}
+	return share;
 }
 
-/// Counts the edges that each invocation's receiver has.
-void count_own_edges(CountReceiver p_receiver, uint p_own_count, inout CountState r_state) {
-	const uint own_begin = gl_SubgroupID * gl_SubgroupSize * MOST_OWN_EDGES + gl_SubgroupInvocationID;
-	const uint most = subgroupMax(p_own_count);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
-	uint i = 0u;
-	do {
-		const bool is_there = i < p_own_count;
-		const uint entry = is_there ? own_edges[own_begin + i * gl_SubgroupSize] : 0u;
-		const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
-		count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
-				is_there ? get_known_weight(entry >> COUNT_KNOWN_SHIFT) : 0, r_state);
-		++i;
-	} while (i < most);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+bool has_bit(uvec2 p_bits, uint p_place) {
+	return ((p_place < 32u ? p_bits.x : p_bits.y) >> (p_place & 31u) & 1u) != 0u;
+}
+
+/// Counts the next of the edges that the invocation's receiver has, if there is one.
+void count_next(CountReceiver p_receiver, CountShare p_share, inout uvec2 r_left, inout CountState r_state) {
+	const bool is_there = (r_left.x | r_left.y) != 0u;
+	const uint place = (r_left.x != 0u ? findLSB(r_left.x) : 32u + findLSB(r_left.y)) & (SLICE_SIZE - 1u);
+	r_left = r_left.x != 0u ? uvec2(r_left.x & (r_left.x - 1u), r_left.y) : uvec2(0u, r_left.y & (r_left.y - 1u));
+	const uint entry = is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + place] : 0u;
+	const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
+	const int weight = has_bit(p_share.is_twice, place) ? 2 : 1;
+	count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
+			is_there ? (has_bit(p_share.is_negative, place) ? -weight : weight) : 0, r_state);
+}
+
+/// Counts the edges that each invocation's receiver has, two an iteration.
+void count_share(CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
+	const uint most = subgroupMax(uint(count_points(p_share.own)));
+	uvec2 left = p_share.own;
+	for (uint i = 0u; i < most; i += 2u) {
+		count_next(p_receiver, p_share, left, r_state);
+		count_next(p_receiver, p_share, left, r_state);
+	}
 }
 
 /// The bounds of those receivers of a subgroup that are in it.
@@ -226,10 +243,16 @@ CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slop
 }
 
 CountPixel count_pixel() {
-	const float CLUSTER_SIZES = 0.05; // of S
 	const uint block = find_block();
+	const int receives = int(block * uint(EDGE_COUNT_RECEIVES_WORDS));
+	const uint parts = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_PARTS).r;
+	const bool is_sorted = (parts & EDGE_COUNT_IS_SORTED) != 0u;
+	const uint place = gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
+	const uint order = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_ORDER + int(place / 4u)).r;
+	const uint own_order = order >> (8u * (place % 4u)) & 0xffu;
+	const uint index = is_sorted ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : place;
 	CountPixel result;
-	result.pixel = ivec2(find_block_corner(block) + find_count_place());
+	result.pixel = ivec2(find_block_corner(block) + find_pixel_in_block(index));
 	result.edge_count = 0u;
 	const bool is_receiver = is_in_picture(result.pixel) && is_receiver_pixel(result.pixel);
 	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
@@ -240,54 +263,42 @@ CountPixel count_pixel() {
 	const CountReceiver receiver = make_count_receiver(light, point.position);
 	CountState state = make_count_state(
 			is_counted ? count_solids(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver) : 0);
+	const uint own_part = is_sorted ? own_order >> EDGE_COUNT_ORDER_PART_SHIFT : point.view;
 	bool waits = is_counted;
-	uint next = 0u; // in the list of the cluster
-	uint chunk = 0u;
-	do {
-		uint own_count = 0u;
-		bool is_full = false;
-		do {
-			// A cluster: those beside the first one. Where pixels lie far apart, as beside an object's outline,
-			// what is between them would make them ask for many edges that none of them needs.
-			const bool is_any = subgroupAny(waits);
-			const uint leader = is_any ? subgroupBallotFindLSB(subgroupBallot(waits)) : 0u;
-			const uint view = VIEW_COUNT == 1u ? 0u : subgroupBroadcast(point.view, leader);
-			const vec3 away = point.position - subgroupBroadcast(point.position, leader);
-			const float widest = CLUSTER_SIZES * light.scene_size_m;
-			const bool is_here = waits && point.view == view && dot(away, away) <= widest * widest;
-			const uvec4 cluster = subgroupBallot(is_here);
-			const CountBox box = make_count_box(light, light.views[view],
-					find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
-			uint end = find_edge_count();
-			if (!HAS_NO_LIST) {
-				const uint chain = (block * VIEW_COUNT + view) * uint(EDGE_COUNT_CHAIN_WORDS);
-				end = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r;
-				chunk = next > 0u ? chunk
-								  : texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
+	while (subgroupAny(waits)) {
+		// Those of one part: what lies between parts would make them ask for edges that none of them needs.
+		const uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
+		const uint part = subgroupBroadcast(own_part, leader);
+		const uint view = find_part_view(parts, part);
+		const bool is_here = waits && own_part == part;
+		const CountBox box = make_count_box(light, light.views[view],
+				find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
+		uint end = find_edge_count();
+		uint chunk = 0u;
+		if (!HAS_NO_LIST) {
+			const uint chain = (block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
+			end = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r;
+			chunk = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
+		}
+		uint next = 0u; // in the list
+		while (next < end) {
+			CountChoice choice;
+			if (HAS_NO_LIST) {
+				choice = choose_from_bundles(next, end, box);
+			} else {
+				choice = choose_from_list(next, end, chunk, box);
 			}
-			end = is_any ? end : 0u;
-			do {
-				CountChoice choice;
-				if (HAS_NO_LIST) {
-					choice = choose_from_bundles(next, end, box);
-				} else {
-					choice = choose_from_list(next, end, chunk, box);
-				}
-				next = choice.next;
-				subgroupMemoryBarrierShared();
-				subgroupBarrier();
-				share_choice(choice.count, cluster, receiver, own_count);
-				subgroupMemoryBarrierShared();
-				subgroupBarrier();
-				is_full = subgroupAny(own_count + SLICE_SIZE > MOST_OWN_EDGES);
-			} while (next < end && !is_full);
-			const bool is_done = next >= end;
-			waits = waits && !(is_done && is_here);
-			next = is_done ? 0u : next;
-		} while (!is_full && subgroupAny(waits));
-		count_own_edges(receiver, own_count, state);
-		result.edge_count += own_count;
-	} while (subgroupAny(waits));
+			next = choice.next;
+			subgroupMemoryBarrierShared();
+			subgroupBarrier();
+			const CountShare share = share_choice(choice.count, is_here, receiver);
+			count_share(receiver, share, state);
+			result.edge_count += uint(count_points(share.own));
+			subgroupMemoryBarrierShared();
+			subgroupBarrier();
+		}
+		waits = waits && !is_here;
+	}
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
 	return result;

@@ -8,41 +8,46 @@
 #include "shadow_edge_count/count_box_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-// The bounds of the receivers of each block of pixels, in each light view that holds some of them. One
-// subgroup deals with one block.
+// The parts of each block's receivers, and their bounds. One subgroup deals with one block.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
 	CountBlockBox boxes[];
 };
-layout(std430, set = 0, binding = COUNT_BINDING_PRESENT) writeonly buffer Present {
-	uint present_boxes[]; // of each block, bit EDGE_COUNT_BOXES_PER_BLOCK * view + box
+layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) writeonly buffer Receives {
+	uint receives[]; // of each block, EDGE_COUNT_RECEIVES_*
 };
 
+const uint GROUP_SIZE = gl_WorkGroupSize.x;
 const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
-const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
 
 /// The receiver of one of the block's pixels. Its view is NO_VIEW where there is none, or none that a caster
-/// can hide.
-CountPoint load_point(uint p_index) {
-	const uint side = uint(EDGE_COUNT_BLOCK_PX);
-	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * side + uvec2(p_index % side, p_index / side));
+/// can hide; then r_is_lit says which.
+CountPoint load_point(uint p_index, inout bool r_is_lit) {
+	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
+			find_pixel_in_block(p_index));
 	CountPoint point = CountPoint(vec3(0.0), NO_VIEW, vec3(0.0), vec2(0.0));
 	if (p_index < PIXEL_COUNT && is_in_picture(pixel) && is_receiver_pixel(pixel)) {
 		const CountPoint loaded = load_count_point(pixel);
 		if (may_count_at(loaded)) {
 			point = loaded;
+		} else {
+			r_is_lit = true;
 		}
 	}
 	return point;
 }
 
-/// Where to part receivers between two w: in the middle where they are far apart, else before all.
-float find_split(float p_least, float p_greatest) {
+/// How far a receiver lies from the light along the view in metres; directional: from its far end, negative.
+float find_depth(float p_w) {
+	return light.is_directional != 0u ? -p_w : 1.0 / p_w;
+}
+
+/// Receivers at such w are far apart.
+bool is_apart(vec2 p_w_range) {
 	const float APART_SIZES = 0.05; // of S
-	const float apart_m =
-			light.is_directional != 0u ? p_greatest - p_least : 1.0 / p_least - 1.0 / p_greatest;
-	return apart_m > APART_SIZES * light.scene_size_m ? 0.5 * (p_least + p_greatest) : -COUNT_FAR;
+	return find_depth(p_w_range.x) - find_depth(p_w_range.y) > APART_SIZES * light.scene_size_m;
 }
 
 /// The bounds of some of the block's receivers, about the plane of one of them. Empty where there is none.
@@ -69,14 +74,82 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_he
 			vec2(subgroupMin(bounds.range.x), subgroupMax(bounds.range.y)));
 }
 
+void write_box(uint p_block, uint p_part, CountBounds p_bounds) {
+	if (subgroupElect()) {
+		boxes[p_block * PART_COUNT + p_part] = CountBlockBox(
+				vec4(p_bounds.least, p_bounds.greatest), vec4(p_bounds.slope, p_bounds.range));
+	}
+}
+
+shared float sort_keys[PIXEL_COUNT];
+shared uint sorted_pixels[PIXEL_COUNT];
+
+/// Sorts the block's pixels from the light on, those without a receiver to the end, and writes their order and
+/// the boxes of their parts, of which each has the same range of depth. All receivers are in one view. Returns
+/// the parts that are there.
+uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_w_range) {
+	const float PART_COUNTED = float(EDGE_COUNT_SORTED_PARTS);
+	const float least_depth = find_depth(p_w_range.y);
+	const float parts_per_m = PART_COUNTED / (find_depth(p_w_range.x) - least_depth);
+	float depths[PIXELS_PER_INVOCATION];
+	uint parts[PIXELS_PER_INVOCATION];
+	uint ranks[PIXELS_PER_INVOCATION];
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
+		const bool is_here = p_points[i].view != NO_VIEW;
+		depths[i] = is_here ? find_depth(p_points[i].warped.z) : COUNT_FAR;
+		parts[i] = is_here ? uint(clamp((depths[i] - least_depth) * parts_per_m, 0.0, PART_COUNTED - 1.0)) : 0u;
+		ranks[i] = 0u;
+		if (pixel < PIXEL_COUNT) {
+			sort_keys[pixel] = depths[i];
+		}
+	}
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
+	for (uint other = 0u; other < PIXEL_COUNT; ++other) {
+		const float depth = sort_keys[other];
+		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+			const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
+			ranks[i] += depth < depths[i] || (depth == depths[i] && other < pixel) ? 1u : 0u;
+		}
+	}
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
+		if (pixel < PIXEL_COUNT) {
+			sorted_pixels[ranks[i]] = pixel | parts[i] << EDGE_COUNT_ORDER_PART_SHIFT;
+		}
+	}
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
+	for (uint i = gl_SubgroupInvocationID; i < PIXEL_COUNT / 4u; i += GROUP_SIZE) {
+		receives[p_block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_ORDER) + i] =
+				sorted_pixels[4u * i] | sorted_pixels[4u * i + 1u] << 8 | sorted_pixels[4u * i + 2u] << 16 |
+				sorted_pixels[4u * i + 3u] << 24;
+	}
+	uint found = 0u;
+	for (uint part = 0u; part < uint(EDGE_COUNT_SORTED_PARTS); ++part) {
+		bool is_here[PIXELS_PER_INVOCATION];
+		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+			is_here[i] = p_points[i].view != NO_VIEW && parts[i] == part;
+		}
+		const CountBounds bounds = find_bounds(p_points, is_here);
+		write_box(p_block, part, bounds);
+		found |= is_count_bounds_empty(bounds) ? 0u : 1u << part;
+	}
+	return found;
+}
+
 void main() {
 	CountPoint points[PIXELS_PER_INVOCATION];
+	bool is_lit = false;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		points[i] = load_point(i * gl_WorkGroupSize.x + gl_SubgroupInvocationID);
+		points[i] = load_point(i * GROUP_SIZE + gl_SubgroupInvocationID, is_lit);
 	}
 	const uint block = find_work_row() * light.block_count.x + gl_WorkGroupID.x;
-	uint present = 0u;
+	uint parts = 0u;
 	uint view = 0u;
+	bool is_deep = false;
+	vec2 w_range = vec2(0.0);
 	while (true) {
 		// The first of the views that are left.
 		uint next = NO_VIEW;
@@ -87,31 +160,27 @@ void main() {
 		if (view == NO_VIEW) {
 			break;
 		}
+		bool is_here[PIXELS_PER_INVOCATION];
 		float least_w = COUNT_FAR;
 		float greatest_w = -COUNT_FAR;
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-			least_w = points[i].view == view ? min(least_w, points[i].warped.z) : least_w;
-			greatest_w = points[i].view == view ? max(greatest_w, points[i].warped.z) : greatest_w;
+			is_here[i] = points[i].view == view;
+			least_w = is_here[i] ? min(least_w, points[i].warped.z) : least_w;
+			greatest_w = is_here[i] ? max(greatest_w, points[i].warped.z) : greatest_w;
 		}
-		const float split = find_split(subgroupMin(least_w), subgroupMax(greatest_w));
-		for (uint box = 0u; box < uint(EDGE_COUNT_BOXES_PER_BLOCK); ++box) {
-			bool is_here[PIXELS_PER_INVOCATION];
-			for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-				is_here[i] = points[i].view == view &&
-						(points[i].warped.z >= split) == (box == uint(EDGE_COUNT_BOX_NEAR));
-			}
-			const CountBounds bounds = find_bounds(points, is_here);
-			if (!is_count_bounds_empty(bounds)) {
-				present |= 1u << (uint(EDGE_COUNT_BOXES_PER_BLOCK) * view + box);
-				if (subgroupElect()) {
-					boxes[(block * VIEW_COUNT + view) * uint(EDGE_COUNT_BOXES_PER_BLOCK) + box] =
-							CountBlockBox(vec4(bounds.least, bounds.greatest), vec4(bounds.slope, bounds.range));
-				}
-			}
-		}
+		write_box(block, view, find_bounds(points, is_here));
+		w_range = vec2(subgroupMin(least_w), subgroupMax(greatest_w));
+		is_deep = is_deep || is_apart(w_range);
+		parts |= 1u << view;
 		++view;
 	}
+	bool is_sorted = is_deep && bitCount(parts) == 1;
+	while (is_sorted) { // not a branch: software drivers run what a branch skips
+		parts = write_sorted(block, points, w_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
+		is_sorted = false;
+	}
+	parts |= subgroupAny(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
 	if (subgroupElect()) {
-		present_boxes[block] = present;
+		receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)] = parts;
 	}
 }

@@ -98,9 +98,9 @@ SHARED_SIZE(CountCasterPush, 96);
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_VIEW_COUNT 1 // so that one view needs no search
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2 // the blocks of the pass read all edges of the light
-// A block's list, view by view, is a chain of chunks. Behind all chunks stands the next one of each.
+// The list of a part of a block is a chain of chunks. Behind all chunks stands the next one of each.
 #define EDGE_COUNT_CHUNK_SIZE 64
-// Of each block and view: the first chunk, and how many edges are listed.
+// Of each block and part: the first chunk, and how many edges are listed.
 #define EDGE_COUNT_CHAIN_FIRST 0
 #define EDGE_COUNT_CHAIN_COUNT 1
 #define EDGE_COUNT_CHAIN_WORDS 2
@@ -140,16 +140,31 @@ SHARED_SIZE(CountLightConstants, 448);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
 SHARED_OFFSET(CountLightConstants, block_count, 400);
 
-/// Receivers of one block in one view: (x', y') lies in a rectangle, and w in a range about a plane. Where
-/// they lie at very different depths, as at an object's outline, they are two boxes.
+// The receivers of a block are divided into parts, each with a box of its own. Where all are in one view and lie at
+// very different depths, as at an object's outline, they are sorted by depth, and each quarter of its range is a
+// part. Else those in view i are part i.
+#define EDGE_COUNT_SORTED_PARTS 4
+/// Receivers of one part: (x', y') lies in a rectangle, and w in a range about a plane.
 struct SHARED_ALIGN CountBlockBox {
 	vec4 least_greatest; // x' and y'
 	vec4 slope_range;	 // w per x' and y' of the plane; least and greatest of w - slope.(x', y')
 };
 SHARED_SIZE(CountBlockBox, 32);
-#define EDGE_COUNT_BOX_NEAR 0 // to the light; all of them where there is one box
-#define EDGE_COUNT_BOX_FAR 1
-#define EDGE_COUNT_BOXES_PER_BLOCK 2 // and view; which of them are there is a bit each
+
+// What a block receives: a sum of 1 << part for each part that is there, of EDGE_COUNT_IS_SORTED and then its view
+// from bit EDGE_COUNT_VIEW_SHIFT on, and of EDGE_COUNT_IS_PARTLY_LIT where some receiver is in no part, since no
+// caster can hide it. Then, where it is sorted, its pixels in that order, a byte each: the place in the order of
+// find_pixel_in_block, and the part.
+#define EDGE_COUNT_PARTS_MASK 0x3fu
+#define EDGE_COUNT_VIEW_SHIFT 8
+#define EDGE_COUNT_VIEW_MASK 7u
+#define EDGE_COUNT_IS_SORTED 0x40000000u
+#define EDGE_COUNT_IS_PARTLY_LIT 0x80000000u
+#define EDGE_COUNT_RECEIVES_PARTS 0
+#define EDGE_COUNT_RECEIVES_ORDER 1
+#define EDGE_COUNT_RECEIVES_WORDS 17
+#define EDGE_COUNT_ORDER_PIXEL_MASK 63u
+#define EDGE_COUNT_ORDER_PART_SHIFT 6
 
 // What passes count.
 #define EDGE_COUNT_TOTAL_EDGES 0
@@ -174,18 +189,21 @@ SHARED_SIZE(CountBlockBox, 32);
 #define COUNT_BINDING_DEPTH_MAP (MAP_RESOLVE_OWN_BINDING + 13)
 #define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_OWN_BINDING + 14)
 #define COUNT_BINDING_BUNDLES (MAP_RESOLVE_OWN_BINDING + 15)
-#define COUNT_BINDING_PRESENT (MAP_RESOLVE_OWN_BINDING + 16)
+#define COUNT_BINDING_RECEIVES (MAP_RESOLVE_OWN_BINDING + 16)
 
-// Blocks by what they have: no edges; a list of edges; edges, but no room for a list; more edges than the
-// budget. For each kind the arguments of a dispatch (blocks, 1, 1) and the blocks. Behind these arguments the
-// number of chunks that were asked for, also those without room.
-#define EDGE_COUNT_BLOCKS_PLAIN 0
-#define EDGE_COUNT_BLOCKS_LISTED 1
-#define EDGE_COUNT_BLOCKS_UNLISTED 2
-#define EDGE_COUNT_BLOCKS_FILTERED 3
-#define EDGE_COUNT_BLOCK_KINDS 4
-#define EDGE_COUNT_DISPATCH_CHUNKS 12
-#define EDGE_COUNT_DISPATCH_WORDS 13
+// Blocks by what they have: neither edges nor faces, so that all receivers are lit, or all dark; no edges; a list
+// of edges; edges, but no room for a list; more edges than the budget. For each kind the arguments of a dispatch
+// (blocks, 1, 1) and the blocks. Behind these arguments the number of chunks that were asked for, also those
+// without room.
+#define EDGE_COUNT_BLOCKS_EVEN 0
+#define EDGE_COUNT_BLOCKS_PLAIN 1
+#define EDGE_COUNT_BLOCKS_LISTED 2
+#define EDGE_COUNT_BLOCKS_UNLISTED 3
+#define EDGE_COUNT_BLOCKS_FILTERED 4
+#define EDGE_COUNT_BLOCK_KINDS 5
+#define EDGE_COUNT_BLOCK_IS_DARK 0x80000000u // beside the block, in the list of even ones
+#define EDGE_COUNT_DISPATCH_CHUNKS 15
+#define EDGE_COUNT_DISPATCH_WORDS 16
 
 // Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0

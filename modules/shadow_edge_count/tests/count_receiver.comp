@@ -33,6 +33,9 @@ uvec2 load_count_mask(uint p_index) {
 }
 
 // One list of all faces for every texel.
+CountViewConstants load_count_view(uint p_view) {
+	return light.views[p_view];
+}
 uint load_count_head(uint p_index) {
 	return 1u;
 }

@@ -26,13 +26,14 @@ FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_beg
 }
 
 /// The blocks of the debug view "blocks" have these colours, see debug_view.comp.
-enum class BlockColor { PLAIN, LISTED, UNLISTED, FILTERED };
+enum class BlockColor { EVEN, PLAIN, LISTED, UNLISTED, FILTERED };
 
 BlockColor find_block_color(const uint8_t *p_pixel) {
-	return p_pixel[0] == 0			   ? BlockColor::PLAIN
-			: p_pixel[0] == p_pixel[1] ? BlockColor::FILTERED // grey
-			: p_pixel[2] == 0		   ? BlockColor::LISTED	  // orange
-									   : BlockColor::UNLISTED;		  // yellow
+	return p_pixel[0] == 0			   ? BlockColor::EVEN
+			: p_pixel[0] == p_pixel[1] ? BlockColor::UNLISTED // grey
+			: p_pixel[2] == 0		   ? BlockColor::PLAIN	  // orange
+			: p_pixel[2] > p_pixel[1]  ? BlockColor::FILTERED // pink
+									   : BlockColor::LISTED;	  // yellow
 }
 
 /// How many of the pixels lie in blocks of a kind.
@@ -69,10 +70,10 @@ std::shared_ptr<const Mesh> make_floors(uint32_t p_count) {
 
 } // namespace
 
-TEST_CASE("[EdgeCount] lists have room for what small images need, and 16 MB at most") {
+TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at most") {
 	CHECK(choose_chunk_capacity({ 128, 128 }, 100) == 256 * 128 / EDGE_COUNT_CHUNK_SIZE);
-	CHECK(choose_chunk_capacity({ 128, 128 }, 1'000'000) == 256 * 1024 / EDGE_COUNT_CHUNK_SIZE);
-	CHECK(choose_chunk_capacity({ 8192, 8192 }, 1'000'000) == 4'000'000 / EDGE_COUNT_CHUNK_SIZE);
+	CHECK(choose_chunk_capacity({ 128, 128 }, 1'000'000) == 256 * 2048 / EDGE_COUNT_CHUNK_SIZE);
+	CHECK(choose_chunk_capacity({ 8192, 8192 }, 1'000'000) == 6'000'000 / EDGE_COUNT_CHUNK_SIZE);
 	CHECK(choose_chunk_capacity({ 1, 1 }, 0) >= 1);
 }
 

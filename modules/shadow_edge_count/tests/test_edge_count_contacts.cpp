@@ -78,3 +78,17 @@ TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or beside it, do no harm
 		CHECK(check_mask(fixture, scene, 0.0005).greatest < 0.1);
 	}
 }
+
+// A block without edges is not wholly lit or dark where a face passes between its receivers.
+TEST_CASE("[GPU][EdgeCount] a thin wall parts lit from dark ground within blocks of pixels") {
+	RenderFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		scene.light->parent_from_node = look_at({ 3.0, 1.6, 0.1 }, { 0, 0.3, 0 });
+		scene.light->properties["light_size"] = 0.004;
+		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.002f, 0.9f, 2.4f });
+		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });
+		check_mask(fixture, scene, 0.002);
+	}
+}

@@ -1,0 +1,20 @@
+// Parts of a block's receivers: EDGE_COUNT_RECEIVES_*.
+#ifndef COUNT_PARTS_INC_GLSL
+#define COUNT_PARTS_INC_GLSL
+
+#include "shadow_edge_count/shadow_edge_count_shared.h"
+
+layout(constant_id = EDGE_COUNT_CONSTANT_VIEW_COUNT) const uint VIEW_COUNT = 1u;
+
+/// That a block may have.
+const uint PART_COUNT = VIEW_COUNT == 1u ? uint(EDGE_COUNT_SORTED_PARTS) : uint(EDGE_COUNT_MAX_VIEWS);
+
+/// The view of a part, from the first of the words of EDGE_COUNT_RECEIVES_*.
+uint find_part_view(uint p_parts, uint p_part) {
+	const uint view = (p_parts & EDGE_COUNT_IS_SORTED) != 0u
+			? p_parts >> EDGE_COUNT_VIEW_SHIFT & EDGE_COUNT_VIEW_MASK
+			: p_part;
+	return VIEW_COUNT == 1u ? 0u : view;
+}
+
+#endif

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/count_blocks_inc.glsl"
+
+// Blocks of which it is known that all receivers are lit, or all are dark.
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+void main() {
+	const uint entry = load_block_entry();
+	const ivec2 pixel = ivec2(
+			find_block_corner(entry & ~EDGE_COUNT_BLOCK_IS_DARK) + gl_LocalInvocationID.xy);
+	if (is_in_picture(pixel)) {
+		const bool is_lit = (entry & EDGE_COUNT_BLOCK_IS_DARK) == 0u && is_receiver_pixel(pixel);
+		imageStore(mask_image, pixel, vec4(is_lit ? 1.0 : 0.0));
+	}
+}
