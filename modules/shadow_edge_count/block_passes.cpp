@@ -128,8 +128,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	const shader::CountLightConstants constants = make_block_constants(
 			inputs, p_passes.settings, p_passes.capacities, p_passes.empty_views);
 	const uint64_t block_count = uint64_t(constants.block_count.x) * constants.block_count.y;
-	const uint32_t part_count =
-			constants.view_count == 1 ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS;
+	const uint32_t part_count = EDGE_COUNT_PARTS(constants.view_count);
 	CountBlocks blocks;
 	blocks.receivers = make_map_resolve_bindings(r_graph, inputs);
 	blocks.constants = r_graph.upload_constants("counted light", constants);

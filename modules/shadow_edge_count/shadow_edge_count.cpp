@@ -244,8 +244,9 @@ std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
 				 "bound_edges.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
-				 "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp", "resolve_plain.comp",
-				 "resolve.comp", "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
+				 "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp",
+				 "resolve_plain.comp", "resolve.comp", "resolve_fine.comp", "filter_blocks.comp",
+				 "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	return files;

@@ -45,13 +45,19 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.both + max(p_found.away, p_found.toward);
 }
 
+const float COUNT_NEAREST_RADII = 0.01; // to the light's centre, of R
+
+/// True where is_count_at_light may be true of some receiver.
+bool may_be_at_light(CountLightConstants p_light, vec4 p_plane) {
+	return p_light.is_directional == 0u && abs(p_plane.w) < COUNT_NEAREST_RADII * p_light.disc_radius;
+}
+
 /// True where a face is crossed so near to the light's centre that a light which moves a little would change all
 /// of the mask at once: what cuts the disc is not known to be before it or behind.
 bool is_count_at_light(CountLightConstants p_light, CountReceiver p_receiver, vec4 p_plane) {
-	const float NEAREST_RADII = 0.01;
 	const float across = abs(dot(p_plane.xyz, p_receiver.position));
 	return p_light.is_directional == 0u &&
-			abs(p_plane.w) * length(p_receiver.position) < NEAREST_RADII * p_light.disc_radius * across;
+			abs(p_plane.w) * length(p_receiver.position) < COUNT_NEAREST_RADII * p_light.disc_radius * across;
 }
 
 /// The texel of a view's map that holds x' and y', or the nearest one.

@@ -7,7 +7,7 @@
 layout(constant_id = EDGE_COUNT_CONSTANT_VIEW_COUNT) const uint VIEW_COUNT = 1u;
 
 /// That a block may have.
-const uint PART_COUNT = VIEW_COUNT == 1u ? uint(EDGE_COUNT_SORTED_PARTS) : uint(EDGE_COUNT_MAX_VIEWS);
+const uint PART_COUNT = uint(EDGE_COUNT_PARTS(VIEW_COUNT));
 
 /// The view of a part, from the first of the words of EDGE_COUNT_RECEIVES_*.
 uint find_part_view(uint p_parts, uint p_part) {

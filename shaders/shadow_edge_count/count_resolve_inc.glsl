@@ -41,7 +41,7 @@ struct CountChoice {
 	uint count;
 };
 
-/// Each invocation tests one edge. p_entry: the edge and what is known of it for the block.
+/// Each invocation tests one edge. p_entry: the edge and what is known of it for the part.
 void choose_edge(CountBox p_box, uint p_entry, bool p_is_there, inout CountChoice r_choice) {
 	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
 	const bool is_chosen = p_is_there &&
@@ -58,7 +58,7 @@ bool has_choice_room(CountChoice p_choice, uint p_more) {
 	return p_choice.count + p_more <= SLICE_SIZE;
 }
 
-/// From the block's list, which has p_end edges. Ends where the slice may be full.
+/// From the part's list, which has p_end edges. Ends where the slice may be full.
 CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, CountBox p_box) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
 	CountChoice choice = CountChoice(p_first, 0u);

@@ -335,7 +335,8 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 
 const uint MOST_STEPS = 128u; // through lists of faces: more, and testing each pixel is as cheap
 
-/// True where each face that the texels p_first..p_last list has all receivers of the box on one side.
+/// True where each face that the texels p_first..p_last list has all receivers of the box on one side, and does
+/// not count for some of them alone, see is_count_at_light.
 bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
@@ -344,8 +345,9 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	// One loop over all lists: a loop takes as many iterations as its slowest invocation.
 	while (texel.y <= p_last.y && is_aside) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
-		const int side = find_count_side(p_box, load_count_plane(node.x));
-		is_aside = (next == 0u || side != 0) && step_count < MOST_STEPS;
+		const vec4 plane = load_count_plane(node.x);
+		const bool is_known = find_count_side(p_box, plane) != 0 && !may_be_at_light(light, plane);
+		is_aside = (next == 0u || is_known) && step_count < MOST_STEPS;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);

@@ -144,6 +144,7 @@ SHARED_OFFSET(CountLightConstants, block_count, 400);
 // very different depths, as at an object's outline, they are sorted by depth, and each quarter of its range is a
 // part. Else those in view i are part i.
 #define EDGE_COUNT_SORTED_PARTS 4
+#define EDGE_COUNT_PARTS(view_count) ((view_count) == 1u ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS)
 /// Receivers of one part: (x', y') lies in a rectangle, and w in a range about a plane.
 struct SHARED_ALIGN CountBlockBox {
 	vec4 least_greatest; // x' and y'
