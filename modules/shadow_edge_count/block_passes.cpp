@@ -37,6 +37,7 @@ std::vector<PassBinding> make_plain_bindings(
 	bindings.push_back(PassBinding::read(COUNT_BINDING_FACES, p_passes.light.faces));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_PLANES, p_passes.light.planes));
 	bindings.push_back(PassBinding::read(COUNT_BINDING_TOTALS, p_passes.light.totals));
+	bindings.push_back(PassBinding::read(COUNT_BINDING_CUT_FACES, p_passes.light.cut_faces));
 	return bindings;
 }
 
@@ -119,6 +120,8 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	constants.budget = p_settings.budget;
 	constants.node_capacity = p_capacities.nodes_per_view;
 	constants.face_count = p_capacities.face_count;
+	constants.most_cut_faces = p_capacities.cut_face_count;
+	constants.interpolation = p_settings.interpolation;
 	constants.most_edges = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
 	return constants;
 }
@@ -179,6 +182,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 					PassBinding::read(COUNT_BINDING_FACES, light.faces),
 					PassBinding::read(COUNT_BINDING_PLANES, light.planes),
 					PassBinding::read(COUNT_BINDING_TOTALS, light.totals),
+					PassBinding::read(COUNT_BINDING_CUT_FACES, light.cut_faces),
 					PassBinding::write(COUNT_BINDING_CHAINS, blocks.chains),
 					PassBinding::write(COUNT_BINDING_LISTS, blocks.lists),
 					PassBinding::write(COUNT_BINDING_BLOCKS, blocks.blocks),
@@ -200,15 +204,19 @@ RGTexture add_count_passes(
 			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
 	add_kind_pass(r_graph, p_passes, p_blocks, "resolve plain",
 			"shadow_edge_count/resolve_plain.comp", EDGE_COUNT_BLOCKS_PLAIN, std::move(bindings));
-	const char *resolve = p_passes.settings.get_turn_count() > 1
-			? "shadow_edge_count/resolve_fine.comp"
-			: "shadow_edge_count/resolve.comp";
-	for (const auto &[kind, name] : { std::pair(EDGE_COUNT_BLOCKS_LISTED, "resolve"),
-				 std::pair(EDGE_COUNT_BLOCKS_UNLISTED, "resolve without lists") }) {
+	const bool is_fine = p_passes.settings.get_turn_count() > 1;
+	const char *resolve =
+			is_fine ? "shadow_edge_count/resolve_fine.comp" : "shadow_edge_count/resolve.comp";
+	const char *resolve_smooth = is_fine ? "shadow_edge_count/resolve_smooth_fine.comp"
+										 : "shadow_edge_count/resolve_smooth.comp";
+	for (const auto &[kind, name, shader] :
+			{ std::tuple(EDGE_COUNT_BLOCKS_SMOOTH, "resolve smooth", resolve_smooth),
+					std::tuple(EDGE_COUNT_BLOCKS_LISTED, "resolve", resolve),
+					std::tuple(EDGE_COUNT_BLOCKS_UNLISTED, "resolve without lists", resolve) }) {
 		bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(
 				PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-		add_kind_pass(r_graph, p_passes, p_blocks, name, resolve, kind, std::move(bindings));
+		add_kind_pass(r_graph, p_passes, p_blocks, name, shader, kind, std::move(bindings));
 	}
 	if (p_passes.depth_map) {
 		add_filter_pass(r_graph, p_passes, p_blocks, mask);

@@ -28,6 +28,7 @@ CountCapacities choose_capacities(
 	capacities.view_count = p_view_count;
 	capacities.texels_per_view = p_map_size_px.x * p_map_size_px.y;
 	capacities.face_count = p_casters.face_count;
+	capacities.cut_face_count = p_casters.may_cut_disc ? p_casters.face_count : 0;
 	capacities.edge_count = p_casters.edge_count;
 	capacities.word_count = p_casters.word_count;
 	capacities.block_count = p_casters.block_count;
@@ -84,6 +85,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 			"face lists", view_count * wanted.texels_per_view, sizeof(uint32_t), Format::R32_UINT);
 	nodes = make("listed faces", view_count * wanted.nodes_per_view, sizeof(glm::uvec2),
 			Format::RG32_UINT);
+	cut_faces = make("cut faces", wanted.cut_face_count, sizeof(uint32_t), Format::R32_UINT);
 	totals = make("totals", EDGE_COUNT_TOTAL_COUNT, sizeof(uint32_t), Format::R32_UINT);
 	capacities = wanted;
 	return false;
@@ -91,7 +93,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 
 void CountBuffers::reset() {
 	for (OwnedBuffer *buffer :
-			{ &planes, &faces, &words, &blocks, &edges, &bundles, &heads, &nodes, &totals }) {
+			{ &planes, &faces, &words, &blocks, &edges, &bundles, &heads, &nodes, &cut_faces, &totals }) {
 		buffer->reset();
 	}
 	capacities = {};
@@ -103,7 +105,7 @@ const CountFrameBuffers &CountBuffers::import(RenderGraph &r_graph) {
 			r_graph.import_buffer(words.get()), r_graph.import_buffer(blocks.get()),
 			r_graph.import_buffer(edges.get()), r_graph.import_buffer(bundles.get()),
 			r_graph.import_buffer(heads.get()), r_graph.import_buffer(nodes.get()),
-			r_graph.import_buffer(totals.get()) };
+			r_graph.import_buffer(cut_faces.get()), r_graph.import_buffer(totals.get()) };
 		is_imported = true;
 	}
 	return frame;

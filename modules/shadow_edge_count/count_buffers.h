@@ -13,6 +13,7 @@ struct CountCapacities {
 	uint32_t texels_per_view = 0;
 	uint32_t nodes_per_view = 0;
 	uint32_t face_count = 0;
+	uint32_t cut_face_count = 0; // that may cut the light's disc
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
@@ -35,6 +36,7 @@ struct CountFrameBuffers {
 	RGBuffer bundles; // CountEdgeBundle
 	RGBuffer heads;	  // of the texels' face lists, by view
 	RGBuffer nodes;	  // likewise
+	RGBuffer cut_faces;	// that may cut the light's disc
 	RGBuffer totals;  // EDGE_COUNT_TOTAL_*
 };
 
@@ -60,6 +62,7 @@ private:
 	OwnedBuffer bundles;
 	OwnedBuffer heads;
 	OwnedBuffer nodes;
+	OwnedBuffer cut_faces;
 	OwnedBuffer totals;
 	CountFrameBuffers frame;
 	bool is_imported = false;

@@ -68,6 +68,16 @@ uint64_t compute_node_bound(
 	return static_cast<uint64_t>(std::ceil(sum));
 }
 
+/// True where the instance's bounds come as near to the light's centre as R.
+bool is_near_light(
+		const InstanceSnapshot &p_instance, const LightView &p_view, double p_disc_radius) {
+	const double WIDENED = 1.01; // for rounding
+	const Bounds bounds = transform_bounds(p_instance.bounds_world, p_view.view_from_world);
+	const glm::dvec3 nearest =
+			glm::clamp(glm::dvec3(0.0), glm::dvec3(bounds.minimum), glm::dvec3(bounds.maximum));
+	return glm::length(nearest) <= WIDENED * p_disc_radius;
+}
+
 uint32_t add_up(uint32_t p_sum, uint32_t p_count, const char *p_what, const std::string &p_light) {
 	if (p_count > MAX_COUNT - p_sum) {
 		fail("Light \"", p_light, "\": its casters have more than ", MAX_COUNT, " ", p_what,
@@ -107,6 +117,9 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 			continue;
 		}
 		with_faces.insert(index);
+		result.may_cut_disc = result.may_cut_disc ||
+				(!is_directional && p_disc_radius > 0 &&
+						is_near_light(instance, first, p_disc_radius));
 		CountCaster caster;
 		caster.gpu = &gpu;
 		caster.mesh_id = instance.mesh->id;

@@ -26,7 +26,8 @@ struct CountCasters {
 	/// Nodes that the face lists of any one view may have at most; UNKNOWN_COUNT where there are
 	/// too many faces to look at each.
 	uint64_t node_bound = 0;
-	uint32_t empty_views = 0; // bit i: no caster of view i has a face
+	bool may_cut_disc = false; // some caster comes as near to the light's centre as R
+	uint32_t empty_views = 0;  // bit i: no caster of view i has a face
 
 	static constexpr uint64_t UNKNOWN_COUNT = ~uint64_t(0);
 

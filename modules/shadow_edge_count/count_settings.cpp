@@ -32,6 +32,11 @@ void add_count_properties(PropertyList &r_list) {
 			"is "
 			"filtered.",
 			"", group, "-1" });
+	r_list.add({ "edge_count_interpolation", PropertyType::FLOAT, 0.5, "0,1,0.01",
+			"Where the image of every edge on the light moves by no more than this share of the "
+			"light's radius within a block of 8 x 8 pixels, 16 of these are counted and the others "
+			"interpolated. More is faster and less exact; 0: each pixel is counted.",
+			"", group });
 	r_list.add_removed({ "edge_count_layers", "All solids before the light are counted exactly." });
 }
 
@@ -42,6 +47,8 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 			std::get<std::string>(p_properties.at("edge_count_quality")) == "256" ? 256 : 64;
 	settings.map_size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("edge_count_map_size")));
+	settings.interpolation =
+			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
 	// The mean of both penumbra widths. A directional light's are lengths, over S tangents.

@@ -117,6 +117,18 @@ void add_find_passes(
 	if (p_passes.has_edges) {
 		add_edge_passes(r_graph, p_device, p_passes);
 	}
+	if (p_passes.capacities.cut_face_count > 0) {
+		add_compute_pass(r_graph, "list cut faces",
+				p_device.get_compute_pipeline(
+						{ "list cut faces", "shadow_edge_count/list_cut_faces.comp", {} }),
+				{ PassBinding::constants(FACE_LIST_BINDING_LIGHT, p_passes.constants),
+						PassBinding::read(FACE_LIST_BINDING_FACES, buffers.faces),
+						PassBinding::write(
+								FACE_LIST_BINDING_TOTALS, buffers.totals, Content::UPDATE),
+						PassBinding::write(
+								FACE_LIST_BINDING_CUT_FACES, buffers.cut_faces, Content::UPDATE) },
+				{ 1, 1, 1 });
+	}
 }
 
 void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,

@@ -118,6 +118,9 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	if (settings.disc_radius <= 0) {
 		r_plan.leave_out("edges", "the light has no size");
 	}
+	if (drawn.casters.may_cut_disc) {
+		r_plan.run("faces that cut the light's disc");
+	}
 	if (!is_node_count_known()) {
 		r_plan.run("face lists with larger texels, where there is no room");
 	}
@@ -235,7 +238,7 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 		r_views.push_back({ "edges", debug_image, glm::vec2(0.0f, 64.0f), EDGE_COUNT_DEBUG_EDGES });
 		r_views.push_back(
 				{ "solids", debug_image, glm::vec2(0.0f, 7.0f), EDGE_COUNT_DEBUG_SOLIDS, 8 });
-		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 4.0f), EDGE_COUNT_DEBUG_BLOCKS,
+		r_views.push_back({ "blocks", debug_image, glm::vec2(0.0f, 5.0f), EDGE_COUNT_DEBUG_BLOCKS,
 				EDGE_COUNT_BLOCK_KINDS });
 	}
 }
@@ -243,10 +246,10 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
+				 "bound_edges.comp", "list_cut_faces.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
 				 "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp",
-				 "resolve_plain.comp", "resolve.comp", "resolve_fine.comp", "filter_blocks.comp",
-				 "debug.comp" }) {
+				 "resolve_plain.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
+				 "resolve.comp", "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	return files;

@@ -18,6 +18,9 @@ public:
 	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
 	bool asks_receivers_alone() const override { return true; }
+	ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const override {
+		return { .least_caster_distance_radii = 0 }; // a caster may cut the disc
+	}
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	void at_light_view(
 			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;

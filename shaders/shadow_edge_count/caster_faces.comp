@@ -25,8 +25,9 @@ void main() {
 	const vec3 b = load_light_position(face.b);
 	const vec3 c = load_light_position(face.c);
 	const vec4 plane = make_count_plane(a, b, c);
-	planes[push.first_face + index] = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u ? -plane : plane;
-	faces[push.first_face + index] =
-			CountFaceRecord(uvec4(floatBitsToUint(a), face.kind), uvec4(floatBitsToUint(b), 0u),
-					uvec4(floatBitsToUint(c), 0u));
+	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
+	planes[push.first_face + index] = is_mirrored ? -plane : plane;
+	// The corners wind as the plane's side says.
+	faces[push.first_face + index] = CountFaceRecord(uvec4(floatBitsToUint(a), face.kind),
+			uvec4(floatBitsToUint(is_mirrored ? c : b), 0u), uvec4(floatBitsToUint(is_mirrored ? b : c), 0u));
 }

@@ -4,7 +4,12 @@
 
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
+#ifdef COUNT_GROUP_SIZE // invocations: fewer than the block has pixels
+layout(local_size_x = COUNT_GROUP_SIZE) in;
+#else
+#define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
 layout(local_size_x = EDGE_COUNT_BLOCK_PX, local_size_y = EDGE_COUNT_BLOCK_PX) in;
+#endif
 layout(set = 0, binding = COUNT_BINDING_BLOCKS) uniform utextureBuffer blocks_buffer;
 layout(push_constant) uniform Push {
 	CountBlockPush push;

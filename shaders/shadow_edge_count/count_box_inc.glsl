@@ -62,6 +62,8 @@ CountBounds unpack_count_bounds(CountBlockBox p_box) {
 /// The box, ready for tests in light space.
 struct CountBox {
 	vec4 above;		 // s <= dot(above, (q, 1))
+	vec4 below;		 // s >= dot(below, (q, 1))
+	float smooth_share; // s of edges that move at most CountLightConstants::interpolation R between receivers
 	vec4 outside[4]; // rejects q where above 0
 	// Rectangle and plane of the receivers, for the fifth plane and for the sides of faces.
 	CountViewConstants view;
@@ -106,7 +108,34 @@ vec4 find_above(CountLightConstants p_light, CountViewConstants p_view, CountBou
 	return vec4(vec3(0.0), 1.0);
 }
 
-/// Likewise of a directional light; s in metres.
+/// `below` of a point light: from the receivers' plane, or less than any s.
+vec4 find_below(CountLightConstants p_light, CountViewConstants p_view, CountBounds p_bounds, vec2 p_w_range) {
+	const vec2 far = max(abs(p_bounds.least), abs(p_bounds.greatest));
+	const float longest = sqrt(1.0 + dot(far, far)) / max(p_w_range.x, 1e-37);
+	const vec3 normal = p_bounds.slope.x * p_view.axis_x.xyz + p_bounds.slope.y * p_view.axis_y.xyz +
+			p_bounds.range.x * p_view.axis_z.xyz;
+	const float least = 1.0 - (p_bounds.range.y - p_bounds.range.x) / max(p_w_range.x, 1e-37);
+	const float tilt = find_tilt(p_light.disc_radius, normal, least, longest);
+	return p_w_range.x > 0.0 && least > 0.0 ? vec4(-normal, least) / (least + tilt)
+											: vec4(vec3(0.0), -COUNT_FAR);
+}
+
+/// CountBox::smooth_share. A receiver that moves by h across the light's direction moves the image of an edge on
+/// the disc by h (1 - s) / s, and one that moves by a share t of its distance along it, by less than t R / s.
+/// Directional: h / s and, t in metres, t R / s.
+float find_smooth_share(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
+	const float half_size = 0.5 * length(p_bounds.greatest - p_bounds.least);
+	const float half_range = 0.5 * (p_w_range.y - p_w_range.x);
+	const float inverse_radius = 1.0 / max(p_light.disc_radius, 1e-37);
+	const float inverse_w = 1.0 / max(p_w_range.x, 1e-37);
+	const float most = p_light.interpolation;
+	const bool is_known = most > 0.0 && (p_light.is_directional != 0u || p_w_range.x > 0.0);
+	const float across = half_size * inverse_radius * (p_light.is_directional != 0u ? 1.0 : inverse_w);
+	const float along = half_range * (p_light.is_directional != 0u ? 1.0 : inverse_w);
+	return is_known ? (across + along) / (p_light.is_directional != 0u ? most : most + across) : COUNT_FAR;
+}
+
+/// `above` of a directional light; s in metres.
 vec4 find_above_directional(CountLightConstants p_light, CountBounds p_bounds, vec2 p_w_range) {
 	const float MOST_TILT = 0.7;
 	const float tilt = p_light.disc_radius * length(p_bounds.slope);
@@ -134,8 +163,11 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 	const vec3 x = p_view.axis_x.xyz;
 	const vec3 y = p_view.axis_y.xyz;
 	const vec3 z = p_view.axis_z.xyz;
+	box.smooth_share = find_smooth_share(p_light, p_bounds, w_range);
 	if (box.is_directional) {
 		box.above = find_above_directional(p_light, p_bounds, w_range);
+		box.below = vec4(-p_bounds.slope, -1.0, p_light.depth_far_m - p_bounds.range.y) /
+				(1.0 + p_light.disc_radius * length(p_bounds.slope));
 		box.margin = MARGIN * (length(max(abs(least), abs(greatest))) + p_light.depth_far_m);
 		box.outside[0] = vec4(x, -greatest.x);
 		box.outside[1] = vec4(-x, least.x);
@@ -143,6 +175,7 @@ CountBox make_count_box(CountLightConstants p_light, CountViewConstants p_view, 
 		box.outside[3] = vec4(-y, least.y);
 	} else {
 		box.above = find_above(p_light, p_view, p_bounds, w_range);
+		box.below = find_below(p_light, p_view, p_bounds, w_range);
 		box.margin = MARGIN;
 		box.outside[0] = vec4((x - greatest.x * z) * inversesqrt(1.0 + greatest.x * greatest.x), 0.0);
 		box.outside[1] = vec4((least.x * z - x) * inversesqrt(1.0 + least.x * least.x), 0.0);
@@ -210,6 +243,26 @@ bool is_edge_in_reach(CountBox p_box, vec3 p_a, vec3 p_b) {
 	const vec2 depth = vec2(dot(p_box.view.axis_z.xyz, a), dot(p_box.view.axis_z.xyz, b));
 	const vec2 beyond = p_box.is_directional ? vec2(aside) - fin : (depth - fin) * aside - fin;
 	return is_in_reach && (beyond.x <= 0.0 || beyond.y <= 0.0);
+}
+
+/// The least s at which an edge hides something of a disc of any receiver in the box.
+float find_least_share(CountBox p_box, vec3 p_a, vec3 p_b) {
+	vec2 part = vec2(0.0, 1.0); // of the edge, above the receivers and within the rectangle and the widening fin
+	const float above_a = find_linear(p_box.above, p_a);
+	const float above_b = find_linear(p_box.above, p_b);
+	const float entry = above_a / (above_a - above_b);
+	part.x = above_a < 0.0 ? entry : 0.0;
+	part.y = above_b < 0.0 ? entry : 1.0;
+	for (int i = 0; i < 4; ++i) {
+		const float a = find_linear(p_box.outside[i], p_a);
+		const float b = find_linear(p_box.outside[i], p_b);
+		const float share = a / (a - b);
+		part.x = a > 0.0 ? max(part.x, share) : part.x;
+		part.y = b > 0.0 ? min(part.y, share) : part.y;
+	}
+	const float below_a = find_linear(p_box.below, p_a);
+	const float below_b = find_linear(p_box.below, p_b);
+	return part.x <= part.y ? min(mix(below_a, below_b, part.x), mix(below_a, below_b, part.y)) : COUNT_FAR;
 }
 
 /// +1 or -1 where all receivers lie on that side of the face, else 0.

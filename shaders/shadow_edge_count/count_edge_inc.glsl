@@ -122,6 +122,33 @@ void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, 
 			is_reversed != is_left, abs(p_weight), is_there, r_state);
 }
 
+/// Adds the line along which a face passes through the disc's plane: there ends what hides the light, as at an edge.
+/// Of closed parts only the faces before the receiver, or those behind which it lies, end what is counted.
+void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plane, bool p_has_before,
+		inout CountState r_state) {
+	const vec3 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz));
+	const vec3 b = count_offset(p_receiver, uintBitsToFloat(p_face.b.xyz));
+	const vec3 c = count_offset(p_receiver, uintBitsToFloat(p_face.c.xyz));
+	const float least = p_receiver.least_d;
+	const float most = p_receiver.most_d;
+	const bvec3 is_in = lessThan(vec3(a.z, b.z, c.z), vec3(most));
+	const bool is_before = is_count_before(p_plane, p_receiver.position);
+	const bool is_counted = p_face.a_kind.w != 0u || is_before == p_has_before;
+	// The sides on which its outline, as it winds, leaves the space before the disc, and enters it; each is cut as
+	// count_add_edge does it, bit for bit.
+	const bool leaves_a = is_in.x && !is_in.y;
+	const bool leaves_b = is_in.y && !is_in.z;
+	const bool enters_a = !is_in.x && is_in.y;
+	const bool enters_b = !is_in.y && is_in.z;
+	const vec3 leave = cut_count_offset(leaves_a ? b : (leaves_b ? c : a), leaves_a ? a : (leaves_b ? b : c), least, most);
+	const vec3 enter = cut_count_offset(enters_a ? a : (enters_b ? b : c), enters_a ? b : (enters_b ? c : a), least, most);
+	// Which side of the line the light's centre is on: as count_node has it, so that both agree.
+	const bool is_between = is_before != is_count_light_before(false, p_plane);
+	const vec2 from = (is_before ? leave.xy : enter.xy) * p_receiver.inverse_radius;
+	const vec2 to = (is_before ? enter.xy : leave.xy) * p_receiver.inverse_radius;
+	count_add_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in), r_state);
+}
+
 /// Signed weight of an edge as the receiver sees it.
 int count_weight(vec3 p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_kind) {
 	return count_sum_weights(is_count_before(p_plane0, p_receiver),

@@ -45,21 +45,6 @@ int sum_crossings(CountCrossings p_found) {
 	return p_found.both + max(p_found.away, p_found.toward);
 }
 
-const float COUNT_NEAREST_RADII = 0.01; // to the light's centre, of R
-
-/// True where is_count_at_light may be true of some receiver.
-bool may_be_at_light(CountLightConstants p_light, vec4 p_plane) {
-	return p_light.is_directional == 0u && abs(p_plane.w) < COUNT_NEAREST_RADII * p_light.disc_radius;
-}
-
-/// True where a face is crossed so near to the light's centre that a light which moves a little would change all
-/// of the mask at once: what cuts the disc is not known to be before it or behind.
-bool is_count_at_light(CountLightConstants p_light, CountReceiver p_receiver, vec4 p_plane) {
-	const float across = abs(dot(p_plane.xyz, p_receiver.position));
-	return p_light.is_directional == 0u &&
-			abs(p_plane.w) * length(p_receiver.position) < COUNT_NEAREST_RADII * p_light.disc_radius * across;
-}
-
 /// The texel of a view's map that holds x' and y', or the nearest one.
 uvec2 find_count_texel(uint p_view, vec2 p_place) {
 	const CountViewConstants view = load_count_view(p_view);
@@ -80,17 +65,14 @@ uint count_node(CountLightConstants p_light, uint p_view, uint p_node, CountRece
 	const uvec2 node = load_count_node(p_view * p_light.node_capacity + max(p_node, 1u) - 1u);
 	const vec4 plane = load_count_plane(node.x);
 	const bool is_before = is_count_before(plane, p_receiver.position);
-	const bool is_between = p_node != 0u &&
-			is_before != is_count_light_before(p_light.is_directional != 0u, plane) &&
-			!is_count_at_light(p_light, p_receiver, plane);
-	if (is_between) {
+	if (p_node != 0u && is_before != is_count_light_before(p_light.is_directional != 0u, plane)) {
 		count_face(p_receiver, load_count_face(node.x), is_before, r_found);
 	}
 	return p_node != 0u ? node.y : 0u;
 }
 
-/// p_place: x' and y' of the receiver in its view.
-int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
+/// Crossings of the faces that the receiver's texel lists. p_place: x' and y' of the receiver in its view.
+CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
 	// Casters beyond the map hide nothing that the light reaches.
 	const bool is_inside = all(lessThanEqual(abs(p_place), load_count_view(p_view).half_extent));
 	uint next = is_inside ? load_count_first_node(p_view, find_count_texel(p_view, p_place)) : 0u;
@@ -100,7 +82,11 @@ int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountRe
 		next = count_node(p_light, p_view, next, p_receiver, found);
 		next = count_node(p_light, p_view, next, p_receiver, found);
 	}
-	return sum_crossings(found);
+	return found;
+}
+
+int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
+	return sum_crossings(count_crossings(p_light, p_view, p_place, p_receiver));
 }
 
 #endif

@@ -10,6 +10,7 @@ layout(set = 0, binding = COUNT_BINDING_NODES) uniform utextureBuffer nodes_buff
 layout(set = 0, binding = COUNT_BINDING_FACES) uniform utextureBuffer faces_buffer;
 layout(set = 0, binding = COUNT_BINDING_PLANES) uniform textureBuffer planes_buffer;
 layout(set = 0, binding = COUNT_BINDING_TOTALS) uniform utextureBuffer totals_buffer;
+layout(set = 0, binding = COUNT_BINDING_CUT_FACES) uniform utextureBuffer cut_faces_buffer;
 
 CountViewConstants load_count_view(uint p_view) {
 	return light.views[p_view];
@@ -35,6 +36,17 @@ CountFaceRecord load_count_face(uint p_face) {
 
 vec4 load_count_plane(uint p_face) {
 	return texelFetch(planes_buffer, int(p_face));
+}
+
+/// Of the faces that may cut the light's disc.
+uint find_cut_face_count() {
+	return light.most_cut_faces == 0u
+			? 0u
+			: min(texelFetch(totals_buffer, int(EDGE_COUNT_TOTAL_CUT_FACES)).r, light.most_cut_faces);
+}
+
+uint load_cut_face(uint p_index) {
+	return texelFetch(cut_faces_buffer, int(p_index)).r;
 }
 
 #endif

@@ -25,7 +25,7 @@ uvec2 load_count_mask(uint p_index) {
 // Edges that some receiver of a subgroup may have to count, and what is known of them, in one word each: a slice
 // for each subgroup.
 const uint SLICE_SIZE = 64u;
-shared uint chosen_edges[SLICE_SIZE * EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / 4];
+shared uint chosen_edges[SLICE_SIZE * COUNT_GROUP_SIZE / 4];
 
 /// One pixel: what it receives, and what was counted.
 struct CountPixel {
@@ -242,17 +242,12 @@ CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slop
 			vec2(subgroupMin(p_is_here ? range : COUNT_FAR), subgroupMax(p_is_here ? range : -COUNT_FAR)));
 }
 
-CountPixel count_pixel() {
-	const uint block = find_block();
-	const int receives = int(block * uint(EDGE_COUNT_RECEIVES_WORDS));
-	const uint parts = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_PARTS).r;
-	const bool is_sorted = (parts & EDGE_COUNT_IS_SORTED) != 0u;
-	const uint place = gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
-	const uint order = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_ORDER + int(place / 4u)).r;
-	const uint own_order = order >> (8u * (place % 4u)) & 0xffu;
-	const uint index = is_sorted ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : place;
+/// Each invocation counts one of the block's pixels, which has its place there. p_parts: the first of the words of
+/// EDGE_COUNT_RECEIVES_*. p_sorted_part: its receiver's, where they are sorted.
+CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
+	const bool is_sorted = (p_parts & EDGE_COUNT_IS_SORTED) != 0u;
 	CountPixel result;
-	result.pixel = ivec2(find_block_corner(block) + find_pixel_in_block(index));
+	result.pixel = ivec2(find_block_corner(p_block) + p_pixel);
 	result.edge_count = 0u;
 	const bool is_receiver = is_in_picture(result.pixel) && is_receiver_pixel(result.pixel);
 	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
@@ -261,22 +256,38 @@ CountPixel count_pixel() {
 	}
 	const bool is_counted = is_receiver && may_count_at(point);
 	const CountReceiver receiver = make_count_receiver(light, point.position);
-	CountState state = make_count_state(
-			is_counted ? count_solids(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver) : 0);
-	const uint own_part = is_sorted ? own_order >> EDGE_COUNT_ORDER_PART_SHIFT : point.view;
+	CountCrossings crossings = CountCrossings(0, 0, 0);
+	if (is_counted) {
+		crossings = count_crossings(light, VIEW_COUNT == 1u ? 0u : point.view, point.warped.xy, receiver);
+	}
+	const uint cut_face_count = is_counted ? find_cut_face_count() : 0u;
+	for (uint i = 0u; i < cut_face_count; ++i) {
+		const uint face = load_cut_face(i);
+		const vec4 plane = load_count_plane(face);
+		const bool is_before = is_count_before(plane, receiver.position);
+		if (is_before != is_count_light_before(light.is_directional != 0u, plane)) {
+			count_face(receiver, load_count_face(face), is_before, crossings);
+		}
+	}
+	CountState state = make_count_state(sum_crossings(crossings));
+	for (uint i = 0u; i < cut_face_count; ++i) {
+		const uint face = load_cut_face(i);
+		count_add_cut(receiver, load_count_face(face), load_count_plane(face), crossings.away >= crossings.toward, state);
+	}
+	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
 	while (subgroupAny(waits)) {
 		// Those of one part: what lies between parts would make them ask for edges that none of them needs.
 		const uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
 		const uint part = subgroupBroadcast(own_part, leader);
-		const uint view = find_part_view(parts, part);
+		const uint view = find_part_view(p_parts, part);
 		const bool is_here = waits && own_part == part;
 		const CountBox box = make_count_box(light, light.views[view],
 				find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
 		uint end = find_edge_count();
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
-			const uint chain = (block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
+			const uint chain = (p_block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
 			end = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r;
 			chunk = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
 		}
@@ -302,6 +313,23 @@ CountPixel count_pixel() {
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
 	return result;
+}
+
+/// The invocation's place among those of the work group.
+uint find_place() {
+	return gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
+}
+
+/// Each invocation counts one pixel of the work group's block.
+CountPixel count_pixel() {
+	const uint block = find_block();
+	const int receives = int(block * uint(EDGE_COUNT_RECEIVES_WORDS));
+	const uint parts = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_PARTS).r;
+	const uint place = find_place();
+	const uint order = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_ORDER + int(place / 4u)).r;
+	const uint own_order = order >> (8u * (place % 4u)) & 0xffu;
+	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : place;
+	return count_pixel_of_block(block, parts, find_pixel_in_block(index), own_order >> EDGE_COUNT_ORDER_PART_SHIFT);
 }
 
 #endif

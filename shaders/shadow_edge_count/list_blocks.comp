@@ -152,6 +152,7 @@ struct Chain {
 	uint first;
 	uint chunk; // the last one
 	uint edge_count;
+	bool is_smooth; // no edge is near, see EDGE_COUNT_BLOCKS_SMOOTH
 };
 shared Chain part_chains[PARTS_PER_TILE]; // in one view
 shared uint block_edge_counts[BLOCKS_PER_TILE]; // in all views
@@ -161,6 +162,7 @@ const uint SOME_ARE_DARK = 2u;
 const uint MAY_VARY = 4u;
 shared uint block_solids[BLOCKS_PER_TILE];
 shared uint blocks_have_room[BLOCKS_PER_TILE];
+shared uint blocks_are_smooth[BLOCKS_PER_TILE];
 
 /// Puts bundles from r_next on into wanted_bundles, until all are tested or there may be no room, and
 /// returns how many.
@@ -189,8 +191,9 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 	return count;
 }
 
-/// An edge, as a list has it. r_is_used: false where it adds nothing to any receiver of the box.
-uint test_edge(CountBox p_box, uint p_index, out bool r_is_used) {
+/// An edge, as a list has it. r_is_used: false where it adds nothing to any receiver of the box. r_least_share: the
+/// least of find_least_share.
+uint test_edge(CountBox p_box, uint p_index, out bool r_is_used, inout float r_least_share) {
 	const CountEdgeRecord edge = load_count_edge(p_index);
 	const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
 	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
@@ -201,6 +204,7 @@ uint test_edge(CountBox p_box, uint p_index, out bool r_is_used) {
 	while (!is_tested) { // not a branch: software drivers run what a branch skips
 		known = find_known_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
 				load_count_plane0(edge), load_count_plane1(edge));
+		r_least_share = known != COUNT_ADDS_NOTHING ? min(r_least_share, find_least_share(p_box, a, b)) : r_least_share;
 		is_tested = true;
 	}
 	r_is_used = is_in_reach && known != COUNT_ADDS_NOTHING;
@@ -236,14 +240,15 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 }
 
 /// Tests the edges of a bundle.
-void list_bundle(CountBox p_box, uint p_bundle, uint p_edge_count, inout Chain r_chain) {
+void list_bundle(
+		CountBox p_box, uint p_bundle, uint p_edge_count, inout float r_least_share, inout Chain r_chain) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	uint i = gl_SubgroupInvocationID;
 	do {
 		const uint index = p_bundle * size + i;
 		const bool is_there = i < size && index < p_edge_count;
 		bool is_used;
-		const uint entry = test_edge(p_box, is_there ? index : p_edge_count - 1u, is_used);
+		const uint entry = test_edge(p_box, is_there ? index : p_edge_count - 1u, is_used, r_least_share);
 		append_edges(entry, is_there && is_used, r_chain);
 		i += GROUP_SIZE;
 	} while (i - gl_SubgroupInvocationID < size);
@@ -251,7 +256,8 @@ void list_bundle(CountBox p_box, uint p_bundle, uint p_edge_count, inout Chain r
 }
 
 /// Lists those edges of the chosen bundles that a part needs.
-void list_part(CountBox p_box, uint p_wanted_count, uint p_edge_count, inout Chain r_chain) {
+void list_part(CountBox p_box, uint p_wanted_count, uint p_edge_count, inout float r_least_share,
+		inout Chain r_chain) {
 	for (uint first = 0u; first < p_wanted_count; first += GROUP_SIZE) {
 		const uint item = first + gl_SubgroupInvocationID;
 		const uint bundle = wanted_bundles[min(item, p_wanted_count - 1u)];
@@ -260,18 +266,18 @@ void list_part(CountBox p_box, uint p_wanted_count, uint p_edge_count, inout Cha
 		while ((left.x | left.y) != 0u) {
 			const uint lane = left.x != 0u ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
 			left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
-			list_bundle(p_box, wanted_bundles[first + lane], p_edge_count, r_chain);
+			list_bundle(p_box, wanted_bundles[first + lane], p_edge_count, r_least_share, r_chain);
 		}
 		++iteration_count;
 	}
 }
 
 /// Lists held edges that a part needs.
-void list_held(CountBox p_box, uint p_held_count, inout Chain r_chain) {
+void list_held(CountBox p_box, uint p_held_count, inout float r_least_share, inout Chain r_chain) {
 	for (uint first = 0u; first < p_held_count; first += GROUP_SIZE) {
 		const uint item = first + gl_SubgroupInvocationID;
 		bool is_used;
-		const uint entry = test_edge(p_box, held_edges[min(item, p_held_count - 1u)], is_used);
+		const uint entry = test_edge(p_box, held_edges[min(item, p_held_count - 1u)], is_used, r_least_share);
 		append_edges(entry, is_used && item < p_held_count, r_chain);
 		iteration_count += 3u;
 	}
@@ -287,8 +293,10 @@ void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count, ui
 		const uint i = uint(findLSB(parts));
 		const CountBox box = make_count_box(light, light.views[p_view], load_box(p_tile, p_parts, i));
 		Chain chain = part_chains[i];
-		list_part(box, p_wanted_count, edge_count, chain);
-		list_held(box, p_held_count, chain);
+		float least_share = COUNT_FAR;
+		list_part(box, p_wanted_count, edge_count, least_share, chain);
+		list_held(box, p_held_count, least_share, chain);
+		chain.is_smooth = chain.is_smooth && subgroupAll(least_share >= box.smooth_share);
 		if (subgroupElect()) {
 			part_chains[i] = chain;
 		}
@@ -335,8 +343,7 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 
 const uint MOST_STEPS = 128u; // through lists of faces: more, and testing each pixel is as cheap
 
-/// True where each face that the texels p_first..p_last list has all receivers of the box on one side, and does
-/// not count for some of them alone, see is_count_at_light.
+/// True where each face that the texels p_first..p_last list has all receivers of the box on one side.
 bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
@@ -346,8 +353,7 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	while (texel.y <= p_last.y && is_aside) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
 		const vec4 plane = load_count_plane(node.x);
-		const bool is_known = find_count_side(p_box, plane) != 0 && !may_be_at_light(light, plane);
-		is_aside = (next == 0u || is_known) && step_count < MOST_STEPS;
+		is_aside = (next == 0u || find_count_side(p_box, plane) != 0) && step_count < MOST_STEPS;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
@@ -402,7 +408,7 @@ void add_solids_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 void list_view(uvec2 p_tile, uint p_view) {
 	const uint bundle_count = find_bundle_count(find_edge_count());
 	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
-		part_chains[i] = Chain(0u, 0u, 0u);
+		part_chains[i] = Chain(0u, 0u, 0u, true);
 	}
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
@@ -425,6 +431,9 @@ void list_view(uvec2 p_tile, uint p_view) {
 			// Chunks are taken in the order of their numbers: the last one has room where all have.
 			if (chain.edge_count > 0u && chain.chunk >= light.chunk_capacity) {
 				blocks_have_room[i % BLOCKS_PER_TILE] = 0u;
+			}
+			if (!chain.is_smooth) {
+				blocks_are_smooth[i % BLOCKS_PER_TILE] = 0u;
 			}
 		}
 	}
@@ -449,6 +458,7 @@ void main() {
 		views |= (parts & EDGE_COUNT_IS_SORTED) != 0u ? view : parts & EDGE_COUNT_PARTS_MASK;
 		block_edge_counts[i] = 0u;
 		blocks_have_room[i] = 1u;
+		blocks_are_smooth[i] = (parts & EDGE_COUNT_IS_SMOOTH) != 0u ? 1u : 0u;
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
 	views = subgroupOr(views);
@@ -464,11 +474,11 @@ void main() {
 			const uint edge_count = block_edge_counts[i];
 			const uint solids = block_solids[i];
 			const bool is_whole = iteration_count < MOST_ITERATIONS;
-			uint kind = is_whole && blocks_have_room[i] != 0u ? uint(EDGE_COUNT_BLOCKS_LISTED)
-															  : uint(EDGE_COUNT_BLOCKS_UNLISTED);
+			uint kind = uint(blocks_are_smooth[i] != 0u ? EDGE_COUNT_BLOCKS_SMOOTH : EDGE_COUNT_BLOCKS_LISTED);
+			kind = is_whole && blocks_have_room[i] != 0u ? kind : uint(EDGE_COUNT_BLOCKS_UNLISTED);
 			kind = edge_count > light.budget ? uint(EDGE_COUNT_BLOCKS_FILTERED) : kind;
 			const bool is_even = light.most_edges > 0u && solids <= SOME_ARE_DARK;
-			kind = is_whole && edge_count == 0u
+			kind = is_whole && edge_count == 0u && find_cut_face_count() == 0u
 					? uint(is_even ? EDGE_COUNT_BLOCKS_EVEN : EDGE_COUNT_BLOCKS_PLAIN)
 					: kind;
 			const bool is_dark = kind == uint(EDGE_COUNT_BLOCKS_EVEN) && solids == SOME_ARE_DARK;

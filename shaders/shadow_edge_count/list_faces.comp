@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/cut_faces_inc.glsl"
 #include "shadow_edge_count/texel_rows_inc.glsl"
 
 // Lists the light's faces in the texels of one view's map that they may cover, each list linked, in no order:
@@ -60,7 +61,7 @@ void main() {
 	barrier();
 	const uint level = totals[EDGE_COUNT_TOTAL_LEVELS + push.view];
 	const uint face = gl_GlobalInvocationID.x;
-	if (face < light.face_count) {
+	if (face < light.face_count && !is_cut_face(light, faces[face])) {
 		const TexelRows rows = find_rows(face, level);
 		if (rows.last_row - rows.first_row >= LARGE_ROWS) {
 			large_faces[atomicAdd(large_count, 1u)] = face;

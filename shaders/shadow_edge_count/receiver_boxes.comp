@@ -139,6 +139,27 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 	return found;
 }
 
+/// True where each pixel has a receiver, and its place changes evenly from pixel to pixel: by no more than a part
+/// of the block's size otherwise than over the plane through three corners. All receivers are in one view.
+bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
+	const float MOST_DEVIATION = 0.25;
+	const uint RIGHT = 21u; // as find_pixel_in_block has it: bits of x are the even ones
+	const uint TOP = 42u;
+	const vec3 corner = subgroupBroadcast(p_points[0].position, 0u);
+	const vec3 right = subgroupBroadcast(p_points[RIGHT / GROUP_SIZE].position, RIGHT % GROUP_SIZE) - corner;
+	const vec3 top = subgroupBroadcast(p_points[TOP / GROUP_SIZE].position, TOP % GROUP_SIZE) - corner;
+	const float most = MOST_DEVIATION * MOST_DEVIATION * max(dot(right, right), dot(top, top));
+	bool is_even = true;
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
+		const vec2 place = vec2(find_pixel_in_block(pixel)) / float(EDGE_COUNT_BLOCK_PX - 1);
+		const vec3 deviation = p_points[i].position - corner - place.x * right - place.y * top;
+		is_even = is_even &&
+				(pixel >= PIXEL_COUNT || (p_points[i].view != NO_VIEW && dot(deviation, deviation) <= most));
+	}
+	return subgroupAll(is_even);
+}
+
 void main() {
 	CountPoint points[PIXELS_PER_INVOCATION];
 	bool is_lit = false;
@@ -175,6 +196,11 @@ void main() {
 		++view;
 	}
 	bool is_sorted = is_deep && bitCount(parts) == 1;
+	bool may_be_smooth = !is_deep && bitCount(parts) == 1;
+	while (may_be_smooth) { // not a branch: software drivers run what a branch skips
+		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
+		may_be_smooth = false;
+	}
 	while (is_sorted) { // not a branch: software drivers run what a branch skips
 		parts = write_sorted(block, points, w_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
 		is_sorted = false;

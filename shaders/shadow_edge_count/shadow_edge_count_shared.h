@@ -135,8 +135,12 @@ struct SHARED_ALIGN CountLightConstants {
 	uint node_capacity; // of each view's face lists
 	uint face_count;
 	uint most_edges; // that the light's list may have; 0 where its size is 0
+	float interpolation; // of how many R an edge may move between a block's receivers, see EDGE_COUNT_BLOCKS_SMOOTH
+	uint most_cut_faces; // that the list of faces that may cut the light's disc may have
+	uint padding0;
+	uint padding1;
 };
-SHARED_SIZE(CountLightConstants, 448);
+SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
 SHARED_OFFSET(CountLightConstants, block_count, 400);
 
@@ -154,11 +158,13 @@ SHARED_SIZE(CountBlockBox, 32);
 
 // What a block receives: a sum of 1 << part for each part that is there, of EDGE_COUNT_IS_SORTED and then its view
 // from bit EDGE_COUNT_VIEW_SHIFT on, and of EDGE_COUNT_IS_PARTLY_LIT where some receiver is in no part, since no
-// caster can hide it. Then, where it is sorted, its pixels in that order, a byte each: the place in the order of
+// caster can hide it; and of EDGE_COUNT_IS_SMOOTH where each pixel has a receiver, all are in one part, and their
+// places change evenly from pixel to pixel. Then, where it is sorted, its pixels in that order, a byte each: the place in the order of
 // find_pixel_in_block, and the part.
 #define EDGE_COUNT_PARTS_MASK 0x3fu
 #define EDGE_COUNT_VIEW_SHIFT 8
 #define EDGE_COUNT_VIEW_MASK 7u
+#define EDGE_COUNT_IS_SMOOTH 0x20000000u
 #define EDGE_COUNT_IS_SORTED 0x40000000u
 #define EDGE_COUNT_IS_PARTLY_LIT 0x80000000u
 #define EDGE_COUNT_RECEIVES_PARTS 0
@@ -171,6 +177,7 @@ SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_TOTAL_EDGES 0
 #define EDGE_COUNT_TOTAL_NODES 1 // of each view's face lists, also those without room
 #define EDGE_COUNT_TOTAL_LEVELS (EDGE_COUNT_TOTAL_NODES + EDGE_COUNT_MAX_VIEWS) // see load_count_level
+#define EDGE_COUNT_TOTAL_CUT_FACES (EDGE_COUNT_TOTAL_LEVELS + EDGE_COUNT_MAX_VIEWS)
 #define EDGE_COUNT_TOTAL_COUNT 16
 
 // Bindings of the passes over pixels and blocks, after those of map_resolve_inc.glsl.
@@ -191,9 +198,11 @@ SHARED_SIZE(CountBlockBox, 32);
 #define COUNT_BINDING_DISPATCHES (MAP_RESOLVE_OWN_BINDING + 14)
 #define COUNT_BINDING_BUNDLES (MAP_RESOLVE_OWN_BINDING + 15)
 #define COUNT_BINDING_RECEIVES (MAP_RESOLVE_OWN_BINDING + 16)
+#define COUNT_BINDING_CUT_FACES (MAP_RESOLVE_OWN_BINDING + 17)
 
 // Blocks by what they have: neither edges nor faces, so that all receivers are lit, or all dark; no edges; a list
-// of edges; edges, but no room for a list; more edges than the budget. For each kind the arguments of a dispatch
+// of edges; edges, but no room for a list; more edges than the budget; a list of edges that are all so far away that
+// the mask is smooth, see resolve_smooth.comp. For each kind the arguments of a dispatch
 // (blocks, 1, 1) and the blocks. Behind these arguments the number of chunks that were asked for, also those
 // without room.
 #define EDGE_COUNT_BLOCKS_EVEN 0
@@ -201,10 +210,11 @@ SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_BLOCKS_LISTED 2
 #define EDGE_COUNT_BLOCKS_UNLISTED 3
 #define EDGE_COUNT_BLOCKS_FILTERED 4
-#define EDGE_COUNT_BLOCK_KINDS 5
+#define EDGE_COUNT_BLOCKS_SMOOTH 5
+#define EDGE_COUNT_BLOCK_KINDS 6
 #define EDGE_COUNT_BLOCK_IS_DARK 0x80000000u // beside the block, in the list of even ones
-#define EDGE_COUNT_DISPATCH_CHUNKS 15
-#define EDGE_COUNT_DISPATCH_WORDS 16
+#define EDGE_COUNT_DISPATCH_CHUNKS 18
+#define EDGE_COUNT_DISPATCH_WORDS 19
 
 // Layers of the debug image.
 #define EDGE_COUNT_DEBUG_EDGES 0
@@ -231,6 +241,7 @@ SHARED_SIZE(CountBlockPush, 16);
 #define FACE_LIST_BINDING_NODES 3
 #define FACE_LIST_BINDING_TOTALS 4
 #define FACE_LIST_BINDING_DISPATCHES 5
+#define FACE_LIST_BINDING_CUT_FACES 6
 #define FACE_LIST_GROUP_SIZE 64
 
 /// One attempt to list a view's faces.

@@ -20,8 +20,8 @@ BY_DESIGN = {
 HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # up to which values edge_count must hold
 LEAST_MAE = 1.0 / 256  # smaller ones no picture shows
 MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
-# A caster cuts the light's disc in its centre: a known failure, see "Known failures" of edge_count.
-CUT_DISCS = ("light at a caster's corner",)
+# The light's centre is exactly a vertex of a caster: see "Known failures" of edge_count.
+VERTEX_LIGHTS = ("light at a caster's corner",)
 
 
 class Stability(StabilityCase):
@@ -64,18 +64,18 @@ class Stability(StabilityCase):
                         truth = self.report["configurations"][cell["configuration"]]["truth"]
                         allowed = max(2 * center["mae"], LEAST_MAE) + 2 * truth["standard_error"]
                         self.assertLessEqual(point["mae"], allowed)
-                    if moved is not None and point["label"] not in CUT_DISCS:
+                    if moved is not None and point["label"] not in VERTEX_LIGHTS:
                         self.assertLessEqual(moved, MOST_CHANGE)
 
-    def test_a_caster_in_the_light_is_a_method_s_error_not_rounding(self):
-        causes = [
-            cell["stability"]["condition"]["cause"]
-            for sweep, _, technique, point, cell in self.points
-            if sweep == "inside" and technique == "edge_count" and point["state"] == "doubled"
+    def test_a_caster_in_the_light_does_not_double_the_error_of_edge_count(self):
+        states = [
+            point["state"]
+            for sweep, _, technique, point, _ in self.points
+            if sweep == "inside" and technique == "edge_count"
         ]
         if "edge_count" in self.ids:
-            self.assertTrue(causes)
-            self.assertEqual(set(causes), {"method"})
+            self.assertTrue(states)
+            self.assertNotIn("doubled", states)
 
 
 if __name__ == "__main__":

@@ -80,6 +80,30 @@ public:
 				weight < 0 ? -side : side, std::abs(weight));
 	}
 
+	/// The line along which a face passes through the disc's plane. p_has_before: of closed parts the
+	/// faces count that have the receiver before them, else those that have it behind.
+	void add_cut(const CountFace &p_face, bool p_has_before) {
+		const bool is_receiver_before = is_before(p_face.plane, r);
+		if (!p_face.is_double_sided && is_receiver_before != p_has_before) {
+			return;
+		}
+		std::optional<glm::dvec2> leave;
+		std::optional<glm::dvec2> enter;
+		for (size_t corner = 0; corner < 3; ++corner) {
+			const glm::dvec3 a = receiver.find_offset(p_face.corners[corner]);
+			const glm::dvec3 b = receiver.find_offset(p_face.corners[(corner + 1) % 3]);
+			if ((a.z < 1.0) != (b.z < 1.0)) {
+				const glm::dvec3 cut = glm::mix(a, b, (1.0 - a.z) / (b.z - a.z));
+				(a.z < 1.0 ? leave : enter) = glm::dvec2(cut) / space.disc_radius;
+			}
+		}
+		if (leave) {
+			const bool is_between = is_receiver_before != (space.get_light_side(p_face.plane) > 0.0);
+			add_sector(is_receiver_before ? *leave : *enter, is_receiver_before ? *enter : *leave,
+					is_between ? 1.0 : -1.0, 1);
+		}
+	}
+
 	double resolve(int p_solid_count) const {
 		const double points = double(DiscMasks::SAMPLE_COUNT * masks.size());
 		double hidden = 0;
@@ -187,11 +211,14 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 		for (size_t corner = 0; corner < 3; ++corner) {
 			face.corners[corner] = to_light(p_topology.triangles[3 * size_t(index) + corner]);
 		}
+		if (is_mirrored) {
+			std::swap(face.corners[1], face.corners[2]);
+		}
 		const glm::dvec3 normal =
 				glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
 		const double length = glm::length(normal);
 		if (length > 0) {
-			const glm::dvec3 unit = normal * ((is_mirrored ? -1.0 : 1.0) / length);
+			const glm::dvec3 unit = normal / length;
 			face.plane = glm::dvec4(unit, -glm::dot(unit, face.corners[0]));
 		}
 		face.is_double_sided = p_topology.is_double_sided(index);
@@ -218,21 +245,24 @@ void CountedCasters::add_mesh(const MeshTopology &p_topology, const glm::dmat4 &
 	}
 }
 
-int count_solids_in_double(
+namespace {
+
+struct Crossings {
+	int away = 0;
+	int toward = 0;
+	int open = 0;
+
+	int get_solid_count() const { return open + std::max(away, toward); }
+};
+
+Crossings count_crossings(
 		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces) {
 	const Receiver receiver(p_space, p_r);
-	int away_count = 0;
-	int toward_count = 0;
-	int open_count = 0;
+	Crossings found;
 	for (const CountFace &face : p_faces) {
 		const bool is_receiver_before = is_before(face.plane, p_r);
 		if (is_receiver_before == (p_space.get_light_side(face.plane) > 0.0)) {
 			continue;
-		}
-		if (!p_space.is_directional &&
-				std::abs(face.plane.w) * glm::length(p_r) < 0.01 * p_space.disc_radius *
-								std::abs(glm::dot(glm::dvec3(face.plane), p_r))) {
-			continue; // see is_count_at_light
 		}
 		bool is_left[3];
 		for (int corner = 0; corner < 3; ++corner) {
@@ -243,21 +273,34 @@ int count_solids_in_double(
 		if (is_left[0] != is_left[1] || is_left[0] != is_left[2]) {
 			continue;
 		}
-		++(face.is_double_sided ? open_count : is_receiver_before ? away_count : toward_count);
+		++(face.is_double_sided ? found.open : is_receiver_before ? found.away : found.toward);
 	}
-	return open_count + std::max(away_count, toward_count);
+	return found;
+}
+
+} // namespace
+
+int count_solids_in_double(
+		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces) {
+	return count_crossings(p_space, p_r, p_faces).get_solid_count();
 }
 
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
 		std::span<const DiscMasks> p_masks) {
 	Counter counter(p_space, p_r, p_masks);
+	const Crossings crossings = count_crossings(p_space, p_r, p_faces);
 	if (p_space.disc_radius > 0) {
 		for (const CountEdge &edge : p_edges) {
 			counter.add_edge(edge);
 		}
+		for (const CountFace &face : p_faces) {
+			if (!p_space.is_directional) {
+				counter.add_cut(face, crossings.away >= crossings.toward);
+			}
+		}
 	}
-	return counter.resolve(count_solids_in_double(p_space, p_r, p_faces));
+	return counter.resolve(crossings.get_solid_count());
 }
 
 } // namespace gnomon

@@ -58,7 +58,11 @@ void main() {
 		return;
 	}
 	const CountReceiver receiver = make_count_receiver(light, items[item].xyz);
-	CountState state = make_count_state(count_solids(light, 0u, vec2(0.0), receiver));
+	const CountCrossings crossings = count_crossings(light, 0u, vec2(0.0), receiver);
+	CountState state = make_count_state(sum_crossings(crossings));
+	for (uint i = 0u; i < uint(faces.length()) && light.disc_radius > 0.0 && light.is_directional == 0u; ++i) {
+		count_add_cut(receiver, faces[i], planes[i], crossings.away >= crossings.toward, state);
+	}
 	for (uint i = 0u; i < uint(edges.length()) && light.disc_radius > 0.0; ++i) {
 		const CountEdgeRecord edge = edges[i];
 		const CountEdgeKind kind = make_count_kind(edge.a_face0.w, edge.b_face1.w);

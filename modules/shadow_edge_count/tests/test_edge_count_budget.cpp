@@ -26,10 +26,10 @@ FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_beg
 }
 
 /// The blocks of the debug view "blocks" have these colours, see debug_view.comp.
-enum class BlockColor { EVEN, PLAIN, LISTED, UNLISTED, FILTERED };
+enum class BlockColor { EVEN, PLAIN, LISTED, UNLISTED, FILTERED, SMOOTH };
 
 BlockColor find_block_color(const uint8_t *p_pixel) {
-	return p_pixel[0] == 0			   ? BlockColor::EVEN
+	return p_pixel[0] == 0			   ? (p_pixel[2] == 0 ? BlockColor::EVEN : BlockColor::SMOOTH) // black, blue
 			: p_pixel[0] == p_pixel[1] ? BlockColor::UNLISTED // grey
 			: p_pixel[2] == 0		   ? BlockColor::PLAIN	  // orange
 			: p_pixel[2] > p_pixel[1]  ? BlockColor::FILTERED // pink

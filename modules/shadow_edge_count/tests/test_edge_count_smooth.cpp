@@ -1,0 +1,87 @@
+// Blocks whose edges are all far away: 16 of their pixels are counted, the others interpolated.
+
+#include "modules/shadow_edge_count/tests/edge_count_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const glm::uvec2 SIZE_PX(256);
+
+/// The ground, seen from above its middle, under things that hang high above it.
+SmallScene make_scene(LightType p_type) {
+	SmallScene scene(p_type);
+	scene.box->surfaces.clear();
+	add_globe(scene, 0.7, { 0.3, 0.9, -0.2 });
+	for (int index = 0; index < 3; ++index) {
+		add_mesh(scene.scene, text("Plate ", index), make_box_mesh("plate", { 0.35f, 0.02f, 0.25f }),
+				{ 0.1 * index, 1.2 + 0.2 * index, 0.15 * index });
+	}
+	scene.light->properties["light_size"] = 0.9;
+	scene.light->properties["light_angular_distance"] = 36.0;
+	return scene;
+}
+
+RenderResult render_interpolated(RenderFixture &r_fixture, SmallScene &r_scene, double p_share) {
+	r_scene.light->properties["edge_count_interpolation"] = p_share;
+	return render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
+}
+
+/// Pixels of the greatest difference, and how many are not equal bit for bit.
+struct Change {
+	float greatest = 0;
+	size_t count = 0;
+};
+
+Change compare(const RenderResult &p_one, const RenderResult &p_other) {
+	Change change;
+	for (size_t index = 0; index < p_one.visibility.size(); ++index) {
+		const float apart = std::abs(p_one.visibility[index] - p_other.visibility[index]);
+		change.greatest = std::max(change.greatest, apart);
+		change.count += apart > 0 ? 1 : 0;
+	}
+	return change;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as right as a counted one") {
+	RenderFixture fixture;
+	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene = make_scene(type);
+		const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+		const RenderResult interpolated = render_interpolated(fixture, scene, 0.5);
+		const Change change = compare(counted, interpolated);
+		CHECK(change.count > 2000);
+		CHECK(change.greatest < 0.04f); // ten points of 256
+		if (has_reference()) {
+			const RenderResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
+			const double error = compare_masks(counted.visibility, reference).penumbra_mean;
+			CHECK(compare_masks(interpolated.visibility, reference).penumbra_mean < error + 2e-4);
+		}
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] beside outlines and contacts every pixel is counted") {
+	RenderFixture fixture;
+	SmallScene scene; // a box on the ground
+	scene.light->properties["light_size"] = 0.05;
+	const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+	CHECK(compare(counted, render_interpolated(fixture, scene, 0.5)).count == 0);
+}
+
+TEST_CASE("[GPU][EdgeCount] without interpolation no edge may move: a light without size has none") {
+	RenderFixture fixture;
+	SmallScene scene = make_scene(LightType::SPOT);
+	scene.light->properties["light_size"] = 0.0;
+	scene.light->properties["penumbra_outer_width"] = 0.0;
+	scene.light->properties["penumbra_inner_width"] = 0.0;
+	const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+	CHECK(compare(counted, render_interpolated(fixture, scene, 1.0)).count == 0);
+}

@@ -1,0 +1,81 @@
+// Writes the mask in blocks whose edges are all far from all receivers: resolve_smooth.comp and
+// resolve_smooth_fine.comp.
+//
+// There the image of each edge on the light's disc moves by a small part of R from one side of the block to the other,
+// so that the visibility is nearly a polynomial of the pixel's place. 16 of the 64 pixels are counted, and a polynomial
+// of degree 3 with least squares gives all: its 10 coefficients also even out the noise of the points on the disc.
+#ifndef COUNT_SMOOTH_INC_GLSL
+#define COUNT_SMOOTH_INC_GLSL
+
+#define COUNT_GROUP_SIZE 16
+#include "shadow_edge_count/count_resolve_inc.glsl"
+
+layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
+
+const uint SIDE = 4u; // lines of the block that are counted, and columns
+const int MOST_DEGREE = 3;
+const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX / COUNT_GROUP_SIZE);
+
+shared float counted[SIDE * SIDE]; // visibility
+shared float coefficients[SIDE * SIDE];
+
+/// 0, 2, 5 and 7: they lie evenly about the middle, and the outermost are among them, so that nothing is extrapolated.
+uint find_counted_line(uint p_index) {
+	return 2u * p_index + (p_index > 1u ? 1u : 0u);
+}
+
+uvec2 find_counted_pixel(uint p_place) {
+	return uvec2(find_counted_line(p_place % SIDE), find_counted_line(p_place / SIDE));
+}
+
+/// Polynomials of degree 0 to 3 of a place in the block: orthonormal over the four lines that are counted.
+vec4 find_basis(uint p_line) {
+	const float HALF = 3.5;
+	const float NEAR = 1.5 / HALF; // the inner lines, where the outer ones are at 1
+	const float SQUARE = NEAR * NEAR;
+	const float SUM = 1.0 + SQUARE; // half the sum of the lines' squares
+	const float SLOPE = (1.0 + SQUARE * SQUARE) / SUM;
+	const float CUBIC = (1.0 - SLOPE) * (1.0 - SLOPE) + SQUARE * (SQUARE - SLOPE) * (SQUARE - SLOPE);
+	const float u = float(p_line) / HALF - 1.0;
+	return vec4(0.5, u * inversesqrt(2.0 * SUM), (u * u - 0.5 * SUM) / (1.0 - SQUARE),
+			u * (u * u - SLOPE) * inversesqrt(2.0 * CUBIC));
+}
+
+/// The polynomial's coefficient of basis p_place % SIDE along x and p_place / SIDE along y.
+float find_coefficient(uint p_place) {
+	float sum = 0.0;
+	for (uint i = 0u; i < SIDE * SIDE; ++i) {
+		const uvec2 pixel = find_counted_pixel(i);
+		sum += counted[i] * find_basis(pixel.x)[p_place % SIDE] * find_basis(pixel.y)[p_place / SIDE];
+	}
+	return sum;
+}
+
+float find_fitted(uvec2 p_pixel) {
+	const vec4 x = find_basis(p_pixel.x);
+	const vec4 y = find_basis(p_pixel.y);
+	float sum = 0.0;
+	for (int row = 0; row <= MOST_DEGREE; ++row) {
+		for (int column = 0; column <= MOST_DEGREE - row; ++column) {
+			sum += coefficients[row * int(SIDE) + column] * x[column] * y[row];
+		}
+	}
+	return clamp(sum, 0.0, 1.0);
+}
+
+void main() {
+	const uint block = find_block();
+	const uint parts =
+			texelFetch(receives_buffer, int(block * uint(EDGE_COUNT_RECEIVES_WORDS)) + EDGE_COUNT_RECEIVES_PARTS).r;
+	const uint place = find_place();
+	counted[place] = count_pixel_of_block(block, parts, find_counted_pixel(place), 0u).visibility;
+	barrier();
+	coefficients[place] = find_coefficient(place);
+	barrier();
+	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
+		const uvec2 pixel = find_pixel_in_block(i * uint(COUNT_GROUP_SIZE) + place);
+		imageStore(mask_image, ivec2(find_block_corner(block) + pixel), vec4(find_fitted(pixel)));
+	}
+}
+
+#endif

@@ -1,0 +1,45 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_edge_count/cut_faces_inc.glsl"
+
+// Lists the faces that may cut the light's disc. One work group goes through all faces, so that the list has their order.
+layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
+layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+	CountLightConstants light;
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_FACES) readonly buffer Faces {
+	CountFaceRecord faces[];
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) writeonly buffer Totals {
+	uint totals[];
+};
+layout(std430, set = 0, binding = FACE_LIST_BINDING_CUT_FACES) writeonly buffer CutFaces {
+	uint cut_faces[];
+};
+
+const uint GROUP_SIZE = uint(FACE_LIST_GROUP_SIZE);
+shared uint are_cut[FACE_LIST_GROUP_SIZE];
+
+void main() {
+	const uint place = gl_LocalInvocationID.x;
+	uint count = 0u;
+	for (uint first = 0u; first < light.face_count; first += GROUP_SIZE) {
+		const uint face = first + place;
+		are_cut[place] = face < light.face_count && is_cut_face(light, faces[face]) ? 1u : 0u;
+		barrier();
+		uint before = 0u;
+		uint all = 0u;
+		for (uint i = 0u; i < GROUP_SIZE; ++i) {
+			before += i < place ? are_cut[i] : 0u;
+			all += are_cut[i];
+		}
+		if (are_cut[place] != 0u) {
+			cut_faces[count + before] = face;
+		}
+		count += all;
+		barrier();
+	}
+	if (place == 0u) {
+		totals[EDGE_COUNT_TOTAL_CUT_FACES] = count;
+	}
+}
