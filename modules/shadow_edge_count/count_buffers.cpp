@@ -92,8 +92,8 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 }
 
 void CountBuffers::reset() {
-	for (OwnedBuffer *buffer :
-			{ &planes, &faces, &words, &blocks, &edges, &bundles, &heads, &nodes, &cut_faces, &totals }) {
+	for (OwnedBuffer *buffer : { &planes, &faces, &words, &blocks, &edges, &bundles, &heads, &nodes,
+				 &cut_faces, &totals }) {
 		buffer->reset();
 	}
 	capacities = {};

@@ -28,16 +28,16 @@ CountCapacities choose_capacities(
 
 /// Buffers of one light, as handles of this frame.
 struct CountFrameBuffers {
-	RGBuffer planes;  // vec4 per face
-	RGBuffer faces;	  // CountFaceRecord
-	RGBuffer words;	  // a bit per edge of the casters
-	RGBuffer blocks;  // how many of them are set
-	RGBuffer edges;	  // CountEdgeRecord
-	RGBuffer bundles; // CountEdgeBundle
-	RGBuffer heads;	  // of the texels' face lists, by view
-	RGBuffer nodes;	  // likewise
-	RGBuffer cut_faces;	// that may cut the light's disc
-	RGBuffer totals;  // EDGE_COUNT_TOTAL_*
+	RGBuffer planes;	// vec4 per face
+	RGBuffer faces;		// CountFaceRecord
+	RGBuffer words;		// a bit per edge of the casters
+	RGBuffer blocks;	// how many of them are set
+	RGBuffer edges;		// CountEdgeRecord
+	RGBuffer bundles;	// CountEdgeBundle
+	RGBuffer heads;		// of the texels' face lists, by view
+	RGBuffer nodes;		// likewise
+	RGBuffer cut_faces; // that may cut the light's disc
+	RGBuffer totals;	// EDGE_COUNT_TOTAL_*
 };
 
 /// The GPU memory of one light, reused from frame to frame.

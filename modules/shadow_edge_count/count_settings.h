@@ -12,7 +12,7 @@ struct CountSettings {
 	uint32_t map_size_px = 256;
 	uint32_t budget = EDGE_COUNT_NO_BUDGET; // edges of one block of pixels
 	float interpolation = 0; // of how many R an edge may move between a block's receivers
-	double disc_radius = 0;					// R in metres; directional: a tangent
+	double disc_radius = 0;	 // R in metres; directional: a tangent
 
 	bool has_budget() const { return budget != EDGE_COUNT_NO_BUDGET; }
 	uint32_t get_turn_count() const { return sample_count / EDGE_COUNT_SAMPLE_COUNT; }

@@ -120,6 +120,9 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	}
 	if (drawn.casters.may_cut_disc) {
 		r_plan.run("faces that cut the light's disc");
+	} else if (drawn.disc_radius > 0) {
+		r_plan.leave_out(
+				"faces that cut the light's disc", "no caster comes so near to its centre");
 	}
 	if (!is_node_count_known()) {
 		r_plan.run("face lists with larger texels, where there is no room");
@@ -246,8 +249,8 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "list_cut_faces.comp", "clear_faces.comp", "list_faces.comp", "retry_faces.comp",
-				 "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp",
+				 "bound_edges.comp", "list_cut_faces.comp", "clear_faces.comp", "list_faces.comp",
+				 "retry_faces.comp", "receiver_boxes.comp", "list_blocks.comp", "resolve_even.comp",
 				 "resolve_plain.comp", "resolve_smooth.comp", "resolve_smooth_fine.comp",
 				 "resolve.comp", "resolve_fine.comp", "filter_blocks.comp", "debug.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));

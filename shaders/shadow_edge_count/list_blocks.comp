@@ -341,9 +341,23 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 	}
 }
 
-const uint MOST_STEPS = 128u; // through lists of faces: more, and testing each pixel is as cheap
+const uint MOST_STEPS = 512u; // through lists of faces: more, and testing each pixel is as cheap
 
-/// True where each face that the texels p_first..p_last list has all receivers of the box on one side.
+/// True where the face lies wholly before the receivers of the box, or wholly behind them.
+bool is_face_off(CountBox p_box, uint p_face) {
+	const CountFaceRecord face = load_count_face(p_face);
+	const vec3 a = uintBitsToFloat(face.a_kind.xyz);
+	const vec3 b = uintBitsToFloat(face.b.xyz);
+	const vec3 c = uintBitsToFloat(face.c.xyz);
+	const float least_before =
+			min(find_linear(p_box.below, a), min(find_linear(p_box.below, b), find_linear(p_box.below, c)));
+	const float most_behind =
+			max(find_linear(p_box.above, a), max(find_linear(p_box.above, b), find_linear(p_box.above, c)));
+	return least_before > p_box.margin || most_behind < -p_box.margin;
+}
+
+/// True where no receiver of the box can be on another side of a face than the others, of all faces that the texels
+/// p_first..p_last list.
 bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
@@ -353,7 +367,13 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	while (texel.y <= p_last.y && is_aside) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
 		const vec4 plane = load_count_plane(node.x);
-		is_aside = (next == 0u || find_count_side(p_box, plane) != 0) && step_count < MOST_STEPS;
+		bool is_known = next == 0u || find_count_side(p_box, plane) != 0;
+		bool is_open = !is_known;
+		while (is_open) { // not a branch: software drivers run what a branch skips
+			is_known = is_face_off(p_box, node.x);
+			is_open = false;
+		}
+		is_aside = is_known && step_count < MOST_STEPS;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
@@ -365,7 +385,7 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 }
 
 /// What is known of the solids between all receivers of a box and the light's centre, where no edge passes between:
-/// their number changes only through a face.
+/// their number changes only through a face. MAY_VARY: a face may part the receivers.
 uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	const CountViewConstants view = light.views[p_view];
 	const CountBox box = make_count_box(light, view, p_bounds);
@@ -388,16 +408,21 @@ uint find_box_solids(uint p_view, CountBounds p_bounds) {
 	return result;
 }
 
-/// Adds what is known of parts that have no edges; one invocation a part.
-void add_solids_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
+/// Looks for faces that part receivers: adds what is known of parts that have no edges, and where there are edges,
+/// a block with such a face is not smooth. One invocation a part.
+void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 	for (uint first = 0u; first < PARTS_PER_TILE && p_parts >> first != 0u; first += GROUP_SIZE) {
 		const uint i = first + gl_SubgroupInvocationID;
 		const CountBounds bounds = load_box(p_tile, p_parts, i);
+		const uint block = i % BLOCKS_PER_TILE;
+		const bool has_edges = part_chains[min(i, PARTS_PER_TILE - 1u)].edge_count > 0u;
 		// Without edges a light of size 0 has borders all the same.
-		bool is_wanted = !is_count_bounds_empty(bounds) &&
-				part_chains[min(i, PARTS_PER_TILE - 1u)].edge_count == 0u && light.most_edges > 0u;
+		bool is_wanted = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
+				(!has_edges || blocks_are_smooth[block] != 0u);
 		while (is_wanted) { // not a branch: software drivers run what a branch skips
-			atomicOr(block_solids[i % BLOCKS_PER_TILE], find_box_solids(p_view, bounds));
+			const uint solids = find_box_solids(p_view, bounds);
+			atomicOr(block_solids[block], has_edges ? 0u : solids);
+			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
 			is_wanted = false;
 		}
 		iteration_count += 2u * MOST_STEPS;
@@ -437,7 +462,9 @@ void list_view(uvec2 p_tile, uint p_view) {
 			}
 		}
 	}
-	add_solids_of_view(p_tile, p_view, parts);
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
+	check_faces_of_view(p_tile, p_view, parts);
 }
 
 /// Puts the block into the list of its kind. In no order: what a block's pixels get does not depend on it.
@@ -458,7 +485,8 @@ void main() {
 		views |= (parts & EDGE_COUNT_IS_SORTED) != 0u ? view : parts & EDGE_COUNT_PARTS_MASK;
 		block_edge_counts[i] = 0u;
 		blocks_have_room[i] = 1u;
-		blocks_are_smooth[i] = (parts & EDGE_COUNT_IS_SMOOTH) != 0u ? 1u : 0u;
+		// Where a face cuts the disc, its line there moves as the disc turns.
+		blocks_are_smooth[i] = (parts & EDGE_COUNT_IS_SMOOTH) != 0u && find_cut_face_count() == 0u ? 1u : 0u;
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
 	views = subgroupOr(views);

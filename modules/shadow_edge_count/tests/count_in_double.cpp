@@ -80,8 +80,8 @@ public:
 				weight < 0 ? -side : side, std::abs(weight));
 	}
 
-	/// The line along which a face passes through the disc's plane. p_has_before: of closed parts the
-	/// faces count that have the receiver before them, else those that have it behind.
+	/// The line along which a face passes through the disc's plane. p_has_before: of closed parts
+	/// the faces count that have the receiver before them, else those that have it behind.
 	void add_cut(const CountFace &p_face, bool p_has_before) {
 		const bool is_receiver_before = is_before(p_face.plane, r);
 		if (!p_face.is_double_sided && is_receiver_before != p_has_before) {
@@ -98,7 +98,8 @@ public:
 			}
 		}
 		if (leave) {
-			const bool is_between = is_receiver_before != (space.get_light_side(p_face.plane) > 0.0);
+			const bool is_between =
+					is_receiver_before != (space.get_light_side(p_face.plane) > 0.0);
 			add_sector(is_receiver_before ? *leave : *enter, is_receiver_before ? *enter : *leave,
 					is_between ? 1.0 : -1.0, 1);
 		}

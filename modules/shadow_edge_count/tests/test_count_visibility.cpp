@@ -204,13 +204,14 @@ TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid 
 
 TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays say") {
 	const auto sheet = make_mesh("sheet",
-			{ { -0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, 0.5f }, { -0.5f, 0.0f, 0.5f } },
+			{ { -0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, 0.5f },
+					{ -0.5f, 0.0f, 0.5f } },
 			{}, { 0, 1, 2, 0, 2, 3 });
-	const std::shared_ptr<const Mesh> meshes[] = { make_box_mesh("box", glm::vec3(0.3f, 0.2f, 0.5f)),
-		make_count_sphere(0.3, 8), sheet };
+	const std::shared_ptr<const Mesh> meshes[] = {
+		make_box_mesh("box", glm::vec3(0.3f, 0.2f, 0.5f)), make_count_sphere(0.3, 8), sheet
+	};
 	for (const auto &mesh : meshes) {
 		CAPTURE(mesh->name);
-		// The sheet's middle is off the light's centre, in which two of its triangles meet.
 		for (const glm::dvec3 &place : { glm::dvec3(0.02, 0.01, -0.03), glm::dvec3(0.3, 0.1, 0.1),
 					 glm::dvec3(-0.1, 0.35, 0.2), glm::dvec3(0.05, -0.25, -0.3) }) {
 			for (const double turn : { 0.0, 0.5, 1.4 }) {

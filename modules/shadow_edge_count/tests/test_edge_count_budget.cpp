@@ -29,11 +29,12 @@ FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_beg
 enum class BlockColor { EVEN, PLAIN, LISTED, UNLISTED, FILTERED, SMOOTH };
 
 BlockColor find_block_color(const uint8_t *p_pixel) {
-	return p_pixel[0] == 0			   ? (p_pixel[2] == 0 ? BlockColor::EVEN : BlockColor::SMOOTH) // black, blue
-			: p_pixel[0] == p_pixel[1] ? BlockColor::UNLISTED // grey
-			: p_pixel[2] == 0		   ? BlockColor::PLAIN	  // orange
-			: p_pixel[2] > p_pixel[1]  ? BlockColor::FILTERED // pink
-									   : BlockColor::LISTED;	  // yellow
+	return p_pixel[0] == 0
+			? (p_pixel[2] == 0 ? BlockColor::EVEN : BlockColor::SMOOTH) // black, blue
+			: p_pixel[0] == p_pixel[1] ? BlockColor::UNLISTED			// grey
+			: p_pixel[2] == 0		   ? BlockColor::PLAIN				// orange
+			: p_pixel[2] > p_pixel[1]  ? BlockColor::FILTERED			// pink
+									   : BlockColor::LISTED;				// yellow
 }
 
 /// How many of the pixels lie in blocks of a kind.

@@ -169,6 +169,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 			SmallScene scene(type);
 			scene.light->properties["light_size"] = 0.1;
 			const RenderResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			CHECK(without.plan.is_left_out("Light", "faces that cut the light's disc"));
 			add_mesh(scene.scene, "Beside", mesh, { 1.05, 3.8, 0.62 });
 			const RenderResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(compute_mask_difference(with, without) > 0.02);
@@ -179,11 +180,13 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] a caster that cuts the light's disc hides what rays say, mirrored too") {
+TEST_CASE(
+		"[GPU][EdgeCount] a caster that cuts the light's disc hides what rays say, mirrored too") {
 	RenderFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 0.3f, 0.08f });
 	const auto sheet = make_mesh("sheet",
-			{ { -0.3f, -0.4f, 0.01f }, { 0.3f, -0.4f, -0.02f }, { 0.02f, 0.5f, 0.1f } }, {}, { 0, 1, 2 });
+			{ { -0.3f, -0.4f, 0.01f }, { 0.3f, -0.4f, -0.02f }, { 0.02f, 0.5f, 0.1f } }, {},
+			{ 0, 1, 2 });
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		for (const auto &mesh : { rod, sheet }) {
 			for (const double side : { 1.0, -1.0 }) {
@@ -193,11 +196,13 @@ TEST_CASE("[GPU][EdgeCount] a caster that cuts the light's disc hides what rays 
 				SmallScene scene(type);
 				scene.light->properties["light_size"] = 0.15;
 				const glm::dvec3 center(scene.light->parent_from_node[3]);
-				MeshInstance3D &cutter =
-						add_mesh(scene.scene, "Cutter", mesh, center + glm::dvec3(0.03, 0.02, -0.04));
-				cutter.parent_from_node =
-						glm::scale(glm::rotate(cutter.parent_from_node, 0.4, glm::dvec3(1.0, 0.2, 0.7)),
-								glm::dvec3(side, 1.0, 1.0));
+				MeshInstance3D &cutter = add_mesh(
+						scene.scene, "Cutter", mesh, center + glm::dvec3(0.03, 0.02, -0.04));
+				cutter.parent_from_node = glm::scale(
+						glm::rotate(cutter.parent_from_node, 0.4, glm::dvec3(1.0, 0.2, 0.7)),
+						glm::dvec3(side, 1.0, 1.0));
+				const FramePlan plan = render_frame(fixture, scene).plan;
+				CHECK_FALSE(plan.is_left_out("Light", "faces that cut the light's disc"));
 				const MaskDifference difference = compare_with_reference(fixture, scene);
 				CHECK(difference.penumbra_count > 1000);
 				CHECK(difference.mean < 0.006); // that of 1024 rays is about 0.004

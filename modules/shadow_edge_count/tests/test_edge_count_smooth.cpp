@@ -19,7 +19,8 @@ SmallScene make_scene(LightType p_type) {
 	scene.box->surfaces.clear();
 	add_globe(scene, 0.7, { 0.3, 0.9, -0.2 });
 	for (int index = 0; index < 3; ++index) {
-		add_mesh(scene.scene, text("Plate ", index), make_box_mesh("plate", { 0.35f, 0.02f, 0.25f }),
+		add_mesh(scene.scene, text("Plate ", index),
+				make_box_mesh("plate", { 0.35f, 0.02f, 0.25f }),
 				{ 0.1 * index, 1.2 + 0.2 * index, 0.15 * index });
 	}
 	scene.light->properties["light_size"] = 0.9;
@@ -50,7 +51,8 @@ Change compare(const RenderResult &p_one, const RenderResult &p_other) {
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as right as a counted one") {
+TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as right as a "
+		  "counted one") {
 	RenderFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
@@ -76,12 +78,32 @@ TEST_CASE("[GPU][EdgeCount] beside outlines and contacts every pixel is counted"
 	CHECK(compare(counted, render_interpolated(fixture, scene, 0.5)).count == 0);
 }
 
-TEST_CASE("[GPU][EdgeCount] without interpolation no edge may move: a light without size has none") {
+TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far all edges are") {
 	RenderFixture fixture;
-	SmallScene scene = make_scene(LightType::SPOT);
-	scene.light->properties["light_size"] = 0.0;
-	scene.light->properties["penumbra_outer_width"] = 0.0;
-	scene.light->properties["penumbra_inner_width"] = 0.0;
+	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
+		CAPTURE(std::string(get_light_type_name(type)));
+		SmallScene scene(type);
+		scene.light->parent_from_node = look_at({ 3.0, 1.6, 0.1 }, { 0, 0.3, 0 });
+		scene.light->properties["light_size"] = 0.5;
+		// In the wall's plane, so that both sides of its foot are seen.
+		scene.camera->parent_from_node = look_at({ 0.1, 4.0, 3.0 }, { 0.1, 0.0, 0.0 });
+		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.0005f, 0.9f, 2.4f });
+		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });
+		// Its penumbra lies on both sides.
+		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 0.02f, 0.2f, 0.6f }),
+				{ 1.8, 0.95, 0.0 });
+		const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+		const Change change = compare(counted, render_interpolated(fixture, scene, 0.5));
+		CHECK(change.count > 500);
+		CHECK(change.greatest < 0.04f);
+	}
+}
+
+TEST_CASE("[GPU][EdgeCount] where a face cuts the light's disc nothing is interpolated") {
+	RenderFixture fixture;
+	SmallScene scene = make_scene(LightType::OMNI);
+	add_mesh(scene.scene, "Cutter", make_box_mesh("cutter", { 0.3f, 0.02f, 0.3f }),
+			glm::dvec3(scene.light->parent_from_node[3]) + glm::dvec3(0.2, 0.05, 0.1));
 	const RenderResult counted = render_interpolated(fixture, scene, 0.0);
 	CHECK(compare(counted, render_interpolated(fixture, scene, 1.0)).count == 0);
 }
