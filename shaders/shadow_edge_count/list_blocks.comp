@@ -341,7 +341,10 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 	}
 }
 
-const uint MOST_STEPS = 512u; // through lists of faces: more, and testing each pixel is as cheap
+// Through lists of faces. So many that no size of the map reaches it in usual scenes: what a block is does not depend on
+// that. So few that the views of an omni light stay below llvmpipe's limit.
+const uint MOST_STEPS = 2048u;
+uint step_count = 0u;
 
 /// True where the face lies wholly before the receivers of the box, or wholly behind them.
 bool is_face_off(CountBox p_box, uint p_face) {
@@ -361,7 +364,7 @@ bool is_face_off(CountBox p_box, uint p_face) {
 bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	uvec2 texel = p_first;
 	uint next = load_count_first_node(p_view, texel);
-	uint step_count = 0u;
+	const uint end = step_count + MOST_STEPS;
 	bool is_aside = true;
 	// One loop over all lists: a loop takes as many iterations as its slowest invocation.
 	while (texel.y <= p_last.y && is_aside) {
@@ -373,7 +376,7 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 			is_known = is_face_off(p_box, node.x);
 			is_open = false;
 		}
-		is_aside = is_known && step_count < MOST_STEPS;
+		is_aside = is_known && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
 		texel.x = is_row_end ? p_first.x : (is_end ? texel.x + 1u : texel.x);
@@ -425,7 +428,8 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
 			is_wanted = false;
 		}
-		iteration_count += 2u * MOST_STEPS;
+		iteration_count += 3u * subgroupMax(step_count) + 2u;
+		step_count = 0u;
 	}
 }
 
