@@ -10,17 +10,10 @@ namespace {
 
 const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
-/// In sectors.
-double compute_turn(uint32_t p_turn) {
-	// Neighbours in angle are half a radius apart. So one sector on, points fall between those of
-	// the turn before; a quarter of the circle on, they would all but coincide.
-	return p_turn * 1.25;
-}
-
-/// 6 bits the other way round.
-uint32_t reverse_bits(uint32_t p_value) {
+/// The bits of a number below p_count, a power of two, the other way round.
+uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	uint32_t reversed = 0;
-	for (uint32_t bit = 1; bit < DiscMasks::SAMPLE_COUNT; bit *= 2) {
+	for (uint32_t bit = 1; bit < p_count; bit *= 2) {
 		reversed = 2 * reversed + ((p_value & bit) != 0 ? 1 : 0);
 	}
 	return reversed;
@@ -36,22 +29,24 @@ glm::dvec2 compute_bin_center(uint32_t p_bin) {
 
 } // namespace
 
-glm::dvec2 DiscMasks::compute_sample(uint32_t p_index, uint32_t p_turn) {
-	const double radius = std::sqrt((reverse_bits(p_index) + 0.5) / SAMPLE_COUNT);
-	const double angle = SECTOR_RAD * (p_index + 0.5 + compute_turn(p_turn));
+glm::dvec2 DiscMasks::compute_sample(uint32_t p_index) const {
+	const uint32_t count = SAMPLE_COUNT * turn_count;
+	const uint32_t number = p_index * turn_count + turn;
+	const double radius = std::sqrt((reverse_bits(number, count) + 0.5) / count);
+	const double angle = 2.0 * std::numbers::pi * (number + 0.5) / count;
 	return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-uint32_t DiscMasks::find_sector(const glm::dvec2 &p_direction, uint32_t p_turn) {
+uint32_t DiscMasks::find_sector(const glm::dvec2 &p_direction) const {
 	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
-	const double place = angle + 0.5 + 3.0 * SAMPLE_COUNT - compute_turn(p_turn);
+	const double place = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
 	return static_cast<uint32_t>(place) % SAMPLE_COUNT;
 }
 
 uint64_t DiscMasks::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const {
 	const auto before = [](uint32_t p_place) { return (uint64_t(1) << p_place) - 1; };
-	const uint32_t from = find_sector(p_from, turn);
-	const uint32_t to = find_sector(p_to, turn);
+	const uint32_t from = find_sector(p_from);
+	const uint32_t to = find_sector(p_to);
 	const uint64_t between = before(from) ^ before(to);
 	return from > to ? ~between : between;
 }
@@ -68,15 +63,15 @@ uint32_t DiscMasks::find_offset(double p_offset) {
 	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
 }
 
-DiscMasks::DiscMasks(uint32_t p_turn) :
-		turn(p_turn), table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
+DiscMasks::DiscMasks(uint32_t p_turn, uint32_t p_turn_count) :
+		turn(p_turn), turn_count(p_turn_count), table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
 	for (uint32_t direction = 0; direction < DIRECTION_COUNT; ++direction) {
 		const glm::dvec2 unit = glm::normalize(compute_bin_center(direction));
 		for (uint32_t row = 0; row < OFFSET_COUNT; ++row) {
 			const double offset = row == 0 ? 0.0 : (row + 0.5) / OFFSET_COUNT;
 			uint64_t &mask = table[size_t(direction) * OFFSET_COUNT + row];
 			for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
-				if (glm::dot(compute_sample(index, p_turn), unit) > offset) {
+				if (glm::dot(compute_sample(index), unit) > offset) {
 					mask |= uint64_t(1) << index;
 				}
 			}

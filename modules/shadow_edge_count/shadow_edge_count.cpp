@@ -202,7 +202,7 @@ RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inp
 	if (!masks || mask_turn_count != turn_count) {
 		std::vector<uint64_t> tables;
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			const DiscMasks table(turn);
+			const DiscMasks table(turn, turn_count);
 			tables.insert(tables.end(), table.get_table().begin(), table.get_table().end());
 		}
 		const auto bytes = bytes_of(std::span<const uint64_t>(tables));

@@ -47,13 +47,13 @@ float count_half_angle(vec2 p_direction) {
 }
 
 /// The first point whose angle is not below the direction's: points stand in the order of their angles,
-/// in the middle of 64 equal sectors, each turn by one and a quarter of them (see DiscMasks).
+/// in 64 equal sectors, those of the turns evenly one after the other in each (see DiscMasks).
 int find_count_sector(vec2 p_direction, float p_turn) {
 	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
 	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
 	const float sectors = float(EDGE_COUNT_SAMPLE_COUNT);
-	const float place = angle * (sectors / (2.0 * COUNT_PI)) + 0.5 + 2.0 * sectors -
-			p_turn * 1.25;
+	const float place =
+			angle * (sectors / (2.0 * COUNT_PI)) + 1.0 + sectors - (p_turn + 0.5) / float(COUNT_TURN_COUNT);
 	return int(place) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 

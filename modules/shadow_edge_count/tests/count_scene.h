@@ -78,7 +78,7 @@ public:
 		}
 		masks.clear();
 		for (uint32_t turn = 0; turn < mask_turns; ++turn) {
-			masks.emplace_back(turn);
+			masks.emplace_back(turn, mask_turns);
 		}
 	}
 

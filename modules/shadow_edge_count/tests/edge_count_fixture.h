@@ -69,7 +69,7 @@ public:
 			}
 		}
 		for (uint32_t turn = 0; turn < settings.get_turn_count(); ++turn) {
-			masks.emplace_back(turn);
+			masks.emplace_back(turn, settings.get_turn_count());
 		}
 	}
 
