@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Measures edge_count against its goals and writes the tables of doc/benchmarks.md.
+"""Measures edge_count against its goals and writes the tables of doc/benchmarks.md: about an hour and a half.
 
-    measure_edge_count.py [--rounds N] [--size WxH] [--scenes A,B] [--write]
+    measure_edge_count.py [PART]... [--groups A,B] [--rounds N] [--write]
 
-The study's six scenes at three light sizes, with R = (r + t) / 2. Each round measures all configurations of a scene
-and a size one after the other, so that both parts of a ratio come from the same minute; the tables show medians
-over the rounds. Truths have 9216 samples and are traced once (the program keeps them in its cache).
-Without --write the tables are printed only. Build first: scons.
+Parts: errors wrong hard maps times memory motion; default: all. Each has a table of its own. The images are those of
+edge_count_images.py. References are traced once (the program keeps them in its cache). With --groups the goals hold
+only these, and nothing is written. Build first: scons.
 """
 
 import argparse
 import json
+import math
 import os
 import re
 import statistics
@@ -18,280 +18,367 @@ import sys
 import tempfile
 
 import run_benchmarks
-from measure_techniques import SCENES, SIZES_M, find_reference
+from edge_count_images import ARTISTS, GROUPS, LARGE_SHARE, PACKAGES, PLAIN, STUDY, SUN, Image, make_images
+from mask_file import load_mask
+from measure_techniques import find_reference
 from run_benchmarks import answer, describe_machine, format_table, publish_tables, run
 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
 
-TRUTH_SAMPLES = 9216
-LARGE_M = SIZES_M[-1]  # 30 % of the scenes' size; the others are 10 % of it or less
-CROWDED_SCENES = ("clutter",)  # many casters over each other: a goal of their own
-SINGLE_SCENES = ("sphere", "contact_box")  # one caster and its ground
+PER = 100_000  # receivers
+FINE_SAMPLES = 9216  # errors below 0.004
+USUAL_SAMPLES = 1024  # errors above 0.2
+ERROR_SIZES = {STUDY: "512x512", PLAIN: "400x400", PACKAGES: "400x400", ARTISTS: "400x400"}
+WRONG_SIZE = "1280x720"
+HARD_SIZE = "400x400"
+TIME_SIZES = {STUDY: "512x512", PLAIN: "800x800", PACKAGES: "512x512", ARTISTS: "512x512"}
+TIMED_FRAMES = 20
+MAP_SIZES = (256, 1024)
+PCSS = ("pcss", ("pcss_taps=64",))
 RECEIVERS_PASS = "receivers"  # the renderer's, for whatever technique
-
-EDGE_COUNT = ("edge_count",)
-# Technique and its settings. They are timed in this order.
-CONFIGURATIONS = {
-    "edge_count": EDGE_COUNT,
-    "coarse": ("edge_count", "edge_count_quality=64"),
-    "pcss": ("pcss", "pcss_taps=64"),
-    # Counts no edges: a depth map and a filter of 64 + 64 taps wherever a block of 16 x 16 pixels has an edge, the exact
-    # number of solids before the light's centre elsewhere.
-    "skipping": ("edge_count", "edge_count_budget=0"),
-}
-MAPS = {
-    "small map": ("edge_count", "edge_count_map_size=256"),
-    "large map": ("edge_count", "edge_count_map_size=1024"),
-}
-
+GRASS = "grass"  # has errors to meet, no times
 MEMORY_SIZE = "1920x1080"
 SMALLEST_SIZE = "16x16"
-MEMORY_LIGHT_M = 0.4
-MEMORY_LIGHTS = [(scene, None) for scene in SCENES] + [("three_lights", "Omni")]
 # What any technique needs beside its own: G-buffer, receivers, mask. Its map has 1 KB a view.
-BASELINE = ("shadow_map", "shadow_map_size=16")
+BASELINE = ("shadow_map", ("shadow_map_size=16",))
 MB = 1e6
-
+MOTION_SCENES = ("kitbash", "rigging")
+MOTION_FRAMES = 6
+MOTION_M = ("0.004", "0.0", "0.003")  # a frame
+MOTION_SAMPLES = 256
 SHOWN_PASSES = 3
-
-
-class Row:
-    """One scene at one light size."""
-
-    def __init__(self, scene, size_m):
-        self.scene = scene
-        self.size_m = size_m
-        self.name = "%s, R = %g" % (scene, size_m)
-        self.errors = {}  # configuration -> penumbra errors
-        self.rounds = []  # of each: configuration -> pass -> ms
-
-    def compute_ms(self, configuration):
-        return statistics.median(sum(passes[configuration].values()) for passes in self.rounds)
-
-    def compute_ratio(self, configuration, other):
-        return statistics.median(sum(passes[configuration].values()) / sum(passes[other].values()) for passes in self.rounds)
-
-    def find_costly_passes(self, configuration):
-        """Names and ms of those that take longest."""
-        names = {name for passes in self.rounds for name in passes[configuration]}
-        times = {name: statistics.median(passes[configuration].get(name, 0.0) for passes in self.rounds) for name in names}
-        return sorted(times.items(), key=lambda item: -item[1])[:SHOWN_PASSES]
 
 
 def report_progress(*words):
     print(*words, file=sys.stderr, flush=True)
 
 
-def draw(scene, size_m, size, configuration, out, *more):
-    """One mask of a light with r = t = R."""
-    technique, *settings = configuration
-    settings = ("light_size=%g" % size_m, "penumbra_outer_width=-1", "penumbra_inner_width=-1", *settings)
-    words = [word for setting in settings for word in ("--set", setting)]
-    path = os.path.join(run_benchmarks.SCENES, scene + ".gltf")
-    run([GNOMON, "visibility", path, "--technique", technique, "--size", size, "--out", out, *words, *more])
+def compare(reference, mask):
+    return json.loads(run([GNOMON, "compare", reference, mask]))
 
 
-def draw_timed(scene, size_m, size, configuration, out, *more):
-    """The same, and what `--time` writes."""
-    times = out + ".json"
-    draw(scene, size_m, size, configuration, out, "--time", times, *more)
-    with open(times, encoding="utf-8") as file:
-        return json.load(file)
+class Goals:
+    """The table of a part."""
+
+    def __init__(self):
+        self.rows = []
+
+    def add(self, what, most, measured, form="%.4f", worst=""):
+        self.rows.append((what, "<= %g" % most, (form % measured) + worst, answer(measured <= most)))
+
+    def add_mean_and_worst(self, what, mean_goal, worst_goal, values, combine=statistics.fmean, form="%.4f"):
+        """values: by name. A goal of None is not there."""
+        if values and mean_goal is not None:
+            self.add("%s, %s" % (what, combine.__name__.replace("f", "").replace("_", " ")), mean_goal, combine(values.values()), form)
+        if values and worst_goal is not None:
+            worst = max(values, key=values.get)
+            self.add(what + ", worst", worst_goal, values[worst], form, " (%s)" % worst)
+
+    def format(self):
+        return format_table(("what", "goal", "measured", "met"), self.rows)
 
 
-def get_pass_times(result):
-    """ms by pass, without the renderer's; the views of one light together."""
+def select(images, *groups):
+    return [image for image in images if image.group in groups]
+
+
+def find_sources(images):
+    """One image of each scene and light."""
+    return list({(image.group, image.source): image for image in images}.values())
+
+
+def trace(image, size, samples, out):
+    reference = find_reference()
+    image.draw(GNOMON, reference, ("%s_samples=%d" % (reference, samples),), size, out)
+
+
+def count_wrong(found):
+    return round(found["receiver"]["wrong"] * found["pixels"])
+
+
+class WrongReceivers:
+    """Of each group how many receivers are off by more than 0.2."""
+
+    def __init__(self):
+        self.counts = {}
+
+    def add(self, group, found):
+        wrong, pixels = self.counts.get(group, (0, 0))
+        self.counts[group] = wrong + count_wrong(found), pixels + found["pixels"]
+
+    def add_goals(self, goals):
+        for group, (wrong, pixels) in self.counts.items():
+            goals.add("receivers off by more than 0.2 in %d, %s" % (PER, group), 1, wrong / pixels * PER, "%.2f")
+
+
+def measure_errors(images, folder, _rounds):
+    """Penumbra errors, and receivers that are off by more than 0.2."""
+    reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
+    mae, wrong, rows = {}, WrongReceivers(), []
+    for image in images:
+        size = ERROR_SIZES[image.group]
+        trace(image, size, FINE_SAMPLES, reference)
+        errors = []
+        for technique, settings in (("edge_count", ()), ("edge_count", ("edge_count_quality=64",)), PCSS):
+            image.draw(GNOMON, technique, settings, size, mask)
+            errors.append(compare(reference, mask))
+        wrong.add(image.group, errors[0])
+        own, coarse, pcss = (error["penumbra"] for error in errors)
+        mae[image] = own["mae"]
+        numbers = (own["mae"], own["p99"], own["umbra_over"], coarse["mae"], pcss["mae"])
+        rows.append((image.name, *("%.4f" % number for number in numbers), count_wrong(errors[0]), count_wrong(errors[2])))
+        report_progress("errors of %s: %s" % (image.name, rows[-1]))
+    goals = Goals()
+    study, untuned = (
+        {image.name: mae[image] for image in select(images, *groups)} for groups in ((STUDY,), (PACKAGES, ARTISTS))
+    )
+    goals.add_mean_and_worst("penumbra MAE, study scenes", 0.0014, 0.0072, study)
+    goals.add_mean_and_worst("penumbra MAE, package meshes, kitbash, rigging, grass", 0.0025, 0.006, untuned)
+    wrong.add_goals(goals)
+    header = ("image", "MAE", "p99", "`umbra_over`", "MAE of 64 points", "MAE of `pcss`", "wrong", "wrong of `pcss`")
+    return [*goals.format(), "", *format_table(header, rows)]
+
+
+def measure_wrong(images, folder, _rounds):
+    """Receivers that are off by more than 0.2 in large images."""
+    reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
+    goals, wrong, rows = Goals(), WrongReceivers(), []
+    for image in images:
+        trace(image, WRONG_SIZE, USUAL_SAMPLES, reference)
+        image.draw(GNOMON, "edge_count", (), WRONG_SIZE, mask)
+        found = compare(reference, mask)
+        wrong.add(image.group, found)
+        report_progress("wrong in %s: %d of %d" % (image.name, count_wrong(found), found["pixels"]))
+        if count_wrong(found) > 0:
+            rows.append((image.name, count_wrong(found), found["pixels"]))
+    wrong.add_goals(goals)
+    return [*goals.format(), "", *(format_table(("image", "wrong", "receivers"), rows) if rows else ["No receiver."])]
+
+
+def measure_hard(images, folder, _rounds):
+    """A light of size 0 against the traced one."""
+    reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
+    goals, rows = Goals(), []
+    for technique, most in (("edge_count", 2), ("shadow_volume", 20)):
+        wrong, pixels = 0, 0
+        for source in find_sources(images):
+            image = Image(source.group, source.path, source.light, 0.0)
+            trace(image, HARD_SIZE, 1, reference)
+            image.draw(GNOMON, technique, (), HARD_SIZE, mask)
+            found = compare(reference, mask)
+            count = count_wrong(found)
+            wrong, pixels = wrong + count, pixels + found["pixels"]
+            report_progress("hard shadow of %s, %s: %d of %d" % (image.name, technique, count, found["pixels"]))
+            if count > 0:
+                rows.append((image.name, technique, count, found["pixels"]))
+        goals.add("hard shadow: wrong receivers in %d, %s" % (PER, technique), most, wrong / pixels * PER, "%.2f")
+    return [*goals.format(), "", *(format_table(("image", "technique", "wrong", "receivers"), rows) if rows else ["No receiver."])]
+
+
+def measure_maps(images, folder, _rounds):
+    """The greatest difference between masks with a small and a large map."""
+    paths = [os.path.join(folder, "mask_%d.exr" % size) for size in MAP_SIZES]
+    differences = {}
+    for image in images:
+        for size, path in zip(MAP_SIZES, paths):
+            image.draw(GNOMON, "edge_count", ("edge_count_map_size=%d" % size,), ERROR_SIZES[image.group], path)
+        small, large = (load_mask(path).visibility for path in paths)
+        differences[image.name] = max(abs(a - b) for a, b in zip(small, large))
+        report_progress("maps of %s: %.5f" % (image.name, differences[image.name]))
+    goals = Goals()
+    what = "greatest difference between maps of %d and %d" % MAP_SIZES
+    goals.add_mean_and_worst(what, None, round(1 / 255, 4), differences, form="%.5f")
+    return goals.format()
+
+
+def get_pass_times(result, clock):
+    """ms by pass, without the renderer's; the views of one light together. clock: gpu_ms or wall_ms."""
     if all(item["name"] != RECEIVERS_PASS for item in result["passes"]):
-        raise SystemExit(
-            "ERROR: the measured light has no pass %s. Its passes: %s. Change RECEIVERS_PASS in measure_edge_count.py."
-            % (RECEIVERS_PASS, ", ".join(item["name"] for item in result["passes"]))
-        )
+        names = ", ".join(item["name"] for item in result["passes"])
+        raise SystemExit("ERROR: the measured light has no pass %s. Its passes: %s. Change RECEIVERS_PASS." % (RECEIVERS_PASS, names))
     times = {}
     for item in result["passes"]:
         if item["name"] != RECEIVERS_PASS:
             name = re.sub(r" view \d+( attempt \d+)?$", "", item["name"])
-            times[name] = times.get(name, 0.0) + item["wall_ms" if item["is_on_host"] else "gpu_ms"]
+            times[name] = times.get(name, 0.0) + item["wall_ms" if item["is_on_host"] else clock]
     return times
 
 
-def compare(row, truth, mask):
-    errors = json.loads(run([GNOMON, "compare", truth, mask]))["penumbra"]
-    if errors["pixels"] == 0:
-        raise SystemExit("ERROR: %s: no pixel is in the penumbra. Use a larger --size." % row.name)
-    return errors
+class Timing:
+    """Rounds of one image: each measures edge_count and pcss one after the other, so that both parts of a ratio come
+    from the same minute."""
 
+    def __init__(self, image):
+        self.image = image
+        self.rounds = []  # of each: (results of edge_count, of pcss)
 
-def measure_errors(rows, size):
-    """All errors: they are the same each time, so that once is enough. Nothing is timed here."""
-    reference = find_reference()
-    exact = (reference, "%s_samples=%d" % (reference, TRUTH_SAMPLES))
-    with tempfile.TemporaryDirectory() as folder:
-        truth, mask = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
-        for index, row in enumerate(rows):
-            report_progress("errors, %d of %d: %s" % (index + 1, len(rows), row.name))
-            draw(row.scene, row.size_m, size, exact, truth)
-            for name, configuration in {**CONFIGURATIONS, **MAPS}.items():
-                draw(row.scene, row.size_m, size, configuration, mask)
-                row.errors[name] = compare(row, truth, mask)
-
-
-def measure_times(rows, size, round_count):
-    with tempfile.TemporaryDirectory() as folder:
+    def measure(self, folder):
         mask = os.path.join(folder, "mask.exr")
-        for index in range(round_count):
-            for row in rows:
-                passes = {
-                    name: get_pass_times(draw_timed(row.scene, row.size_m, size, configuration, mask))
-                    for name, configuration in CONFIGURATIONS.items()
-                }
-                row.rounds.append(passes)
-                totals = ", ".join("%s %.1f ms" % (name, sum(times.values())) for name, times in passes.items())
-                report_progress("round %d of %d: %s: %s" % (index + 1, round_count, row.name, totals))
+        size = TIME_SIZES[self.image.group]
+        results = tuple(
+            self.image.draw(GNOMON, technique, settings, size, mask, "--timed-frames", str(TIMED_FRAMES))
+            for technique, settings in (("edge_count", ()), PCSS)
+        )
+        self.rounds.append(results)
+
+    def compute_ratio(self, clock="gpu_ms"):
+        sums = [[sum(get_pass_times(result, clock).values()) for result in results] for results in self.rounds]
+        return statistics.median(own / pcss for own, pcss in sums)
+
+    def find_passes(self):
+        """Median ms by pass, the longest first."""
+        times = [get_pass_times(own, "gpu_ms") for own, _ in self.rounds]
+        names = {name for passes in times for name in passes}
+        medians = {name: statistics.median(passes.get(name, 0.0) for passes in times) for name in names}
+        return sorted(medians.items(), key=lambda item: -item[1])
 
 
-def measure_memory(scenes):
-    """MB of each light, beside what any technique needs."""
-    memory = {}
-    with tempfile.TemporaryDirectory() as folder:
-        mask = os.path.join(folder, "mask.exr")
-
-        def measure_bytes(scene, light, size):
-            more = ["--light", light] if light else []
-            used = [
-                draw_timed(scene, MEMORY_LIGHT_M, size, configuration, mask, *more)["bytes"]
-                for configuration in (EDGE_COUNT, BASELINE)
-            ]
-            return used[0] - used[1]
-
-        for scene, light in MEMORY_LIGHTS:
-            if scene in SCENES and scene not in scenes:
-                continue
-            # `bytes` holds once what is kept, and twice what lives within a frame: of the frame that reads the mask back
-            # and of those that are timed. Only the latter grows with the picture, so that the mean has each once.
-            name = "%s, %s" % (scene, light) if light else scene
-            memory[name] = statistics.fmean(measure_bytes(scene, light, size) for size in (SMALLEST_SIZE, MEMORY_SIZE)) / MB
-            report_progress("memory of %s: %.1f MB" % (name, memory[name]))
-    return memory
-
-
-def judge(what, goal, values, combine, form="%.4f"):
-    """A row of the goals. values: by name, so that the worst can be named; none when --scenes leaves out all of them.
-    goal: "<= number", perhaps with a unit."""
-    if not values:
-        return (what, goal, "not measured", "")
-    value = combine(values.values())
-    measured = form % value
-    if combine is max and min(values.values()) < value:
-        measured += " (%s)" % max(values, key=values.get)
-    return (what, goal, measured, answer(value <= float(goal.split()[1])))
-
-
-def build_error_goals(rows):
-    mae = {row.name: row.errors["edge_count"]["mae"] for row in rows}
-    p99 = {row.name: row.errors["edge_count"]["p99"] for row in rows}
-    umbra_over = {row.name: round(row.errors["edge_count"]["umbra_over"], 4) for row in rows}
-    single = {row.name: mae[row.name] for row in rows if row.scene in SINGLE_SCENES}
-    small, large = (statistics.fmean(row.errors[name]["mae"] for row in rows) for name in MAPS)
-    change = 100 * (small - large) / large
-    return [
-        judge("penumbra MAE, mean", "<= 0.003", mae, statistics.fmean),
-        judge("penumbra MAE, worst", "<= 0.02", mae, max),
-        judge("penumbra p99, mean", "<= 0.02", p99, statistics.fmean),
-        judge("`umbra_over`, worst", "<= 0", umbra_over, max),
-        judge("penumbra MAE, worst of %s" % " and ".join(SINGLE_SCENES), "<= 0.001", single, max),
-        ("mean MAE, maps of 256 against 1024", "< 5 %", "%+.1f %%" % change, answer(abs(change) < 5)),
+def measure_times(images, folder, rounds):
+    """Time over that of pcss."""
+    is_timed = {STUDY: True, PLAIN: True, PACKAGES: False, ARTISTS: False}  # at all sizes of the light
+    timings = [
+        Timing(image)
+        for image in images
+        if image.scene != GRASS and (is_timed[image.group] or image.share == LARGE_SHARE)
     ]
+    for index in range(rounds):
+        for timing in timings:
+            timing.measure(folder)
+            report_progress("round %d of %d: %s: %.2f" % (index + 1, rounds, timing.image.name, timing.compute_ratio()))
+    goals = Goals()
 
-
-def build_time_goals(rows):
-    ratios = {row.name: row.compute_ratio("edge_count", "pcss") for row in rows}
-    skipping = {row.name: row.compute_ratio("edge_count", "skipping") for row in rows}
-
-    def select(is_large, is_crowded):
+    def get_ratios(group, light=None, clock="gpu_ms"):
         return {
-            row.name: ratios[row.name]
-            for row in rows
-            if (row.size_m == LARGE_M) == is_large and (row.scene in CROWDED_SCENES) == is_crowded
+            timing.image.name: timing.compute_ratio(clock)
+            for timing in timings
+            if timing.image.group == group and light in (None, timing.image.light)
         }
 
-    crowded = " and ".join(CROWDED_SCENES)
-    return [
-        judge("time over `pcss`, geometric mean", "<= 0.7", ratios, statistics.geometric_mean, "%.2f"),
-        judge("the same, R <= 10 %% of S, worst without %s" % crowded, "<= 1.0", select(False, False), max, "%.2f"),
-        judge("the same, R <= 10 %% of S, worst of %s" % crowded, "<= 1.3", select(False, True), max, "%.2f"),
-        judge("the same, R = 30 %% of S, worst without %s" % crowded, "<= 2", select(True, False), max, "%.2f"),
-        judge("the same, R = 30 %% of S, worst of %s" % crowded, "<= 3", select(True, True), max, "%.2f"),
-        judge("time over `pcss` that skips, geometric mean", "<= 1.0", skipping, statistics.geometric_mean, "%.2f"),
-    ]
+    mean = statistics.geometric_mean
+    goals.add_mean_and_worst("time over `pcss`, study scenes", 0.28, None, get_ratios(STUDY), mean, "%.2f")
+    for light, most in (("Omni", 0.22), ("Spot", 0.2), ("Sun", 0.15)):
+        goals.add_mean_and_worst("the same, one box and one torus, " + light, None, most, get_ratios(PLAIN, light), form="%.2f")
+    goals.add_mean_and_worst("the same, package meshes, R = 10 %", 0.3, None, get_ratios(PACKAGES), mean, "%.2f")
+    goals.add_mean_and_worst("the same, kitbash and rigging", None, 1.3, get_ratios(ARTISTS), form="%.2f")
+    goals.add_mean_and_worst("the same, wall time", None, 1.3, get_ratios(ARTISTS, clock="wall_ms"), form="%.2f")
+    rows = []
+    for timing in timings:
+        passes = timing.find_passes()
+        longest = ", ".join("%s %.1f" % item for item in passes[:SHOWN_PASSES])
+        rows.append((timing.image.name, "%.1f" % sum(ms for _, ms in passes), "%.2f" % timing.compute_ratio(), longest))
+    return [*goals.format(), "", *format_table(("image", "ms", "over `pcss`", "longest passes, ms"), rows)]
 
 
-def build_goals(rows, memory):
-    memory_goal = judge("memory of a light at %s, worst" % MEMORY_SIZE.replace("x", " x "), "<= 64 MB", memory, max, "%.1f MB")
-    return format_table(("what", "goal", "measured", "met"), build_error_goals(rows) + build_time_goals(rows) + [memory_goal])
+def measure_memory(images, folder, _rounds):
+    """MB of a light, beside what any technique needs."""
+    mask = os.path.join(folder, "mask.exr")
+    used = {}
+    for image in find_sources([image for image in images if math.isclose(image.share, LARGE_SHARE)]):
 
-
-def build_rows(rows):
-    lines = []
-    for row in rows:
-        errors = row.errors["edge_count"]
-        lines.append(
-            (
-                row.scene,
-                "%g" % row.size_m,
-                *("%.4f" % errors[name] for name in ("mae", "p99", "umbra_over")),
-                "%.4f" % row.errors["pcss"]["mae"],
-                "%.1f" % row.compute_ms("edge_count"),
-                "%.2f" % row.compute_ratio("edge_count", "pcss"),
-                "%.2f" % row.compute_ratio("edge_count", "skipping"),
-                ", ".join("%s %.1f" % cost for cost in row.find_costly_passes("edge_count")),
+        def measure_bytes(size, image=image):
+            own, baseline = (
+                image.draw(GNOMON, technique, settings, size, mask, "--timed-frames", "1")["bytes"]
+                for technique, settings in (("edge_count", ()), BASELINE)
             )
-        )
-    header = ("scene", "R in m", "MAE", "p99", "`umbra_over`", "MAE of `pcss`", "ms", "over `pcss`", "over `pcss` that skips")
-    return format_table((*header, "longest passes, ms"), lines)
+            return own - baseline
+
+        # `bytes` holds once what is kept, and twice what lives within a frame: of the frame that reads the mask back
+        # and of those that are timed. Only the latter grows with the image, so that the mean has each once.
+        used[image.source] = statistics.fmean(map(measure_bytes, (SMALLEST_SIZE, MEMORY_SIZE))) / MB
+        report_progress("memory of %s: %.1f MB" % (image.source, used[image.source]))
+    goals = Goals()
+    goals.add_mean_and_worst("MB of a light at %s" % MEMORY_SIZE.replace("x", " x "), None, 64, used, form="%.1f")
+    return goals.format()
 
 
-def describe_coarse(rows):
-    mae, p99 = (statistics.fmean(row.errors["coarse"][name] for row in rows) for name in ("mae", "p99"))
-    ratio = statistics.geometric_mean(row.compute_ratio("coarse", "pcss") for row in rows)
-    return "With `%s`: mean MAE %.4f, mean p99 %.4f, time over `pcss` %.2f (geometric mean)." % (
-        CONFIGURATIONS["coarse"][1], mae, p99, ratio)  # fmt: skip
+def list_frames(path, count):
+    stem, ending = os.path.splitext(path)
+    return ["%s.%04d%s" % (stem, index, ending) for index in range(count)]
 
 
-def describe_memory(memory):
-    lights = ", ".join("%s %.1f" % item for item in memory.items())
-    return "Memory of a light at %s, MB: %s." % (MEMORY_SIZE.replace("x", " x "), lights)
+def compute_rmse(errors, pixels):
+    return math.sqrt(statistics.fmean(errors[i] * errors[i] for i in pixels))
+
+
+def measure_motion(images, folder, _rounds):
+    """Temporal error: RMSE of the change from frame to frame less that of the reference, over penumbra pixels. That of a
+    reference of few samples with a new scramble each frame is sqrt(2) times its RMSE in one frame: its errors in two
+    frames have nothing in common."""
+    reference_id = find_reference()
+    techniques = {
+        "reference": (reference_id, ("%s_samples=%d" % (reference_id, FINE_SAMPLES),)),
+        "few": (reference_id, ("%s_samples=%d" % (reference_id, MOTION_SAMPLES),)),
+        "edge_count": ("edge_count", ()),
+    }
+    ratios, rows = {}, []
+    for image in images:
+        if image.scene not in MOTION_SCENES or image.share != LARGE_SHARE or image.light == SUN:  # a sun has no place
+            continue
+        frames = {}
+        for name, (technique, settings) in techniques.items():
+            out = os.path.join(folder, name + ".exr")
+            image.draw(GNOMON, technique, settings, HARD_SIZE, out, "--frames", str(MOTION_FRAMES), "--motion", *MOTION_M)
+            frames[name] = [load_mask(path) for path in list_frames(out, MOTION_FRAMES)]
+        errors = {
+            name: [
+                [v - w for v, w in zip(mask.visibility, reference.visibility)]
+                for mask, reference in zip(frames[name], frames["reference"])
+            ]
+            for name in ("few", "edge_count")
+        }
+        pixels = frames["reference"][0].find_penumbra()
+        few = math.sqrt(2) * statistics.fmean(compute_rmse(error, pixels) for error in errors["few"])
+        changes = [[b - a for a, b in zip(*pair)] for pair in zip(errors["edge_count"], errors["edge_count"][1:])]
+        own = statistics.fmean(compute_rmse(change, pixels) for change in changes)
+        ratios[image.source] = own / few
+        rows.append((image.source, "%.4f" % own, "%.4f" % few))
+        report_progress("temporal error of %s: %.4f, few samples %.4f" % (image.source, own, few))
+    goals = Goals()
+    what = "temporal error over that of %d samples" % MOTION_SAMPLES
+    goals.add_mean_and_worst(what, None, 1.1, ratios, form="%.2f")
+    header = ("image", "temporal error", "of %d samples, a new scramble each frame" % MOTION_SAMPLES)
+    return [*goals.format(), "", *format_table(header, rows)]
+
+
+PARTS = {
+    "errors": measure_errors,
+    "wrong": measure_wrong,
+    "hard": measure_hard,
+    "maps": measure_maps,
+    "times": measure_times,
+    "memory": measure_memory,
+    "motion": measure_motion,
+}
 
 
 def main():
     parser = argparse.ArgumentParser(description="Measures edge_count against its goals; see doc/benchmarks.md.")
-    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="of all configurations in turn (default: 3)")
-    parser.add_argument("--size", default="512x512", metavar="WxH", help="of the pictures (default: 512x512)")
-    parser.add_argument("--scenes", default=",".join(SCENES), metavar="A,B", help="these scenes only")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
+    parser.add_argument("--groups", default=",".join(str(i) for i in range(len(GROUPS))), metavar="A,B",
+                        help=", ".join("%d: %s" % item for item in enumerate(GROUPS)))  # fmt: skip
+    parser.add_argument("--rounds", type=int, default=3, metavar="N", help="of all times in turn (default: %(default)s)")
     parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
     arguments = parser.parse_args()
     if arguments.rounds < 1:
         parser.error("--rounds is %d, must be 1 or more" % arguments.rounds)
-    if not re.fullmatch(r"[1-9]\d*x[1-9]\d*", arguments.size):
-        parser.error("--size is %s, must be like 512x512" % arguments.size)
-    scenes = arguments.scenes.split(",")
-    if any(scene not in SCENES for scene in scenes):
-        parser.error("--scenes is %s, must be of: %s" % (arguments.scenes, ",".join(SCENES)))
-    if arguments.write and set(scenes) != set(SCENES):
-        parser.error("--write needs all scenes, since the goals are means over them. Leave --scenes out")
+    unknown = [part for part in arguments.parts if part not in PARTS]
+    if unknown:
+        parser.error("unknown part %s, must be of: %s" % (", ".join(unknown), ", ".join(PARTS)))
+    numbers = arguments.groups.split(",")
+    if any(not number.isdigit() or int(number) >= len(GROUPS) for number in numbers):
+        parser.error("--groups is %s, must be of 0..%d" % (arguments.groups, len(GROUPS) - 1))
+    groups = [GROUPS[int(number)] for number in numbers]
+    if arguments.write and set(groups) != set(GROUPS):
+        parser.error("--write needs all groups, since the goals are means over them. Leave --groups out")
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
     run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() asks
-    load = os.getloadavg()[0]
-    rows = [Row(scene, size_m) for scene in SCENES if scene in scenes for size_m in SIZES_M]
-    measure_errors(rows, arguments.size)
-    measure_times(rows, arguments.size, arguments.rounds)
-    memory = measure_memory(scenes)
-    measured = "%s Pictures of %s, rounds: %d." % (describe_machine(load), arguments.size.replace("x", " x "), arguments.rounds)
-    tables = {
-        "edge_count_goals": build_goals(rows, memory),
-        "edge_count_rows": build_rows(rows) + ["", describe_coarse(rows), describe_memory(memory)],
-    }
-    publish_tables(tables, measured, arguments.write)
+    with tempfile.TemporaryDirectory() as folder:
+        images = make_images(groups, folder)
+        for part in arguments.parts or PARTS:
+            load = os.getloadavg()[0]
+            lines = PARTS[part](images, folder, arguments.rounds)
+            publish_tables({"edge_count_" + part: lines}, describe_machine(load), arguments.write)
     return 0
 
 

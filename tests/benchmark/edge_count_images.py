@@ -1,0 +1,88 @@
+"""The images with which edge_count is measured: scenes, lights and sizes of the light, in groups."""
+
+import json
+import math
+import os
+import sys
+
+import run_benchmarks
+from measure_techniques import SCENES as STUDY_SCENES
+from measure_techniques import SIZES_M
+from run_benchmarks import run
+
+sys.path.insert(0, run_benchmarks.SCENES)
+from gltf_writer import save_files  # noqa: E402
+from make_artist_scenes import SCENES as ARTIST_SCENES  # noqa: E402
+from make_artist_scenes import build_scene_files, make_artist_set  # noqa: E402
+from make_package_meshes import MESHES, PREFIX, make_scenes  # noqa: E402
+from make_scenes import CORAL, SCENE_SIZE_M  # noqa: E402
+from shapes import make_box, make_torus  # noqa: E402
+
+STUDY, PLAIN, PACKAGES, ARTISTS = "study scenes", "one box, one torus", "package meshes", "kitbash, rigging, grass"
+GROUPS = (STUDY, PLAIN, PACKAGES, ARTISTS)
+PLAIN_MESHES = {"plain_box": make_box((0.5, 0.5, 0.5)), "plain_torus": make_torus(0.7, 0.25, 48, 24)}
+PLAIN_HEIGHT_M = 0.8
+SUN = "Sun"
+SMALL_SHARE, LARGE_SHARE = 0.02, 0.1  # of S: sizes of a light
+
+
+class Image:
+    """One scene, one of its lights and a size of it, with r = t = R."""
+
+    def __init__(self, group, path, light, share):
+        self.group, self.path, self.light, self.share = group, path, light, share
+        self.scene = os.path.splitext(os.path.basename(path))[0]
+        self.source = "%s, %s" % (self.scene, light) if light else self.scene
+        self.name = "%s, R = %g %%" % (self.source, 100 * share) if share else self.source
+
+    def get_words(self):
+        """Of the command line."""
+        if self.light == SUN:
+            size = "light_angular_distance=%.6f" % (2 * math.degrees(math.atan(self.share)))
+        else:
+            size = "light_size=%g" % (self.share * SCENE_SIZE_M)
+        words = [word for setting in (size, "penumbra_outer_width=-1", "penumbra_inner_width=-1") for word in ("--set", setting)]
+        return words + (["--light", self.light] if self.light else [])
+
+    def draw(self, program, technique, settings, size, out, *more):
+        """Writes the mask; returns what `--time` writes, if asked to."""
+        words = [word for setting in settings for word in ("--set", setting)]
+        times = out + ".json"
+        is_timed = "--timed-frames" in more
+        run([program, "visibility", self.path, "--technique", technique, "--size", size, "--out", out, *self.get_words(), *words,
+             *(("--time", times) if is_timed else ()), *more])  # fmt: skip
+        if is_timed:
+            with open(times, encoding="utf-8") as file:
+                return json.load(file)
+        return None
+
+
+def make_plain_scenes(folder):
+    for name, mesh in PLAIN_MESHES.items():
+        document = make_artist_set()
+        document.add_object("Caster", mesh, document.add_material("Caster", CORAL), (0.0, PLAIN_HEIGHT_M, 0.0))
+        save_files(document.build_files(name), folder)
+
+
+def make_images(groups, folder):
+    """All images of the groups; scenes that the repository does not have are made in the folder."""
+    images = []
+    if STUDY in groups:
+        paths = [os.path.join(run_benchmarks.SCENES, name + ".gltf") for name in STUDY_SCENES]
+        images += [Image(STUDY, path, None, size_m / SCENE_SIZE_M) for path in paths for size_m in SIZES_M]
+
+    def add(group, names, lights, shares):
+        paths = [os.path.join(folder, name + ".gltf") for name in names]
+        images.extend(Image(group, path, light, share) for path in paths for light in lights for share in shares)
+
+    if PLAIN in groups:
+        make_plain_scenes(folder)
+        add(PLAIN, PLAIN_MESHES, ("Omni", "Spot", SUN), (LARGE_SHARE,))
+    if PACKAGES in groups:
+        failed = make_scenes(MESHES, folder)
+        add(PACKAGES, [PREFIX + name for name in MESHES if name not in failed], ("Spot", SUN), (SMALL_SHARE, LARGE_SHARE))
+    if ARTISTS in groups:
+        for name in ARTIST_SCENES:
+            save_files(build_scene_files(name), folder)
+        add(ARTISTS, ARTIST_SCENES, ("Spot", "Omni", SUN), (SMALL_SHARE, LARGE_SHARE))
+    return images
