@@ -24,8 +24,8 @@ public:
 	uint64_t get_mask(const glm::dvec2 &p_direction, double p_offset) const {
 		return table[size_t(find_direction(p_direction)) * OFFSET_COUNT + find_offset(p_offset)];
 	}
-	/// Points from one direction on to another, the way that angles grow: neighbours that share a
-	/// direction share no point and leave none.
+	/// Points from one direction on to another, less than half a circle the way that angles grow:
+	/// neighbours that share a direction share no point and leave none.
 	uint64_t get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const;
 	/// The first point whose angle is not below the direction's.
 	uint32_t find_sector(const glm::dvec2 &p_direction) const;

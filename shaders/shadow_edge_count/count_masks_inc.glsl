@@ -46,8 +46,8 @@ float count_half_angle(vec2 p_direction) {
 	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
 }
 
-/// The first point whose angle is not below the direction's: points stand in the order of their angles,
-/// in 64 equal sectors, those of the turns evenly one after the other in each (see DiscMasks).
+/// The first point whose angle is not below the direction's: points are in the order of their angles,
+/// one in each of 64 equal sectors; in a sector the turns follow each other evenly (see DiscMasks).
 int find_count_sector(vec2 p_direction, float p_turn) {
 	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
 	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
@@ -178,7 +178,7 @@ int sum_points(CountPlanes p_sums) {
 			256 * count_points(p_sums.bit8);
 }
 
-/// Bits of the points two on: in angle a neighbour, and half a radius apart.
+/// Bits of the points two on: neighbours in angle, at other distances from the centre.
 uvec2 turn_points(uvec2 p_mask) {
 	return (p_mask >> 2) | (p_mask.yx << 30);
 }

@@ -1,0 +1,66 @@
+#include "modules/shadow_edge_count/disc_masks.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace gnomon {
+
+namespace {
+
+double compute_angle(const glm::dvec2 &p_direction) {
+	const double angle = std::atan2(p_direction.y, p_direction.x);
+	return angle < 0 ? angle + 2.0 * std::numbers::pi : angle;
+}
+
+} // namespace
+
+TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of all turns") {
+	for (const uint32_t turn_count : { 1u, 4u }) {
+		CAPTURE(turn_count);
+		const uint32_t count = DiscMasks::SAMPLE_COUNT * turn_count;
+		std::vector<uint32_t> rings(count, 0);
+		std::vector<uint32_t> sectors(count, 0);
+		for (uint32_t turn = 0; turn < turn_count; ++turn) {
+			const DiscMasks masks(turn, turn_count);
+			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
+				const glm::dvec2 point = masks.compute_sample(index);
+				++rings.at(size_t(glm::dot(point, point) * count));
+				++sectors.at(size_t(compute_angle(point) / (2.0 * std::numbers::pi) * count));
+			}
+		}
+		CHECK(std::count(rings.begin(), rings.end(), 1u) == count);
+		CHECK(std::count(sectors.begin(), sectors.end(), 1u) == count);
+	}
+}
+
+TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each turn") {
+	const double two_pi = 2.0 * std::numbers::pi;
+	for (const uint32_t turn_count : { 1u, 4u }) {
+		for (uint32_t turn = 0; turn < turn_count; ++turn) {
+			CAPTURE(turn_count);
+			CAPTURE(turn);
+			const DiscMasks masks(turn, turn_count);
+			for (uint32_t pair = 0; pair < 500; ++pair) {
+				const double from = std::fmod(pair * 0.7548776662, 1.0) * two_pi;
+				// An edge is seen under less than half a circle.
+				const double width = std::fmod(pair * 0.5698402910, 1.0) * std::numbers::pi;
+				const double to = std::fmod(from + width, two_pi);
+				uint64_t expected = 0;
+				for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
+					const double angle = compute_angle(masks.compute_sample(index));
+					const bool is_between =
+							from <= to ? angle >= from && angle < to : angle >= from || angle < to;
+					expected |= uint64_t(is_between) << index;
+				}
+				CHECK(masks.get_wedge({ std::cos(from), std::sin(from) },
+							  { std::cos(to), std::sin(to) }) == expected);
+			}
+		}
+	}
+}
+
+} // namespace gnomon
