@@ -138,7 +138,7 @@ void RenderingDevice::Impl::initialize(const DeviceOptions &p_options) {
 	features.subgroup_size = subgroup.subgroupSize;
 	const VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT |
 			VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
-			VK_SUBGROUP_FEATURE_BALLOT_BIT;
+			VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
 	features.subgroup_operations = !p_options.without.subgroup_operations &&
 			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
 			(subgroup.supportedOperations & operations) == operations;

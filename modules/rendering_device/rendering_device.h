@@ -65,7 +65,7 @@ struct DeviceFeatures {
 	uint32_t max_texture_size_px = 0;
 	uint32_t max_texel_buffer_elements = 0;
 	uint32_t subgroup_size = 0;
-	bool subgroup_operations = false; // vote, arithmetic and ballot in compute shaders
+	bool subgroup_operations = false; // vote, arithmetic, ballot and shuffle in compute shaders
 };
 
 struct MemoryUse {

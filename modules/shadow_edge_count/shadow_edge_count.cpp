@@ -19,7 +19,8 @@ constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // of the filter, as that of pcss
 void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	if (!p_inputs.device.get_features().subgroup_operations) {
 		fail("Light \"", p_inputs.light.name,
-				"\": edge_count needs subgroup vote, arithmetic and ballot in compute shaders, "
+				"\": edge_count needs subgroup vote, arithmetic, ballot and shuffle in compute "
+				"shaders, "
 				"which ",
 				p_inputs.device.get_info().name,
 				" lacks. Set another shadow_technique; `gnomon techniques` lists them.");
@@ -200,17 +201,22 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const uint32_t turn_count = settings.get_turn_count();
 	if (!masks || mask_turn_count != turn_count) {
+		// The masks of all turns one behind the other: the shader reads two at once.
 		std::vector<uint64_t> tables;
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			const DiscMasks table(turn, turn_count);
-			tables.insert(tables.end(), table.get_table().begin(), table.get_table().end());
+			const DiscMasks disc_masks(turn, turn_count);
+			const std::vector<uint64_t> &table = disc_masks.get_table();
+			tables.resize(table.size() * turn_count);
+			for (size_t i = 0; i < table.size(); ++i) {
+				tables[i * turn_count + turn] = table[i];
+			}
 		}
 		const auto bytes = bytes_of(std::span<const uint64_t>(tables));
 		masks = OwnedBuffer(p_inputs.device,
 				p_inputs.device.create_buffer_with_data(
 						{ "masks of " + p_inputs.light.name, bytes.size(),
 								BufferUsage::TEXEL | BufferUsage::COPY_TARGET, MemoryKind::GPU,
-								Format::RG32_UINT },
+								turn_count == 1 ? Format::RG32_UINT : Format::RGBA32_UINT },
 						bytes));
 		mask_turn_count = turn_count;
 	}

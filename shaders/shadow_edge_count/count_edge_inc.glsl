@@ -32,27 +32,18 @@ CountState make_count_state(int p_solid_count) {
 
 /// A part of the disc: beyond a line, from one direction on to another.
 struct CountSector {
-	vec2 beyond; // direction of the line's other side
-	float distance;
-	vec2 from;
-	vec2 to;
+	float area;		  // twice, signed, in R^2
+	uint mask_place;  // of the points beyond the line
+	float from_place; // see find_count_place
+	float to_place;
+	bool is_there;
 	bool is_twice;
 	uvec2 flip;
-	bool is_there;
 };
 
-/// What a sector adds to the points of one turn, as count_step.
-uvec2 count_sector_points(CountSector p_sector, uint p_turn, inout CountPlanes r_planes) {
-	const uvec2 mask = find_count_mask(p_sector.beyond, p_sector.distance, p_turn) &
-			find_count_wedge(p_sector.from, p_sector.to, p_turn);
-	return count_step(r_planes, p_sector.is_there ? mask : uvec2(0u), p_sector.is_twice, p_sector.flip);
-}
-
-/// Adds the part of the disc beyond an edge from p_a to p_b on the disc's plane, as seen from the
-/// disc's centre: a sector without its triangle, and the points of the light in it. In units of R. Without a
-/// branch: software drivers run both sides, and copy all counters where they meet.
-void count_add_sector(
-		vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, bool p_is_there, inout CountState r_state) {
+/// The part of the disc beyond an edge from p_a to p_b on the disc's plane, as seen from the disc's centre: a sector
+/// without its triangle. In units of R. Without a branch: software drivers run both sides.
+CountSector make_count_sector(vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, bool p_is_there) {
 	const vec2 way = p_b - p_a;
 	const float square = dot(way, way);
 	const vec2 u = way * inversesqrt(max(square, 1e-37));
@@ -68,29 +59,43 @@ void count_add_sector(
 	const float part = angle - distance * length_along;
 	CountSector sector;
 	sector.is_there = p_is_there && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
-	sector.beyond = p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x);
-	sector.distance = distance;
-	sector.from = p_is_left ? p_a : p_b;
-	sector.to = p_is_left ? p_b : p_a;
+	sector.area = sector.is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
+	sector.mask_place = find_count_mask_place(p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x), distance);
+	sector.from_place = find_count_place(p_is_left ? p_a : p_b);
+	sector.to_place = find_count_place(p_is_left ? p_b : p_a);
 	sector.is_twice = p_weight == 2;
 	sector.flip = find_flip(!p_is_left);
-	r_state.area += sector.is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
-	const uvec2 carry0 = count_sector_points(sector, 0u, r_state.turn0);
+	return sector;
+}
+
+/// What a sector adds to the points of one turn, as count_step.
+uvec2 count_sector_points(CountSector p_sector, uvec2 p_mask, uint p_turn, inout CountPlanes r_planes) {
+	const uvec2 mask = p_mask & find_count_wedge(p_sector.from_place, p_sector.to_place, p_turn);
+	return count_step(r_planes, p_sector.is_there ? mask : uvec2(0u), p_sector.is_twice, p_sector.flip);
+}
+
+/// Adds a sector's area and its points. Without a branch: where the sides of one meet, software drivers copy all
+/// counters.
+void count_sector(CountSector p_sector, inout CountState r_state) {
+	r_state.area += p_sector.area;
+	const uvec4 masks0 = load_count_masks(p_sector.mask_place, 0u);
+	const uvec2 carry0 = count_sector_points(p_sector, masks0.xy, 0u, r_state.turn0);
 #if COUNT_TURN_COUNT == 4
-	const uvec2 carry1 = count_sector_points(sector, 1u, r_state.turn1);
-	const uvec2 carry2 = count_sector_points(sector, 2u, r_state.turn2);
-	const uvec2 carry3 = count_sector_points(sector, 3u, r_state.turn3);
+	const uvec4 masks1 = load_count_masks(p_sector.mask_place, 1u);
+	const uvec2 carry1 = count_sector_points(p_sector, masks0.zw, 1u, r_state.turn1);
+	const uvec2 carry2 = count_sector_points(p_sector, masks1.xy, 2u, r_state.turn2);
+	const uvec2 carry3 = count_sector_points(p_sector, masks1.zw, 3u, r_state.turn3);
 	const uvec2 carries = carry0 | carry1 | carry2 | carry3;
 #else
 	const uvec2 carries = carry0;
 #endif
 	uint is_far = carries.x | carries.y;
 	while (is_far != 0u) { // not a branch: seldom anything to do
-		count_far_step(r_state.turn0, carry0, sector.flip);
+		count_far_step(r_state.turn0, carry0, p_sector.flip);
 #if COUNT_TURN_COUNT == 4
-		count_far_step(r_state.turn1, carry1, sector.flip);
-		count_far_step(r_state.turn2, carry2, sector.flip);
-		count_far_step(r_state.turn3, carry3, sector.flip);
+		count_far_step(r_state.turn1, carry1, p_sector.flip);
+		count_far_step(r_state.turn2, carry2, p_sector.flip);
+		count_far_step(r_state.turn3, carry3, p_sector.flip);
 #endif
 		is_far = 0u;
 	}
@@ -103,8 +108,8 @@ vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_least, float p_most) {
 	return d == p_end.z ? p_end : vec3(mix(p_end.xy, p_other.xy, share), d);
 }
 
-/// What the part of the light beyond an edge adds. p_weight: as the receiver sees it; 0: nothing.
-void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, inout CountState r_state) {
+/// The part of the light beyond an edge. p_weight: as the receiver sees it; 0: nothing.
+CountSector find_edge_sector(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight) {
 	const vec3 from = count_offset(p_receiver, p_a);
 	const vec3 to = count_offset(p_receiver, p_b);
 	const bool is_left = is_count_left(from.xy, to.xy);
@@ -118,8 +123,8 @@ void count_add_edge(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p_weight, 
 	const vec2 x_first = first.xy * (second.z * inverse);
 	const vec2 x_second = second.xy * (first.z * inverse);
 	const bool is_reversed = p_weight < 0;
-	count_add_sector(is_reversed ? x_second : x_first, is_reversed ? x_first : x_second,
-			is_reversed != is_left, abs(p_weight), is_there, r_state);
+	return make_count_sector(is_reversed ? x_second : x_first, is_reversed ? x_first : x_second,
+			is_reversed != is_left, abs(p_weight), is_there);
 }
 
 /// Adds the line along which a face passes through the disc's plane: there ends what hides the light, as at an edge.
@@ -135,7 +140,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_before = is_count_before(p_plane, p_receiver.position);
 	const bool is_counted = p_face.a_kind.w != 0u || is_before == p_has_before;
 	// The sides on which its outline, as it winds, leaves the space before the disc, and enters it; each is cut as
-	// count_add_edge does it, bit for bit.
+	// find_edge_sector does it, bit for bit.
 	const bool leaves_a = is_in.x && !is_in.y;
 	const bool leaves_b = is_in.y && !is_in.z;
 	const bool enters_a = !is_in.x && is_in.y;
@@ -146,7 +151,7 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_between = is_before != is_count_light_before(false, p_plane);
 	const vec2 from = (is_before ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_before ? enter.xy : leave.xy) * p_receiver.inverse_radius;
-	count_add_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in), r_state);
+	count_sector(make_count_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in)), r_state);
 }
 
 /// Signed weight of an edge as the receiver sees it.

@@ -18,8 +18,8 @@ layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint SUBGROUP_SIZE = 
 /// The blocks have no lists: each group of pixels goes through all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
-uvec2 load_count_mask(uint p_index) {
-	return texelFetch(masks_buffer, int(p_index)).rg;
+uvec4 load_count_masks(uint p_place, uint p_pair) {
+	return texelFetch(masks_buffer, int(p_place * uint((COUNT_TURN_COUNT + 1) / 2) + p_pair));
 }
 
 // Edges that some receiver of a subgroup may have to count, and what is known of them, in one word each: a slice
@@ -112,7 +112,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 }
 
 /// False: the part of the edge that lies between a receiver and its disc hides nothing of it. Wider than
-/// what count_add_edge does by more than rounding.
+/// what find_edge_sector does by more than rounding.
 bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float ROUNDING = 4e-6;
 	const float radius = 1.001 * light.disc_radius;
@@ -136,102 +136,174 @@ bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	return !is_aside && !is_beyond && !is_below && !is_above;
 }
 
-/// Of a slice's edges those that the invocation's receiver has to count, a bit for each.
-struct CountShare {
-	uvec2 own;
-	uvec2 is_negative; // its weight
-	uvec2 is_twice;
+// A slice is counted in rounds of so many edges. Each invocation holds at most four of them, and hands them on to those
+// that test or count them: software drivers take longer to read what all invocations need.
+const uint ROUND_SIZE = SUBGROUP_SIZE < 8u ? 4u * SUBGROUP_SIZE : 32u;
+const uint HELD_AT_ONCE = SUBGROUP_SIZE < 32u ? SUBGROUP_SIZE : 32u; // edges that one variable of all invocations holds
+
+/// What the list of an edge knows of it, and its ends.
+struct HeldEdge {
+	uint entry;
+	vec3 a;
+	vec3 b;
 };
 
-/// The weight of an edge for a receiver, which the edge's list may know.
-int find_weight(uint p_entry, CountReceiver p_receiver) {
-	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
-	const uint known = p_entry >> COUNT_KNOWN_SHIFT;
-	return (known & COUNT_KNOWS_WEIGHT) != 0u
-			? get_known_weight(known)
-			: count_weight(p_receiver.position, load_count_plane0(edge), load_count_plane1(edge),
-					  make_count_kind(edge.a_face0.w, edge.b_face1.w));
+/// Edges i x HELD_AT_ONCE .. (i + 1) x HELD_AT_ONCE of a round in part i.
+struct HeldRound {
+	HeldEdge part0;
+	HeldEdge part1;
+	HeldEdge part2;
+	HeldEdge part3;
+};
+
+/// Of a round's edges those that the invocation's receiver has to count, a bit for each.
+struct CountShare {
+	uint own;
+	uint is_negative; // its weight
+	uint is_twice;
+};
+
+/// One of the slice's edges from p_first on, or one that adds nothing.
+HeldEdge hold_edge(uint p_first, uint p_end) {
+	const uint item = p_first + gl_SubgroupInvocationID;
+	const uint entry = item < p_end ? chosen_edges[gl_SubgroupID * SLICE_SIZE + item]
+									: COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT;
+	const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
+	return HeldEdge(entry, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
 }
 
-ivec4 find_weights(uvec4 p_entries, CountReceiver p_receiver) {
-	return ivec4(find_weight(p_entries.x, p_receiver), find_weight(p_entries.y, p_receiver),
-			find_weight(p_entries.z, p_receiver), find_weight(p_entries.w, p_receiver));
+HeldEdge hand_on(HeldEdge p_held, uint p_lane) {
+	return HeldEdge(subgroupShuffle(p_held.entry, p_lane), subgroupShuffle(p_held.a, p_lane),
+			subgroupShuffle(p_held.b, p_lane));
 }
 
-/// Adds one of the chosen edges if the receiver has to count it.
-void share_edge(uint p_item, uint p_entry, int p_weight, CountReceiver p_receiver, inout CountShare r_share) {
-	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
-	const bool is_own = p_weight != 0 &&
-			may_hide(p_receiver.position, p_receiver.to_light, uintBitsToFloat(edge.a_face0.xyz),
-					uintBitsToFloat(edge.b_face1.xyz));
-	const uint bit = is_own ? 1u << (p_item & 31u) : 0u;
-	const uvec2 bits = p_item < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
-	r_share.own |= bits;
-	r_share.is_negative |= p_weight < 0 ? bits : uvec2(0u);
-	r_share.is_twice |= abs(p_weight) == 2 ? bits : uvec2(0u);
+/// Adds one of the held edges if the receiver may have to count it; its weight, if the list knows that.
+void share_edge(HeldEdge p_held, uint p_lane, uint p_place, CountReceiver p_receiver, inout CountShare r_share) {
+	const HeldEdge edge = hand_on(p_held, p_lane);
+	const uint known = edge.entry >> COUNT_KNOWN_SHIFT;
+	const int weight = (known & COUNT_KNOWS_WEIGHT) != 0u ? get_known_weight(known) : 0;
+	const bool is_own = known != COUNT_ADDS_NOTHING && may_hide(p_receiver.position, p_receiver.to_light, edge.a, edge.b);
+	const uint bit = is_own ? 1u << (p_place + p_lane) : 0u;
+	r_share.own |= bit;
+	r_share.is_negative |= weight < 0 ? bit : 0u;
+	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
 }
 
-/// One of the slice's edges, or one that adds nothing.
-uint load_chosen(uint p_item, uint p_count) {
-	return p_item < p_count ? chosen_edges[gl_SubgroupID * SLICE_SIZE + p_item]
-							: COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT;
+/// What decides the weight of an edge; see count_weight.
+struct HeldFaces {
+	uvec2 words;
+	vec4 plane0;
+	vec4 plane1;
+};
+
+/// The weight of a held edge as the receiver sees it, where the list does not know it.
+void share_weight(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_place, CountReceiver p_receiver,
+		inout CountShare r_share) {
+	const uvec2 words = subgroupShuffle(p_faces.words, p_lane);
+	const int weight = count_weight(p_receiver.position, subgroupShuffle(p_faces.plane0, p_lane),
+			subgroupShuffle(p_faces.plane1, p_lane), make_count_kind(words.x, words.y));
+	const uint known = subgroupShuffle(p_held.entry, p_lane) >> COUNT_KNOWN_SHIFT;
+	const uint bit = (known & COUNT_KNOWS_WEIGHT) == 0u ? 1u << (p_place + p_lane) : 0u;
+	r_share.own &= ~(weight == 0 ? bit : 0u);
+	r_share.is_negative |= weight < 0 ? bit : 0u;
+	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
 }
 
-/// Which of the chosen edges the invocation's receiver has to count. Each invocation reads all of them: to hand
-/// on what another one has read takes software drivers longer. Four edges an iteration: llvmpipe ends
-/// every loop once an invocation has made 65535 iterations, of all its loops together.
-CountShare share_choice(uint p_count, bool p_is_here, CountReceiver p_receiver) {
-	CountShare share = CountShare(uvec2(0u), uvec2(0u), uvec2(0u));
+/// Tests p_count held edges, which have the places from p_place on in their round.
+void share_held(HeldEdge p_held, uint p_place, uint p_count, CountReceiver p_receiver, inout CountShare r_share) {
+	// Four edges an iteration: llvmpipe ends every loop once an invocation has made 65535 iterations, of all its
+	// loops together.
 	for (uint i = 0u; i < p_count; i += 4u) {
-		const uvec4 entries = uvec4(load_chosen(i, p_count), load_chosen(i + 1u, p_count),
-				load_chosen(i + 2u, p_count), load_chosen(i + 3u, p_count));
-		ivec4 weights = ivec4(get_known_weight(entries.x >> COUNT_KNOWN_SHIFT),
-				get_known_weight(entries.y >> COUNT_KNOWN_SHIFT),
-				get_known_weight(entries.z >> COUNT_KNOWN_SHIFT),
-				get_known_weight(entries.w >> COUNT_KNOWN_SHIFT));
-		const uint all_known = entries.x & entries.y & entries.z & entries.w;
-		bool is_open = (all_known >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u;
-		if (HAS_NO_LIST) { // no weight is known
-			weights = find_weights(entries, p_receiver);
-		} else {
-			while (is_open) { // not a branch: software drivers run what a branch skips
-				weights = find_weights(entries, p_receiver);
-				is_open = false;
-			}
+		share_edge(p_held, i, p_place, p_receiver, r_share);
+		share_edge(p_held, i + 1u, p_place, p_receiver, r_share);
+		share_edge(p_held, i + 2u, p_place, p_receiver, r_share);
+		share_edge(p_held, i + 3u, p_place, p_receiver, r_share);
+	}
+	bool is_open = subgroupAny((p_held.entry >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u);
+	while (is_open) { // not a branch: software drivers run what a branch skips
+		const CountEdgeRecord edge = load_count_edge(p_held.entry & COUNT_EDGE_MASK);
+		const HeldFaces faces = HeldFaces(
+				uvec2(edge.a_face0.w, edge.b_face1.w), load_count_plane0(edge), load_count_plane1(edge));
+		for (uint i = 0u; i < p_count; i += 4u) {
+			share_weight(p_held, faces, i, p_place, p_receiver, r_share);
+			share_weight(p_held, faces, i + 1u, p_place, p_receiver, r_share);
+			share_weight(p_held, faces, i + 2u, p_place, p_receiver, r_share);
+			share_weight(p_held, faces, i + 3u, p_place, p_receiver, r_share);
 		}
-		weights = p_is_here ? weights : ivec4(0);
-		share_edge(i, entries.x, weights.x, p_receiver, share);
-		share_edge(i + 1u, entries.y, weights.y, p_receiver, share);
-		share_edge(i + 2u, entries.z, weights.z, p_receiver, share);
-		share_edge(i + 3u, entries.w, weights.w, p_receiver, share);
+		is_open = false;
+	}
+}
+
+/// Edges of a part of a round.
+uint find_held_count(uint p_part, uint p_count) {
+	return min(p_count - min(p_count, p_part * HELD_AT_ONCE), HELD_AT_ONCE);
+}
+
+CountShare share_round(HeldRound p_held, uint p_count, CountReceiver p_receiver) {
+	CountShare share = CountShare(0u, 0u, 0u);
+	share_held(p_held.part0, 0u, find_held_count(0u, p_count), p_receiver, share);
+	if (ROUND_SIZE > HELD_AT_ONCE) {
+		share_held(p_held.part1, HELD_AT_ONCE, find_held_count(1u, p_count), p_receiver, share);
+	}
+	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
+		share_held(p_held.part2, 2u * HELD_AT_ONCE, find_held_count(2u, p_count), p_receiver, share);
+		share_held(p_held.part3, 3u * HELD_AT_ONCE, find_held_count(3u, p_count), p_receiver, share);
 	}
 	return share;
 }
 
-bool has_bit(uvec2 p_bits, uint p_place) {
-	return ((p_place < 32u ? p_bits.x : p_bits.y) >> (p_place & 31u) & 1u) != 0u;
+HeldEdge choose_held(bool p_is_second, HeldEdge p_first, HeldEdge p_second) {
+	return HeldEdge(p_is_second ? p_second.entry : p_first.entry, p_is_second ? p_second.a : p_first.a,
+			p_is_second ? p_second.b : p_first.b);
 }
 
-/// Counts the next of the edges that the invocation's receiver has, if there is one.
-void count_next(CountReceiver p_receiver, CountShare p_share, inout uvec2 r_left, inout CountState r_state) {
-	const bool is_there = (r_left.x | r_left.y) != 0u;
-	const uint place = (r_left.x != 0u ? findLSB(r_left.x) : 32u + findLSB(r_left.y)) & (SLICE_SIZE - 1u);
-	r_left = r_left.x != 0u ? uvec2(r_left.x & (r_left.x - 1u), r_left.y) : uvec2(0u, r_left.y & (r_left.y - 1u));
-	const uint entry = is_there ? chosen_edges[gl_SubgroupID * SLICE_SIZE + place] : 0u;
-	const CountEdgeRecord edge = load_count_edge(entry & COUNT_EDGE_MASK);
-	const int weight = has_bit(p_share.is_twice, place) ? 2 : 1;
-	count_add_edge(p_receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz),
-			is_there ? (has_bit(p_share.is_negative, place) ? -weight : weight) : 0, r_state);
+/// What the next of the edges that the invocation's receiver has adds, if there is one.
+CountSector find_next_sector(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout uint r_left) {
+	const bool is_there = r_left != 0u;
+	const uint place = uint(findLSB(r_left)) & 31u;
+	r_left &= r_left - 1u;
+	const uint lane = place % HELD_AT_ONCE;
+	HeldEdge edge = hand_on(p_held.part0, lane);
+	if (ROUND_SIZE > HELD_AT_ONCE) {
+		edge = choose_held((place & HELD_AT_ONCE) != 0u, edge, hand_on(p_held.part1, lane));
+	}
+	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
+		const HeldEdge other = choose_held(
+				(place & HELD_AT_ONCE) != 0u, hand_on(p_held.part2, lane), hand_on(p_held.part3, lane));
+		edge = choose_held((place & 2u * HELD_AT_ONCE) != 0u, edge, other);
+	}
+	const int weight = (p_share.is_twice >> place & 1u) != 0u ? 2 : 1;
+	return find_edge_sector(p_receiver, edge.a, edge.b,
+			is_there ? ((p_share.is_negative >> place & 1u) != 0u ? -weight : weight) : 0);
 }
 
 /// Counts the edges that each invocation's receiver has, two an iteration.
-void count_share(CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
-	const uint most = subgroupMax(uint(count_points(p_share.own)));
-	uvec2 left = p_share.own;
+void count_share(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
+	const uint most = subgroupMax(uint(bitCount(p_share.own)));
+	uint left = p_share.own;
 	for (uint i = 0u; i < most; i += 2u) {
-		count_next(p_receiver, p_share, left, r_state);
-		count_next(p_receiver, p_share, left, r_state);
+		// One behind the other, so that processors deal with both at once.
+		const CountSector first = find_next_sector(p_held, p_receiver, p_share, left);
+		const CountSector second = find_next_sector(p_held, p_receiver, p_share, left);
+		count_sector(first, r_state);
+		count_sector(second, r_state);
 	}
+}
+
+HeldRound hold_round(uint p_first, uint p_end) {
+	HeldRound held;
+	held.part0 = hold_edge(p_first, p_end);
+	held.part1 = held.part0;
+	held.part2 = held.part0;
+	held.part3 = held.part0;
+	if (ROUND_SIZE > HELD_AT_ONCE) {
+		held.part1 = hold_edge(p_first + HELD_AT_ONCE, p_end);
+	}
+	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
+		held.part2 = hold_edge(p_first + 2u * HELD_AT_ONCE, p_end);
+		held.part3 = hold_edge(p_first + 3u * HELD_AT_ONCE, p_end);
+	}
+	return held;
 }
 
 /// The bounds of those receivers of a subgroup that are in it.
@@ -302,9 +374,14 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			next = choice.next;
 			subgroupMemoryBarrierShared();
 			subgroupBarrier();
-			const CountShare share = share_choice(choice.count, is_here, receiver);
-			count_share(receiver, share, state);
-			result.edge_count += uint(count_points(share.own));
+			for (uint first = 0u; first < choice.count; first += ROUND_SIZE) {
+				const uint count = min(choice.count - first, ROUND_SIZE);
+				const HeldRound held = hold_round(first, first + count);
+				CountShare share = share_round(held, count, receiver);
+				share.own = is_here ? share.own : 0u;
+				count_share(held, receiver, share, state);
+				result.edge_count += uint(bitCount(share.own));
+			}
 			subgroupMemoryBarrierShared();
 			subgroupBarrier();
 		}

@@ -28,8 +28,8 @@ layout(set = 0, binding = 6) readonly buffer Masks {
 	uvec2 masks[];
 };
 
-uvec2 load_count_mask(uint p_index) {
-	return masks[p_index];
+uvec4 load_count_masks(uint p_place, uint p_pair) {
+	return uvec4(masks[p_place], uvec2(0u)); // one turn
 }
 
 // One list of all faces for every texel.
@@ -69,7 +69,8 @@ void main() {
 		const uint face0 = edge.a_face0.w & EDGE_COUNT_FACE_MASK;
 		const int weight = count_weight(
 				receiver.position, planes[face0], kind.has_face1 ? planes[edge.b_face1.w] : vec4(0.0), kind);
-		count_add_edge(receiver, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz), weight,
+		count_sector(find_edge_sector(receiver, uintBitsToFloat(edge.a_face0.xyz),
+							 uintBitsToFloat(edge.b_face1.xyz), weight),
 				state);
 	}
 	results[item] = vec4(count_resolve(state), float(state.solid_count), state.area, 0.0);
