@@ -20,8 +20,7 @@ void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	if (!p_inputs.device.get_features().subgroup_operations) {
 		fail("Light \"", p_inputs.light.name,
 				"\": edge_count needs subgroup vote, arithmetic, ballot and shuffle in compute "
-				"shaders, "
-				"which ",
+				"shaders, which ",
 				p_inputs.device.get_info().name,
 				" lacks. Set another shadow_technique; `gnomon techniques` lists them.");
 	}

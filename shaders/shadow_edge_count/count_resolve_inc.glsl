@@ -14,7 +14,10 @@ layout(set = 0, binding = COUNT_BINDING_CHAINS) uniform utextureBuffer chains_bu
 layout(set = 0, binding = COUNT_BINDING_LISTS) uniform utextureBuffer lists_buffer;
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
-layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint SUBGROUP_SIZE = 8u;
+layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
+/// Invocations that there are: a work group may be smaller than a subgroup of the device.
+const uint SUBGROUP_SIZE =
+		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
 /// The blocks have no lists: each group of pixels goes through all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
