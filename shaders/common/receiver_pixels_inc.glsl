@@ -31,11 +31,15 @@ struct ReceiverPixel {
 	vec3 normal;   // unit, of the face, towards the viewer
 };
 
-/// Only for pixels that receive.
-ReceiverPixel load_receiver(ivec2 p_pixel) {
+/// Only for pixels that receive. p_frame: `frame`, or a copy of it.
+ReceiverPixel load_receiver(FrameConstants p_frame, ivec2 p_pixel) {
 	const vec3 normal = unpack_normal(texelFetch(normal_texture, p_pixel, 0).r);
 	return ReceiverPixel(
-			receiver_position(frame, p_pixel, texelFetch(depth_texture, p_pixel, 0).r, normal), normal);
+			receiver_position(p_frame, p_pixel, texelFetch(depth_texture, p_pixel, 0).r, normal), normal);
+}
+
+ReceiverPixel load_receiver(ivec2 p_pixel) {
+	return load_receiver(frame, p_pixel);
 }
 
 #endif

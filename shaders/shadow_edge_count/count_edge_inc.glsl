@@ -195,8 +195,7 @@ float count_resolve(CountState p_state) {
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MOST_SOLIDS);
 	const float mean = float(solids) + p_state.area / (2.0 * COUNT_PI);
 	float visibility = 1.0 - mean;
-	bool overlaps = has_overlap(p_state, solids);
-	while (overlaps) { // not a branch: software drivers run what a branch skips
+	if (has_overlap(p_state, solids)) {
 		CountSums sums = CountSums(0, 0, 0, 0);
 		add_turn(p_state.turn0, solids, sums);
 #if COUNT_TURN_COUNT == 4
@@ -206,7 +205,6 @@ float count_resolve(CountState p_state) {
 #endif
 		const float trust = float(sums.hidden_changes) / float(max(sums.changes, 1));
 		visibility = 1.0 - float(sums.hidden) * share - trust * (mean - float(sums.count) * share);
-		overlaps = false;
 	}
 	return clamp(visibility, 0.0, 1.0);
 }

@@ -12,10 +12,6 @@ layout(set = 0, binding = COUNT_BINDING_PLANES) uniform textureBuffer planes_buf
 layout(set = 0, binding = COUNT_BINDING_TOTALS) uniform utextureBuffer totals_buffer;
 layout(set = 0, binding = COUNT_BINDING_CUT_FACES) uniform utextureBuffer cut_faces_buffer;
 
-CountViewConstants load_count_view(uint p_view) {
-	return light.views[p_view];
-}
-
 uint load_count_head(uint p_index) {
 	return texelFetch(heads_buffer, int(p_index)).r;
 }

@@ -7,6 +7,7 @@
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
+	load_count_constants();
 	const CountPixel pixel = count_pixel();
 	if (is_in_picture(pixel.pixel)) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));

@@ -3,13 +3,18 @@
 #define COUNT_PIXELS_INC_GLSL
 
 #include "common/receiver_pixels_inc.glsl"
+#include "shadow_edge_count/count_constants_inc.glsl"
 #include "shadow_edge_count/count_space_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_LIGHT) uniform Light {
-	CountLightConstants light;
-};
+// See count_constants_inc.glsl.
+FrameConstants frame_copy;
+mat4 light_from_camera;
 
-#include "shadow_edge_count/count_parts_inc.glsl"
+void load_count_constants() {
+	load_light();
+	frame_copy = frame;
+	light_from_camera = light_views.views[0].view_from_camera_relative;
+}
 
 /// A block's pixels so that those that follow one another lie close together: the place of each in the block.
 uvec2 find_pixel_in_block(uint p_index) {
@@ -29,14 +34,14 @@ struct CountPoint {
 /// Only for pixels that receive.
 CountPoint load_count_point(ivec2 p_pixel) {
 	const float FLAT = 1e-7;
-	const ReceiverPixel pixel = load_receiver(p_pixel);
+	const ReceiverPixel pixel = load_receiver(frame_copy, p_pixel);
 	CountPoint point;
 	point.view = VIEW_COUNT == 1u ? 0u : find_view(light_views, pixel.position);
-	point.position = (light_views.views[0].view_from_camera_relative * vec4(pixel.position, 1.0)).xyz;
-	const CountViewConstants view = light.views[VIEW_COUNT == 1u ? 0u : point.view];
+	point.position = (light_from_camera * vec4(pixel.position, 1.0)).xyz;
+	const CountViewConstants view = load_count_view(point.view);
 	const mat3 light_from_view = mat3(view.axis_x.xyz, view.axis_y.xyz, view.axis_z.xyz);
 	const vec3 r = VIEW_COUNT == 1u ? point.position : point.position * light_from_view;
-	const vec3 normal_light = mat3(light_views.views[0].view_from_camera_relative) * pixel.normal;
+	const vec3 normal_light = mat3(light_from_camera) * pixel.normal;
 	const vec3 n = VIEW_COUNT == 1u ? normal_light : normal_light * light_from_view;
 	const bool is_directional = light.is_directional != 0u;
 	point.warped = is_directional ? vec3(r.xy, light.depth_far_m - r.z) : vec3(r.xy, 1.0) / r.z;

@@ -1,7 +1,7 @@
 // Counts the edges of a block's pixels: what the resolve and its debug images share.
 //
-// Software drivers run a branch that nobody takes, and a loop's body once even where nobody enters it. So
-// what is rare has a loop of its own behind the common case, and loops test at their ends.
+// llvmpipe runs a branch that no invocation takes, and a loop's body once even where no invocation enters it. So loops
+// test at their ends; their first iteration does no harm where there is nothing to do.
 #ifndef COUNT_RESOLVE_INC_GLSL
 #define COUNT_RESOLVE_INC_GLSL
 
@@ -18,6 +18,7 @@ layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint FULL_SUBGROUP_SI
 /// Invocations that there are: a work group may be smaller than a subgroup of the device.
 const uint SUBGROUP_SIZE =
 		FULL_SUBGROUP_SIZE < uint(COUNT_GROUP_SIZE) ? FULL_SUBGROUP_SIZE : uint(COUNT_GROUP_SIZE);
+#include "common/subgroup_inc.glsl"
 /// The blocks have no lists: each group of pixels goes through all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
@@ -49,7 +50,7 @@ void choose_edge(CountBox p_box, uint p_entry, bool p_is_there, inout CountChoic
 	const CountEdgeRecord edge = load_count_edge(p_entry & COUNT_EDGE_MASK);
 	const bool is_chosen = p_is_there &&
 			is_edge_in_reach(p_box, uintBitsToFloat(edge.a_face0.xyz), uintBitsToFloat(edge.b_face1.xyz));
-	const uvec4 chosen = subgroupBallot(is_chosen);
+	const uvec4 chosen = subgroup_ballot(is_chosen);
 	if (is_chosen) {
 		chosen_edges[gl_SubgroupID * SLICE_SIZE + r_choice.count + subgroupBallotExclusiveBitCount(chosen)] =
 				p_entry;
@@ -82,7 +83,8 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 void choose_edge_of_bundle(CountBox p_box, uint p_bundle, uint p_index, uint p_end, inout CountChoice r_choice) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
 	const uint edge = p_bundle * size + p_index;
-	choose_edge(p_box, min(edge, p_end - 1u), p_index < size && edge < p_end, r_choice);
+	const bool is_there = p_index < size && edge < p_end;
+	choose_edge(p_box, is_there ? edge : 0u, is_there, r_choice);
 }
 
 /// From all edges of the light, bundle by bundle. Edges p_first .. p_end, whole bundles.
@@ -94,22 +96,28 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 		const uint first_bundle = choice.next / size;
 		const uint bundle = first_bundle + gl_SubgroupInvocationID;
 		const bool is_wanted = bundle < bundle_count &&
-				may_use_bundle(p_box, load_count_bundle(min(bundle, bundle_count - 1u)));
-		uvec4 wanted = subgroupBallot(is_wanted);
+				may_use_bundle(p_box, load_count_bundle(bundle < bundle_count ? bundle : 0u));
+		uvec4 wanted = subgroup_ballot(is_wanted);
 		choice.next += SUBGROUP_SIZE * size;
-		while (subgroupBallotBitCount(wanted) != 0u) {
-			const uint lane = subgroupBallotFindLSB(wanted);
-			if (has_choice_room(choice, size)) {
-				wanted[lane / 32u] &= ~(1u << (lane & 31u));
-				for (uint i = gl_SubgroupInvocationID; i - gl_SubgroupInvocationID < size; i += 2u * SUBGROUP_SIZE) {
-					choose_edge_of_bundle(p_box, first_bundle + lane, i, p_end, choice);
-					choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, p_end, choice);
-				}
-			} else {
+		do {
+			const bool is_there = subgroupBallotBitCount(wanted) != 0u;
+			const uint lane = is_there ? subgroupBallotFindLSB(wanted) : 0u;
+			const bool has_room = has_choice_room(choice, size);
+			if (is_there && !has_room) {
 				choice.next = (first_bundle + lane) * size; // from here on the next time
-				wanted = uvec4(0u);
 			}
-		}
+			wanted[lane / 32u] &= ~(1u << (lane & 31u));
+			wanted = has_room ? wanted : uvec4(0u);
+			const uint end = is_there && has_room ? p_end : 0u;
+			uint i = gl_SubgroupInvocationID;
+			do {
+				choose_edge_of_bundle(p_box, first_bundle + lane, i, end, choice);
+				choose_edge_of_bundle(p_box, first_bundle + lane, i + SUBGROUP_SIZE, end, choice);
+				choose_edge_of_bundle(p_box, first_bundle + lane, i + 2u * SUBGROUP_SIZE, end, choice);
+				choose_edge_of_bundle(p_box, first_bundle + lane, i + 3u * SUBGROUP_SIZE, end, choice);
+				i += 4u * SUBGROUP_SIZE;
+			} while (i - gl_SubgroupInvocationID < size);
+		} while (subgroupBallotBitCount(wanted) != 0u);
 	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
 }
@@ -212,52 +220,81 @@ void share_weight(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_place,
 	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
 }
 
-/// Tests p_count held edges, which have the places from p_place on in their round.
-void share_held(HeldEdge p_held, uint p_place, uint p_count, CountReceiver p_receiver, inout CountShare r_share) {
-	// Four edges an iteration: llvmpipe ends every loop once an invocation has made 65535 iterations, of all its
-	// loops together.
-	for (uint i = 0u; i < p_count; i += 4u) {
-		share_edge(p_held, i, p_place, p_receiver, r_share);
-		share_edge(p_held, i + 1u, p_place, p_receiver, r_share);
-		share_edge(p_held, i + 2u, p_place, p_receiver, r_share);
-		share_edge(p_held, i + 3u, p_place, p_receiver, r_share);
-	}
-	bool is_open = subgroupAny((p_held.entry >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u);
-	while (is_open) { // not a branch: software drivers run what a branch skips
-		const CountEdgeRecord edge = load_count_edge(p_held.entry & COUNT_EDGE_MASK);
-		const HeldFaces faces = HeldFaces(
-				uvec2(edge.a_face0.w, edge.b_face1.w), load_count_plane0(edge), load_count_plane1(edge));
-		for (uint i = 0u; i < p_count; i += 4u) {
-			share_weight(p_held, faces, i, p_place, p_receiver, r_share);
-			share_weight(p_held, faces, i + 1u, p_place, p_receiver, r_share);
-			share_weight(p_held, faces, i + 2u, p_place, p_receiver, r_share);
-			share_weight(p_held, faces, i + 3u, p_place, p_receiver, r_share);
-		}
-		is_open = false;
-	}
+HeldEdge choose_held(bool p_is_second, HeldEdge p_first, HeldEdge p_second) {
+	return HeldEdge(p_is_second ? p_second.entry : p_first.entry, p_is_second ? p_second.a : p_first.a,
+			p_is_second ? p_second.b : p_first.b);
 }
 
-/// Edges of a part of a round.
+HeldEdge get_part(HeldRound p_held, uint p_part) {
+	const HeldEdge low = choose_held(p_part == 1u, p_held.part0, p_held.part1);
+	const HeldEdge high = choose_held(p_part == 3u, p_held.part2, p_held.part3);
+	return choose_held(p_part >= 2u, low, high);
+}
+
+/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the places from p_place on there.
+void share_four(HeldEdge p_held, uint p_lane, uint p_place, CountReceiver p_receiver, inout CountShare r_share) {
+	share_edge(p_held, p_lane, p_place, p_receiver, r_share);
+	share_edge(p_held, p_lane + 1u, p_place, p_receiver, r_share);
+	share_edge(p_held, p_lane + 2u, p_place, p_receiver, r_share);
+	share_edge(p_held, p_lane + 3u, p_place, p_receiver, r_share);
+}
+
+void share_four_weights(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_place, CountReceiver p_receiver,
+		inout CountShare r_share) {
+	share_weight(p_held, p_faces, p_lane, p_place, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 1u, p_place, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 2u, p_place, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 3u, p_place, p_receiver, r_share);
+}
+
+/// Edges of a part of a round that has p_count.
 uint find_held_count(uint p_part, uint p_count) {
 	return min(p_count - min(p_count, p_part * HELD_AT_ONCE), HELD_AT_ONCE);
 }
 
-CountShare share_round(HeldRound p_held, uint p_count, CountReceiver p_receiver) {
-	CountShare share = CountShare(0u, 0u, 0u);
-	share_held(p_held.part0, 0u, find_held_count(0u, p_count), p_receiver, share);
-	if (ROUND_SIZE > HELD_AT_ONCE) {
-		share_held(p_held.part1, HELD_AT_ONCE, find_held_count(1u, p_count), p_receiver, share);
-	}
-	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
-		share_held(p_held.part2, 2u * HELD_AT_ONCE, find_held_count(2u, p_count), p_receiver, share);
-		share_held(p_held.part3, 3u * HELD_AT_ONCE, find_held_count(3u, p_count), p_receiver, share);
-	}
-	return share;
-}
+// The edges that one iteration tests: llvmpipe ends every loop once an invocation has made 65535 iterations, of all its
+// loops together.
+const uint SHARED_AT_ONCE = HELD_AT_ONCE < 8u ? 4u : 8u;
 
-HeldEdge choose_held(bool p_is_second, HeldEdge p_first, HeldEdge p_second) {
-	return HeldEdge(p_is_second ? p_second.entry : p_first.entry, p_is_second ? p_second.a : p_first.a,
-			p_is_second ? p_second.b : p_first.b);
+/// Takes a round of the slice's edges, p_first and p_count - 1 more, and finds those that the receiver has to count.
+CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, inout HeldRound r_held) {
+	CountShare share = CountShare(0u, 0u, 0u);
+	uint open_parts = 0u; // that have an edge whose weight the list does not know
+	uint part = 0u;
+	do {
+		const HeldEdge held = hold_edge(p_first + part * HELD_AT_ONCE, p_first + p_count);
+		r_held.part0 = choose_held(part == 0u, r_held.part0, held);
+		r_held.part1 = choose_held(part == 1u, r_held.part1, held);
+		r_held.part2 = choose_held(part == 2u, r_held.part2, held);
+		r_held.part3 = choose_held(part == 3u, r_held.part3, held);
+		uint i = 0u;
+		do {
+			share_four(held, i, part * HELD_AT_ONCE, p_receiver, share);
+			if (SHARED_AT_ONCE == 8u) {
+				share_four(held, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
+			}
+			i += SHARED_AT_ONCE;
+		} while (i < find_held_count(part, p_count));
+		open_parts |= subgroup_any((held.entry >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u) ? 1u << part : 0u;
+		++part;
+	} while (part * HELD_AT_ONCE < p_count);
+	do {
+		part = uint(findLSB(open_parts)) & 3u;
+		open_parts &= open_parts - 1u;
+		const HeldEdge held = get_part(r_held, part);
+		const CountEdgeRecord edge = load_count_edge(held.entry & COUNT_EDGE_MASK);
+		const HeldFaces faces = HeldFaces(
+				uvec2(edge.a_face0.w, edge.b_face1.w), load_count_plane0(edge), load_count_plane1(edge));
+		uint i = 0u;
+		do {
+			share_four_weights(held, faces, i, part * HELD_AT_ONCE, p_receiver, share);
+			if (SHARED_AT_ONCE == 8u) {
+				share_four_weights(held, faces, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
+			}
+			i += SHARED_AT_ONCE;
+		} while (i < find_held_count(part, p_count));
+	} while (open_parts != 0u);
+	return share;
 }
 
 /// What the next of the edges that the invocation's receiver has adds, if there is one.
@@ -282,39 +319,25 @@ CountSector find_next_sector(HeldRound p_held, CountReceiver p_receiver, CountSh
 
 /// Counts the edges that each invocation's receiver has, two an iteration.
 void count_share(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
-	const uint most = subgroupMax(uint(bitCount(p_share.own)));
+	const uint most = subgroup_max(uint(bitCount(p_share.own)));
 	uint left = p_share.own;
-	for (uint i = 0u; i < most; i += 2u) {
+	uint i = 0u;
+	do {
 		// One behind the other, so that processors deal with both at once.
 		const CountSector first = find_next_sector(p_held, p_receiver, p_share, left);
 		const CountSector second = find_next_sector(p_held, p_receiver, p_share, left);
 		count_sector(first, r_state);
 		count_sector(second, r_state);
-	}
-}
-
-HeldRound hold_round(uint p_first, uint p_end) {
-	HeldRound held;
-	held.part0 = hold_edge(p_first, p_end);
-	held.part1 = held.part0;
-	held.part2 = held.part0;
-	held.part3 = held.part0;
-	if (ROUND_SIZE > HELD_AT_ONCE) {
-		held.part1 = hold_edge(p_first + HELD_AT_ONCE, p_end);
-	}
-	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
-		held.part2 = hold_edge(p_first + 2u * HELD_AT_ONCE, p_end);
-		held.part3 = hold_edge(p_first + 3u * HELD_AT_ONCE, p_end);
-	}
-	return held;
+		i += 2u;
+	} while (i < most);
 }
 
 /// The bounds of those receivers of a subgroup that are in it.
 CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slope) {
 	const float range = p_point.warped.z - dot(p_slope, p_point.warped.xy);
-	return CountBounds(subgroupMin(p_is_here ? p_point.warped.xy : vec2(COUNT_FAR)),
-			subgroupMax(p_is_here ? p_point.warped.xy : vec2(-COUNT_FAR)), p_slope,
-			vec2(subgroupMin(p_is_here ? range : COUNT_FAR), subgroupMax(p_is_here ? range : -COUNT_FAR)));
+	return CountBounds(subgroup_min(p_is_here ? p_point.warped.xy : vec2(COUNT_FAR)),
+			subgroup_max(p_is_here ? p_point.warped.xy : vec2(-COUNT_FAR)), p_slope,
+			vec2(subgroup_min(p_is_here ? range : COUNT_FAR), subgroup_max(p_is_here ? range : -COUNT_FAR)));
 }
 
 /// Each invocation counts one of the block's pixels, which has its place there. p_parts: the first of the words of
@@ -351,23 +374,28 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	}
 	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
-	while (subgroupAny(waits)) {
+	do {
 		// Those of one part: what lies between parts would make them ask for edges that none of them needs.
-		const uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
-		const uint part = subgroupBroadcast(own_part, leader);
+		const uvec4 waiting = subgroup_ballot(waits);
+		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
+		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;
+		const uint part = subgroupShuffle(own_part, leader);
 		const uint view = find_part_view(p_parts, part);
 		const bool is_here = waits && own_part == part;
-		const CountBox box = make_count_box(light, light.views[view],
-				find_subgroup_bounds(point, is_here, subgroupBroadcast(point.slope, leader)));
-		uint end = find_edge_count();
+		const CountBox box = make_count_box(light, load_count_view(view),
+				find_subgroup_bounds(point, is_here, subgroupShuffle(point.slope, leader)));
+		uint end = is_any ? find_edge_count() : 0u;
 		uint chunk = 0u;
 		if (!HAS_NO_LIST) {
 			const uint chain = (p_block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
-			end = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r;
+			// Of a part that is not there nothing is written.
+			end = is_any ? texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r : 0u;
 			chunk = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
 		}
 		uint next = 0u; // in the list
-		while (next < end) {
+		const HeldEdge none = HeldEdge(COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT, vec3(0.0), vec3(0.0));
+		HeldRound held = HeldRound(none, none, none, none);
+		do {
 			CountChoice choice;
 			if (HAS_NO_LIST) {
 				choice = choose_from_bundles(next, end, box);
@@ -377,19 +405,20 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 			next = choice.next;
 			subgroupMemoryBarrierShared();
 			subgroupBarrier();
-			for (uint first = 0u; first < choice.count; first += ROUND_SIZE) {
+			uint first = 0u;
+			do {
 				const uint count = min(choice.count - first, ROUND_SIZE);
-				const HeldRound held = hold_round(first, first + count);
-				CountShare share = share_round(held, count, receiver);
+				CountShare share = share_round(first, count, receiver, held);
 				share.own = is_here ? share.own : 0u;
 				count_share(held, receiver, share, state);
 				result.edge_count += uint(bitCount(share.own));
-			}
+				first += ROUND_SIZE;
+			} while (first < choice.count);
 			subgroupMemoryBarrierShared();
 			subgroupBarrier();
-		}
+		} while (next < end);
 		waits = waits && !is_here;
-	}
+	} while (subgroup_any(waits));
 	result.solid_count = state.solid_count;
 	result.visibility = is_counted ? count_resolve(state) : (is_receiver ? 1.0 : 0.0);
 	return result;

@@ -64,6 +64,7 @@ float find_fitted(uvec2 p_pixel) {
 }
 
 void main() {
+	load_count_constants();
 	const uint block = find_block();
 	const uint parts =
 			texelFetch(receives_buffer, int(block * uint(EDGE_COUNT_RECEIVES_WORDS)) + EDGE_COUNT_RECEIVES_PARTS).r;

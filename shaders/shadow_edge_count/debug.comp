@@ -12,6 +12,7 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DA
 
 // What was counted, for debug views.
 void main() {
+	load_count_constants();
 	const CountPixel pixel = count_pixel();
 	if (!is_in_picture(pixel.pixel)) {
 		return;

@@ -9,6 +9,7 @@ layout(set = 0, binding = COUNT_BINDING_DEPTH_MAP) uniform texture2DArray map_te
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
+	load_count_constants();
 	const ivec2 pixel = ivec2(find_block_corner(find_block()) + gl_LocalInvocationID.xy);
 	if (!is_in_picture(pixel)) {
 		return;

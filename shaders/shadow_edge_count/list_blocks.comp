@@ -3,14 +3,12 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-layout(set = 0, binding = COUNT_BINDING_LIGHT) uniform Light {
-	CountLightConstants light;
-};
-
 #include "common/work_rows_inc.glsl"
+#include "shadow_edge_count/count_constants_inc.glsl"
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_parts_inc.glsl"
 
@@ -39,6 +37,9 @@ layout(std430, set = 0, binding = COUNT_BINDING_DISPATCHES) buffer Dispatches {
 };
 
 const uint GROUP_SIZE = gl_WorkGroupSize.x;
+const uint SUBGROUP_SIZE = GROUP_SIZE;
+#include "common/subgroup_inc.glsl"
+
 const uint BLOCKS_PER_TILE = uint(EDGE_COUNT_BLOCKS_PER_TILE_SIDE * EDGE_COUNT_BLOCKS_PER_TILE_SIDE);
 const uint PARTS_PER_TILE = BLOCKS_PER_TILE * PART_COUNT;
 const uint NO_BLOCK = 0xffffffffu;
@@ -78,7 +79,7 @@ uint find_parts_of_tile(uvec2 p_tile, uint p_view) {
 			parts_of_tile |= is_there ? 1u << (part * BLOCKS_PER_TILE + i) : 0u;
 		}
 	}
-	return subgroupOr(parts_of_tile);
+	return subgroup_or(parts_of_tile);
 }
 
 /// The place of a part of the tile in the buffers that have one item for each.
@@ -93,40 +94,49 @@ CountBounds load_box(uvec2 p_tile, uint p_parts, uint p_index) {
 	return is_there ? unpack_count_bounds(loaded) : make_count_bounds();
 }
 
+/// True while a loop over the parts, a group of them an iteration, has more of them from p_first on.
+bool is_part_left(uint p_parts, uint p_first) {
+	return p_first < PARTS_PER_TILE && p_parts >> p_first != 0u;
+}
+
 /// Least and greatest w of parts.
 vec2 find_w_range_of_tile(uvec2 p_tile, uint p_parts) {
 	vec2 w = vec2(COUNT_FAR, -COUNT_FAR);
-	for (uint i = 0u; i < PARTS_PER_TILE && p_parts >> i != 0u; i += GROUP_SIZE) {
-		const CountBounds box = load_box(p_tile, p_parts, i + gl_SubgroupInvocationID);
+	uint first = 0u;
+	do {
+		const CountBounds box = load_box(p_tile, p_parts, first + gl_SubgroupInvocationID);
 		const vec2 range = find_w_range(box);
 		w = is_count_bounds_empty(box) ? w : vec2(min(w.x, range.x), max(w.y, range.y));
-	}
-	return vec2(subgroupMin(w.x), subgroupMax(w.y));
+		first += GROUP_SIZE;
+	} while (is_part_left(p_parts, first));
+	return vec2(subgroup_min(w.x), subgroup_max(w.y));
 }
 
 /// The bounds of those boxes of parts whose middle w lies in a range, about the plane of the first; each
 /// invocation has some of the boxes.
 CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_least_w, float p_greatest_w) {
 	CountBounds bounds = make_count_bounds();
-	for (uint i = 0u; i < PARTS_PER_TILE && p_parts >> i != 0u; i += GROUP_SIZE) {
-		const CountBounds box = load_box(p_tile, p_parts, i + gl_SubgroupInvocationID);
+	uint first = 0u;
+	do {
+		const CountBounds box = load_box(p_tile, p_parts, first + gl_SubgroupInvocationID);
 		const vec2 w = find_w_range(box);
 		const float middle = 0.5 * (w.x + w.y);
 		const bool is_here =
 				!is_count_bounds_empty(box) && middle >= p_least_w && middle < p_greatest_w;
 		bounds = is_here ? join_count_bounds(bounds, box) : bounds;
-	}
+		first += GROUP_SIZE;
+	} while (is_part_left(p_parts, first));
 	const bool is_empty = is_count_bounds_empty(bounds);
-	const uvec4 filled = subgroupBallot(!is_empty);
+	const uvec4 filled = subgroup_ballot(!is_empty);
 	const uint leader = subgroupBallotBitCount(filled) > 0u ? subgroupBallotFindLSB(filled) : 0u;
-	const vec2 slope = subgroupBroadcast(bounds.slope, leader);
+	const vec2 slope = subgroupShuffle(bounds.slope, leader);
 	const vec2 range = is_empty ? bounds.range : find_range_about(bounds, slope);
-	return CountBounds(subgroupMin(bounds.least), subgroupMax(bounds.greatest), slope,
-			vec2(subgroupMin(range.x), subgroupMax(range.y)));
+	return CountBounds(subgroup_min(bounds.least), subgroup_max(bounds.greatest), slope,
+			vec2(subgroup_min(range.x), subgroup_max(range.y)));
 }
 
 BoxPair make_pair(uint p_view, CountBounds p_near, CountBounds p_far) {
-	const CountViewConstants view = light.views[p_view];
+	const CountViewConstants view = load_count_view(p_view);
 	BoxPair pair;
 	pair.near = make_count_box(light, view, is_count_bounds_empty(p_near) ? p_far : p_near);
 	pair.far = make_count_box(light, view, is_count_bounds_empty(p_far) ? p_near : p_far);
@@ -145,7 +155,7 @@ BoxPair find_tile_pair(uvec2 p_tile, uint p_view, uint p_parts) {
 const uint MOST_WANTED = 512u;
 shared uint wanted_bundles[MOST_WANTED];
 const uint MOST_HELD = 1024u;
-shared uint held_edges[MOST_HELD];
+shared uint held_items[MOST_HELD];
 
 /// The list of a part that is being written.
 struct Chain {
@@ -170,20 +180,16 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 	uint count = 0u;
 	do {
 		const uint bundle = r_next + gl_SubgroupInvocationID;
-		const CountEdgeBundle loaded = load_count_bundle(min(bundle, p_bundle_count - 1u));
-		bool is_wanted = bundle < p_bundle_count && may_use_bundle(p_pair.near, loaded);
-		bool is_open = bundle < p_bundle_count && !is_wanted && p_pair.count > 1u;
-		while (is_open) { // not a branch: software drivers run what a branch skips
-			is_wanted = may_use_bundle(p_pair.far, loaded);
-			is_open = false;
-		}
-		const uvec4 wanted = subgroupBallot(is_wanted);
+		const CountEdgeBundle loaded = load_count_bundle(bundle < p_bundle_count ? bundle : 0u);
+		const bool is_wanted = bundle < p_bundle_count &&
+				(may_use_bundle(p_pair.near, loaded) || (p_pair.count > 1u && may_use_bundle(p_pair.far, loaded)));
+		const uvec4 wanted = subgroup_ballot(is_wanted);
 		if (is_wanted) {
 			wanted_bundles[count + subgroupBallotExclusiveBitCount(wanted)] = bundle;
 		}
 		count += subgroupBallotBitCount(wanted);
 		r_next += GROUP_SIZE;
-		iteration_count += 2u;
+		++iteration_count;
 	} while (r_next < p_bundle_count && count + GROUP_SIZE <= MOST_WANTED &&
 			iteration_count < MOST_ITERATIONS);
 	subgroupMemoryBarrierShared();
@@ -199,27 +205,22 @@ uint test_edge(CountBox p_box, uint p_index, out bool r_is_used, inout float r_l
 	const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
 	const bool is_in_reach = is_edge_in_reach(p_box, a, b) &&
 			max(find_light_side(p_box, a), find_light_side(p_box, b)) >= 0;
-	uint known = 0u;
-	bool is_tested = !is_in_reach;
-	while (!is_tested) { // not a branch: software drivers run what a branch skips
-		known = find_known_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
-				load_count_plane0(edge), load_count_plane1(edge));
-		r_least_share = known != COUNT_ADDS_NOTHING ? min(r_least_share, find_least_share(p_box, a, b)) : r_least_share;
-		is_tested = true;
-	}
+	const uint known = find_known_weight(p_box, make_count_kind(edge.a_face0.w, edge.b_face1.w),
+			load_count_plane0(edge), load_count_plane1(edge));
 	r_is_used = is_in_reach && known != COUNT_ADDS_NOTHING;
+	r_least_share = r_is_used ? min(r_least_share, find_least_share(p_box, a, b)) : r_least_share;
 	return p_index | known << COUNT_KNOWN_SHIFT;
 }
 
 /// Appends the entries of those invocations that use theirs.
 void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	const uint size = uint(EDGE_COUNT_CHUNK_SIZE);
-	const uvec4 used = subgroupBallot(p_is_used);
+	const uvec4 used = subgroup_ballot(p_is_used);
 	const uint begin = r_chain.edge_count % size;
 	const uint end = begin + subgroupBallotBitCount(used);
 	uint chunk = r_chain.chunk;
-	bool is_full = end > begin && (begin == 0u || end > size);
-	while (is_full) { // not a branch: software drivers run what a branch skips
+	const bool is_full = end > begin && (begin == 0u || end > size);
+	if (is_full) {
 		if (subgroupElect()) {
 			chunk = atomicAdd(dispatches[EDGE_COUNT_DISPATCH_CHUNKS], 1u);
 			if (r_chain.edge_count > 0u && max(r_chain.chunk, chunk) < light.chunk_capacity) {
@@ -227,7 +228,6 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 			}
 		}
 		chunk = subgroupBroadcastFirst(chunk);
-		is_full = false;
 	}
 	const uint place = begin + subgroupBallotExclusiveBitCount(used);
 	const uint target = begin == 0u || place >= size ? chunk : r_chain.chunk;
@@ -239,106 +239,108 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 	r_chain.edge_count += end - begin;
 }
 
-/// Tests the edges of a bundle.
-void list_bundle(
-		CountBox p_box, uint p_bundle, uint p_edge_count, inout float r_least_share, inout Chain r_chain) {
-	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	uint i = gl_SubgroupInvocationID;
+/// Puts those of the chosen bundles that a part needs into held_items, and returns how many.
+uint hold_bundles(CountBox p_box, uint p_wanted_count) {
+	uint count = 0u;
+	uint first = 0u;
 	do {
-		const uint index = p_bundle * size + i;
-		const bool is_there = i < size && index < p_edge_count;
-		bool is_used;
-		const uint entry = test_edge(p_box, is_there ? index : p_edge_count - 1u, is_used, r_least_share);
-		append_edges(entry, is_there && is_used, r_chain);
-		i += GROUP_SIZE;
-	} while (i - gl_SubgroupInvocationID < size);
-	iteration_count += 3u * (size / GROUP_SIZE + 1u);
-}
-
-/// Lists those edges of the chosen bundles that a part needs.
-void list_part(CountBox p_box, uint p_wanted_count, uint p_edge_count, inout float r_least_share,
-		inout Chain r_chain) {
-	for (uint first = 0u; first < p_wanted_count; first += GROUP_SIZE) {
 		const uint item = first + gl_SubgroupInvocationID;
-		const uint bundle = wanted_bundles[min(item, p_wanted_count - 1u)];
-		const uvec4 used = subgroupBallot(item < p_wanted_count && may_use_bundle(p_box, load_count_bundle(bundle)));
-		uvec2 left = used.xy;
-		while ((left.x | left.y) != 0u) {
-			const uint lane = left.x != 0u ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
-			left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
-			list_bundle(p_box, wanted_bundles[first + lane], p_edge_count, r_least_share, r_chain);
+		const uint bundle = item < p_wanted_count ? wanted_bundles[item] : 0u;
+		const bool is_used = item < p_wanted_count && may_use_bundle(p_box, load_count_bundle(bundle));
+		const uvec4 used = subgroup_ballot(is_used);
+		if (is_used) {
+			held_items[count + subgroupBallotExclusiveBitCount(used)] = bundle;
 		}
+		count += subgroupBallotBitCount(used);
+		first += GROUP_SIZE;
 		++iteration_count;
-	}
+	} while (first < p_wanted_count);
+	subgroupMemoryBarrierShared();
+	subgroupBarrier();
+	return count;
 }
 
-/// Lists held edges that a part needs.
-void list_held(CountBox p_box, uint p_held_count, inout float r_least_share, inout Chain r_chain) {
-	for (uint first = 0u; first < p_held_count; first += GROUP_SIZE) {
+/// Lists the edges that a part needs of p_edge_count in held_items: these, or those of the bundles there.
+void list_held(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout float r_least_share, inout Chain r_chain) {
+	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
+	const uint most = find_edge_count();
+	uint first = 0u;
+	do {
 		const uint item = first + gl_SubgroupInvocationID;
+		const uint place = item < p_edge_count ? item : 0u;
+		const uint held = held_items[p_has_bundles ? place / size : place];
+		const uint index = p_has_bundles ? held * size + place % size : held;
+		const bool is_there = item < p_edge_count && index < most;
 		bool is_used;
-		const uint entry = test_edge(p_box, held_edges[min(item, p_held_count - 1u)], is_used, r_least_share);
-		append_edges(entry, is_used && item < p_held_count, r_chain);
-		iteration_count += 3u;
-	}
+		const uint entry = test_edge(p_box, is_there ? index : 0u, is_used, r_least_share);
+		append_edges(entry, is_there && is_used, r_chain);
+		first += GROUP_SIZE;
+		++iteration_count;
+	} while (first < p_edge_count);
 }
 
-/// Lists what each part needs of the chosen bundles and of the held edges; one of both numbers is 0.
+/// Lists what each part needs of the chosen bundles, or of p_held_count edges in held_items; one of both numbers is 0.
 void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count, uint p_held_count) {
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
-	const uint edge_count = find_edge_count();
+	const bool has_bundles = p_wanted_count > 0u;
 	uint parts = p_wanted_count + p_held_count > 0u ? p_parts : 0u;
-	while (parts != 0u && iteration_count < MOST_ITERATIONS) {
-		const uint i = uint(findLSB(parts));
-		const CountBox box = make_count_box(light, light.views[p_view], load_box(p_tile, p_parts, i));
+	do {
+		const bool is_there = parts != 0u;
+		const uint i = is_there ? uint(findLSB(parts)) : 0u;
+		const CountBox box = make_count_box(light, load_count_view(p_view), load_box(p_tile, p_parts, i));
 		Chain chain = part_chains[i];
 		float least_share = COUNT_FAR;
-		list_part(box, p_wanted_count, edge_count, least_share, chain);
-		list_held(box, p_held_count, least_share, chain);
-		chain.is_smooth = chain.is_smooth && subgroupAll(least_share >= box.smooth_share);
-		if (subgroupElect()) {
+		const uint bundle_count = hold_bundles(box, is_there ? p_wanted_count : 0u);
+		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_held_count;
+		list_held(box, has_bundles, is_there ? edge_count : 0u, least_share, chain);
+		chain.is_smooth = chain.is_smooth && subgroup_all(least_share >= box.smooth_share);
+		if (is_there && gl_SubgroupInvocationID == 0u) {
 			part_chains[i] = chain;
 		}
 		++iteration_count;
 		parts &= parts - 1u;
-	}
+	} while (parts != 0u && iteration_count < MOST_ITERATIONS);
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
 }
 
-/// Holds those edges of the chosen bundles that the tile needs, and lists what its parts need of them.
-void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count) {
+/// Puts edges of the chosen bundles that the tile needs into held_items, from r_first on until all are tested or there
+/// may be no room, and returns how many.
+uint hold_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 	const uint size = uint(EDGE_COUNT_BUNDLE_SIZE);
-	const uint edge_count = find_edge_count();
-	const uint item_count = p_wanted_count * size;
+	const uint most = find_edge_count();
+	uint count = 0u;
+	do {
+		const uint item = r_first + gl_SubgroupInvocationID;
+		const uint place = item < p_item_count ? item : 0u;
+		const uint index = wanted_bundles[place / size] * size + place % size;
+		const bool is_there = item < p_item_count && index < most;
+		const CountEdgeRecord edge = load_count_edge(is_there ? index : 0u);
+		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
+		const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
+		const bool is_held = is_there &&
+				(is_edge_in_reach(p_pair.near, a, b) || (p_pair.count > 1u && is_edge_in_reach(p_pair.far, a, b)));
+		const uvec4 held = subgroup_ballot(is_held);
+		if (is_held) {
+			held_items[count + subgroupBallotExclusiveBitCount(held)] = index;
+		}
+		count += subgroupBallotBitCount(held);
+		r_first += GROUP_SIZE;
+		++iteration_count;
+	} while (r_first < p_item_count && count + GROUP_SIZE <= MOST_HELD);
+	return count;
+}
+
+/// Lists the edges of the chosen bundles that the tile's parts need.
+void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count) {
+	const bool is_deep = uint(bitCount(p_parts)) > BLOCKS_PER_TILE;
+	const uint item_count = is_deep ? 0u : p_wanted_count * uint(EDGE_COUNT_BUNDLE_SIZE);
 	uint first = 0u;
-	while (first < item_count && iteration_count < MOST_ITERATIONS) {
-		uint held_count = 0u;
-		do {
-			const uint item = first + gl_SubgroupInvocationID;
-			const uint place = min(item, item_count - 1u);
-			const uint index = wanted_bundles[place / size] * size + place % size;
-			const CountEdgeRecord edge = load_count_edge(min(index, edge_count - 1u));
-			const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
-			const vec3 b = uintBitsToFloat(edge.b_face1.xyz);
-			bool is_held = is_edge_in_reach(p_pair.near, a, b);
-			bool is_open = !is_held && p_pair.count > 1u;
-			while (is_open) { // not a branch: software drivers run what a branch skips
-				is_held = is_edge_in_reach(p_pair.far, a, b);
-				is_open = false;
-			}
-			is_held = is_held && item < item_count && index < edge_count;
-			const uvec4 held = subgroupBallot(is_held);
-			if (is_held) {
-				held_edges[held_count + subgroupBallotExclusiveBitCount(held)] = index;
-			}
-			held_count += subgroupBallotBitCount(held);
-			first += GROUP_SIZE;
-			iteration_count += 2u;
-		} while (first < item_count && held_count + GROUP_SIZE <= MOST_HELD);
-		list_parts(p_tile, p_view, p_parts, 0u, held_count);
-	}
+	do {
+		const uint held_count = hold_edges(p_pair, item_count, first);
+		list_parts(p_tile, p_view, p_parts, is_deep ? p_wanted_count : 0u, held_count);
+	} while (first < item_count && iteration_count < MOST_ITERATIONS);
 }
 
 // Through lists of faces. So many that no size of the map reaches it in usual scenes: what a block is does not depend on
@@ -370,12 +372,7 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 	while (texel.y <= p_last.y && is_aside) {
 		const uvec2 node = load_count_node(p_view * light.node_capacity + max(next, 1u) - 1u);
 		const vec4 plane = load_count_plane(node.x);
-		bool is_known = next == 0u || find_count_side(p_box, plane) != 0;
-		bool is_open = !is_known;
-		while (is_open) { // not a branch: software drivers run what a branch skips
-			is_known = is_face_off(p_box, node.x);
-			is_open = false;
-		}
+		const bool is_known = next == 0u || find_count_side(p_box, plane) != 0 || is_face_off(p_box, node.x);
 		is_aside = is_known && step_count < end;
 		const bool is_end = next == 0u || node.y == 0u;
 		const bool is_row_end = is_end && texel.x == p_last.x;
@@ -390,47 +387,46 @@ bool are_faces_aside(CountBox p_box, uint p_view, uvec2 p_first, uvec2 p_last) {
 /// What is known of the solids between all receivers of a box and the light's centre, where no edge passes between:
 /// their number changes only through a face. MAY_VARY: a face may part the receivers.
 uint find_box_solids(uint p_view, CountBounds p_bounds) {
-	const CountViewConstants view = light.views[p_view];
+	const CountViewConstants view = load_count_view(p_view);
 	const CountBox box = make_count_box(light, view, p_bounds);
 	const vec2 least = box.center - box.half_size;
 	const vec2 greatest = box.center + box.half_size;
 	const bool is_inside = all(greaterThanEqual(least, -view.half_extent)) &&
 			all(lessThanEqual(greatest, view.half_extent));
-	bool is_even = is_inside &&
+	const bool is_even = is_inside &&
 			are_faces_aside(box, p_view, find_count_texel(p_view, least), find_count_texel(p_view, greatest));
 	// A receiver in the middle of the box.
 	const float w = dot(box.slope, box.center) + box.range.x;
 	const vec3 place = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
 	const vec3 position = place.x * view.axis_x.xyz + place.y * view.axis_y.xyz + place.z * view.axis_z.xyz;
-	uint result = MAY_VARY;
-	while (is_even) { // not a branch: software drivers run what a branch skips
-		const int solids = count_solids(light, p_view, box.center, make_count_receiver(light, position));
-		result = solids == 0 ? SOME_ARE_LIT : SOME_ARE_DARK;
-		is_even = false;
+	if (!is_even) {
+		return MAY_VARY;
 	}
-	return result;
+	const int solids = count_solids(light, p_view, box.center, make_count_receiver(light, position));
+	return solids == 0 ? SOME_ARE_LIT : SOME_ARE_DARK;
 }
 
 /// Looks for faces that part receivers: adds what is known of parts that have no edges, and where there are edges,
 /// a block with such a face is not smooth. One invocation a part.
 void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
-	for (uint first = 0u; first < PARTS_PER_TILE && p_parts >> first != 0u; first += GROUP_SIZE) {
+	uint first = 0u;
+	do {
 		const uint i = first + gl_SubgroupInvocationID;
 		const CountBounds bounds = load_box(p_tile, p_parts, i);
 		const uint block = i % BLOCKS_PER_TILE;
 		const bool has_edges = part_chains[min(i, PARTS_PER_TILE - 1u)].edge_count > 0u;
 		// Without edges a light of size 0 has borders all the same.
-		bool is_wanted = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
+		const bool is_wanted = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
 				(!has_edges || blocks_are_smooth[block] != 0u);
-		while (is_wanted) { // not a branch: software drivers run what a branch skips
+		if (is_wanted) {
 			const uint solids = find_box_solids(p_view, bounds);
 			atomicOr(block_solids[block], has_edges ? 0u : solids);
 			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
-			is_wanted = false;
 		}
-		iteration_count += 3u * subgroupMax(step_count) + 2u;
+		iteration_count += 2u * subgroup_max(step_count) + 1u;
 		step_count = 0u;
-	}
+		first += GROUP_SIZE;
+	} while (is_part_left(p_parts, first));
 }
 
 /// Lists the edges of one view.
@@ -443,12 +439,11 @@ void list_view(uvec2 p_tile, uint p_view) {
 	subgroupBarrier();
 	const uint parts = find_parts_of_tile(p_tile, p_view);
 	const BoxPair pair = find_tile_pair(p_tile, p_view, parts);
-	const bool is_deep = uint(bitCount(parts)) > BLOCKS_PER_TILE;
-	for (uint next = 0u; next < bundle_count && iteration_count < MOST_ITERATIONS;) {
+	uint next = 0u;
+	do {
 		const uint wanted_count = choose_bundles(pair, bundle_count, next);
-		list_parts(p_tile, p_view, parts, is_deep ? wanted_count : 0u, 0u);
-		list_bundles(pair, p_tile, p_view, parts, is_deep ? 0u : wanted_count);
-	}
+		list_bundles(pair, p_tile, p_view, parts, wanted_count);
+	} while (next < bundle_count && iteration_count < MOST_ITERATIONS);
 	for (uint first = 0u; first < PARTS_PER_TILE && parts >> first != 0u; first += GROUP_SIZE) {
 		const uint i = first + gl_SubgroupInvocationID;
 		if (i < PARTS_PER_TILE && (parts >> i & 1u) != 0u) {
@@ -481,6 +476,7 @@ void add_block(uint p_entry, uint p_kind) {
 }
 
 void main() {
+	load_light();
 	const uvec2 tile = uvec2(gl_WorkGroupID.x, find_work_row());
 	uint views = 0u;
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
@@ -493,11 +489,11 @@ void main() {
 		blocks_are_smooth[i] = (parts & EDGE_COUNT_IS_SMOOTH) != 0u && find_cut_face_count() == 0u ? 1u : 0u;
 		block_solids[i] = (parts & EDGE_COUNT_IS_PARTLY_LIT) != 0u ? SOME_ARE_LIT : 0u;
 	}
-	views = subgroupOr(views);
-	while (views != 0u && iteration_count < MOST_ITERATIONS) {
-		list_view(tile, uint(findLSB(views)));
+	views = subgroup_or(views);
+	do {
+		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;
-	}
+	} while (views != 0u && iteration_count < MOST_ITERATIONS);
 	subgroupMemoryBarrierShared();
 	subgroupBarrier();
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_KHR_shader_subgroup_vote : require
 #include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_box_inc.glsl"
@@ -18,6 +19,9 @@ layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) writeonly buffer Recei
 };
 
 const uint GROUP_SIZE = gl_WorkGroupSize.x;
+const uint SUBGROUP_SIZE = GROUP_SIZE;
+#include "common/subgroup_inc.glsl"
+
 const uint PIXEL_COUNT = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX);
 const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
@@ -59,9 +63,9 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_he
 		slope = p_is_here[i] && !is_any ? p_points[i].slope : slope;
 		is_any = is_any || p_is_here[i];
 	}
-	const uvec4 lanes = subgroupBallot(is_any);
-	const uint leader = subgroupAny(is_any) ? subgroupBallotFindLSB(lanes) : 0u;
-	slope = subgroupBroadcast(slope, leader);
+	const uvec4 lanes = subgroup_ballot(is_any);
+	const uint leader = subgroup_any(is_any) ? subgroupBallotFindLSB(lanes) : 0u;
+	slope = subgroupShuffle(slope, leader);
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const vec3 warped = p_points[i].warped;
 		const float range = warped.z - dot(slope, warped.xy);
@@ -70,8 +74,8 @@ CountBounds find_bounds(CountPoint p_points[PIXELS_PER_INVOCATION], bool p_is_he
 		bounds.range.x = p_is_here[i] ? min(bounds.range.x, range) : bounds.range.x;
 		bounds.range.y = p_is_here[i] ? max(bounds.range.y, range) : bounds.range.y;
 	}
-	return CountBounds(subgroupMin(bounds.least), subgroupMax(bounds.greatest), slope,
-			vec2(subgroupMin(bounds.range.x), subgroupMax(bounds.range.y)));
+	return CountBounds(subgroup_min(bounds.least), subgroup_max(bounds.greatest), slope,
+			vec2(subgroup_min(bounds.range.x), subgroup_max(bounds.range.y)));
 }
 
 void write_box(uint p_block, uint p_part, CountBounds p_bounds) {
@@ -145,9 +149,9 @@ bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 	const float MOST_DEVIATION = 0.25;
 	const uint RIGHT = 21u; // as find_pixel_in_block has it: bits of x are the even ones
 	const uint TOP = 42u;
-	const vec3 corner = subgroupBroadcast(p_points[0].position, 0u);
-	const vec3 right = subgroupBroadcast(p_points[RIGHT / GROUP_SIZE].position, RIGHT % GROUP_SIZE) - corner;
-	const vec3 top = subgroupBroadcast(p_points[TOP / GROUP_SIZE].position, TOP % GROUP_SIZE) - corner;
+	const vec3 corner = subgroupShuffle(p_points[0].position, 0u);
+	const vec3 right = subgroupShuffle(p_points[RIGHT / GROUP_SIZE].position, RIGHT % GROUP_SIZE) - corner;
+	const vec3 top = subgroupShuffle(p_points[TOP / GROUP_SIZE].position, TOP % GROUP_SIZE) - corner;
 	const float most = MOST_DEVIATION * MOST_DEVIATION * max(dot(right, right), dot(top, top));
 	bool is_even = true;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
@@ -157,10 +161,11 @@ bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 		is_even = is_even &&
 				(pixel >= PIXEL_COUNT || (p_points[i].view != NO_VIEW && dot(deviation, deviation) <= most));
 	}
-	return subgroupAll(is_even);
+	return subgroup_all(is_even);
 }
 
 void main() {
+	load_count_constants();
 	CountPoint points[PIXELS_PER_INVOCATION];
 	bool is_lit = false;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
@@ -177,7 +182,7 @@ void main() {
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			next = points[i].view >= view ? min(next, points[i].view) : next;
 		}
-		view = subgroupMin(next);
+		view = subgroup_min(next);
 		if (view == NO_VIEW) {
 			break;
 		}
@@ -190,22 +195,19 @@ void main() {
 			greatest_w = is_here[i] ? max(greatest_w, points[i].warped.z) : greatest_w;
 		}
 		write_box(block, view, find_bounds(points, is_here));
-		w_range = vec2(subgroupMin(least_w), subgroupMax(greatest_w));
+		w_range = vec2(subgroup_min(least_w), subgroup_max(greatest_w));
 		is_deep = is_deep || is_apart(w_range);
 		parts |= 1u << view;
 		++view;
 	}
-	bool is_sorted = is_deep && bitCount(parts) == 1;
-	bool may_be_smooth = !is_deep && bitCount(parts) == 1;
-	while (may_be_smooth) { // not a branch: software drivers run what a branch skips
+	const bool has_one_view = bitCount(parts) == 1;
+	if (has_one_view && !is_deep) {
 		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
-		may_be_smooth = false;
 	}
-	while (is_sorted) { // not a branch: software drivers run what a branch skips
+	if (has_one_view && is_deep) {
 		parts = write_sorted(block, points, w_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
-		is_sorted = false;
 	}
-	parts |= subgroupAny(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
+	parts |= subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
 	if (subgroupElect()) {
 		receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)] = parts;
 	}

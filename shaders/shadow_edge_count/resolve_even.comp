@@ -7,6 +7,7 @@
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {
+	load_count_constants();
 	const uint entry = load_block_entry();
 	const ivec2 pixel = ivec2(
 			find_block_corner(entry & ~EDGE_COUNT_BLOCK_IS_DARK) + gl_LocalInvocationID.xy);
