@@ -9,6 +9,7 @@
 struct CountState {
 	int solid_count; // between the receiver and the light's centre
 	float area;		 // twice the signed area of the disc behind edges, in R^2
+	int surplus;	 // of all counters: what is subtracted at some points is added at the others instead
 	CountPlanes turn0;
 #if COUNT_TURN_COUNT == 4
 	CountPlanes turn1;
@@ -21,6 +22,7 @@ CountState make_count_state(int p_solid_count) {
 	CountState state;
 	state.solid_count = p_solid_count;
 	state.area = 0.0;
+	state.surplus = 0;
 	state.turn0 = make_count_planes();
 #if COUNT_TURN_COUNT == 4
 	state.turn1 = state.turn0;
@@ -36,10 +38,20 @@ struct CountSector {
 	uint mask_place;  // of the points beyond the line
 	float from_place; // see find_count_place
 	float to_place;
-	bool is_there;
-	bool is_twice;
-	uvec2 flip;
+	// Its points are subtracted by adding the others; once or twice, or nothing is added.
+	uint flip;
+	uint once;
+	uint twice;
 };
+
+CountSector make_no_sector() {
+	return CountSector(0.0, 0u, 0.0, 0.0, 0u, 0u, 0u);
+}
+
+/// All bits or none.
+uint find_bits(bool p_is_set) {
+	return p_is_set ? 0xffffffffu : 0u;
+}
 
 /// The part of the disc beyond an edge from p_a to p_b on the disc's plane, as seen from the disc's centre: a sector
 /// without its triangle. In units of R. Without a branch: software drivers run both sides.
@@ -58,47 +70,50 @@ CountSector make_count_sector(vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, 
 			count_half_angle(vec2(distance * distance + from * to, distance * length_along));
 	const float part = angle - distance * length_along;
 	CountSector sector;
-	sector.is_there = p_is_there && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
-	sector.area = sector.is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
+	const bool is_there = p_is_there && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
+	sector.area = is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
 	sector.mask_place = find_count_mask_place(p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x), distance);
 	sector.from_place = find_count_place(p_is_left ? p_a : p_b);
 	sector.to_place = find_count_place(p_is_left ? p_b : p_a);
-	sector.is_twice = p_weight == 2;
-	sector.flip = find_flip(!p_is_left);
+	sector.flip = find_bits(p_is_left);
+	sector.once = find_bits(is_there && p_weight != 2);
+	sector.twice = find_bits(is_there && p_weight == 2);
 	return sector;
 }
 
-/// What a sector adds to the points of one turn, as count_step.
-uvec2 count_sector_points(CountSector p_sector, uvec2 p_mask, uint p_turn, inout CountPlanes r_planes) {
-	const uvec2 mask = p_mask & find_count_wedge(p_sector.from_place, p_sector.to_place, p_turn);
-	return count_step(r_planes, p_sector.is_there ? mask : uvec2(0u), p_sector.is_twice, p_sector.flip);
+/// The points of one turn at which a sector adds.
+uvec2 find_sector_points(CountSector p_sector, uvec2 p_mask, uint p_turn) {
+	return (p_mask & find_count_wedge(p_sector.from_place, p_sector.to_place, p_turn)) ^ p_sector.flip;
 }
 
-/// Adds a sector's area and its points. Without a branch: where the sides of one meet, software drivers copy all
-/// counters.
-void count_sector(CountSector p_sector, inout CountState r_state) {
-	r_state.area += p_sector.area;
-	const uvec4 masks0 = load_count_masks(p_sector.mask_place, 0u);
-	const uvec2 carry0 = count_sector_points(p_sector, masks0.xy, 0u, r_state.turn0);
+void count_turn(CountSector p_first, CountSector p_second, uvec2 p_first_mask, uvec2 p_second_mask, uint p_turn,
+		inout CountPlanes r_planes) {
+	const uvec2 first = find_sector_points(p_first, p_first_mask, p_turn);
+	const uvec2 second = find_sector_points(p_second, p_second_mask, p_turn);
+	add_masks(r_planes, first & p_first.once, second & p_second.once, first & p_first.twice, second & p_second.twice);
+}
+
+/// What a sector adds to all counters too much.
+int find_surplus(CountSector p_sector) {
+	return int((p_sector.flip & p_sector.once & 1u) + (p_sector.flip & p_sector.twice & 2u));
+}
+
+/// Adds two sectors' areas and points: two at a time need half as many carries. Without a branch: where the sides of one
+/// meet, software drivers copy all counters.
+void count_sectors(CountSector p_first, CountSector p_second, inout CountState r_state) {
+	r_state.area += p_first.area;
+	r_state.area += p_second.area;
+	r_state.surplus += find_surplus(p_first) + find_surplus(p_second);
+	const uvec4 first0 = load_count_masks(p_first.mask_place, 0u);
+	const uvec4 second0 = load_count_masks(p_second.mask_place, 0u);
+	count_turn(p_first, p_second, first0.xy, second0.xy, 0u, r_state.turn0);
 #if COUNT_TURN_COUNT == 4
-	const uvec4 masks1 = load_count_masks(p_sector.mask_place, 1u);
-	const uvec2 carry1 = count_sector_points(p_sector, masks0.zw, 1u, r_state.turn1);
-	const uvec2 carry2 = count_sector_points(p_sector, masks1.xy, 2u, r_state.turn2);
-	const uvec2 carry3 = count_sector_points(p_sector, masks1.zw, 3u, r_state.turn3);
-	const uvec2 carries = carry0 | carry1 | carry2 | carry3;
-#else
-	const uvec2 carries = carry0;
+	const uvec4 first1 = load_count_masks(p_first.mask_place, 1u);
+	const uvec4 second1 = load_count_masks(p_second.mask_place, 1u);
+	count_turn(p_first, p_second, first0.zw, second0.zw, 1u, r_state.turn1);
+	count_turn(p_first, p_second, first1.xy, second1.xy, 2u, r_state.turn2);
+	count_turn(p_first, p_second, first1.zw, second1.zw, 3u, r_state.turn3);
 #endif
-	uint is_far = carries.x | carries.y;
-	while (is_far != 0u) { // not a branch: seldom anything to do
-		count_far_step(r_state.turn0, carry0, p_sector.flip);
-#if COUNT_TURN_COUNT == 4
-		count_far_step(r_state.turn1, carry1, p_sector.flip);
-		count_far_step(r_state.turn2, carry2, p_sector.flip);
-		count_far_step(r_state.turn3, carry3, p_sector.flip);
-#endif
-		is_far = 0u;
-	}
 }
 
 /// Moves one end of a segment of offsets along it until d lies in a range, which has some of the segment's.
@@ -151,7 +166,8 @@ void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plan
 	const bool is_between = is_before != is_count_light_before(false, p_plane);
 	const vec2 from = (is_before ? leave.xy : enter.xy) * p_receiver.inverse_radius;
 	const vec2 to = (is_before ? enter.xy : leave.xy) * p_receiver.inverse_radius;
-	count_sector(make_count_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in)), r_state);
+	const CountSector sector = make_count_sector(from, to, is_between, 1, is_counted && any(is_in) && !all(is_in));
+	count_sectors(sector, make_no_sector(), r_state);
 }
 
 /// Signed weight of an edge as the receiver sees it.
@@ -168,8 +184,8 @@ struct CountSums {
 	int changes;		// of such pairs, differences of the counts
 };
 
-void add_turn(CountPlanes p_planes, int p_solids, inout CountSums r_sums) {
-	const CountPlanes sums = add_solids(p_planes, p_solids);
+void add_turn(CountPlanes p_planes, int p_added, inout CountSums r_sums) {
+	const CountPlanes sums = add_to_all(p_planes, p_added);
 	const uvec2 is_hidden = find_hidden(sums);
 	r_sums.hidden += count_points(is_hidden);
 	r_sums.count += sum_points(sums);
@@ -177,11 +193,11 @@ void add_turn(CountPlanes p_planes, int p_solids, inout CountSums r_sums) {
 	r_sums.changes += sum_changes(sums);
 }
 
-bool has_overlap(CountState p_state, int p_solids) {
-	bool overlaps = has_overlap(add_solids(p_state.turn0, p_solids));
+bool has_overlap(CountState p_state, int p_added) {
+	bool overlaps = has_overlap(add_to_all(p_state.turn0, p_added));
 #if COUNT_TURN_COUNT == 4
-	overlaps = overlaps || has_overlap(add_solids(p_state.turn1, p_solids)) ||
-			has_overlap(add_solids(p_state.turn2, p_solids)) || has_overlap(add_solids(p_state.turn3, p_solids));
+	overlaps = overlaps || has_overlap(add_to_all(p_state.turn1, p_added)) ||
+			has_overlap(add_to_all(p_state.turn2, p_added)) || has_overlap(add_to_all(p_state.turn3, p_added));
 #endif
 	return overlaps;
 }
@@ -195,13 +211,14 @@ float count_resolve(CountState p_state) {
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MOST_SOLIDS);
 	const float mean = float(solids) + p_state.area / (2.0 * COUNT_PI);
 	float visibility = 1.0 - mean;
-	if (has_overlap(p_state, solids)) {
+	const int added = solids - p_state.surplus;
+	if (has_overlap(p_state, added)) {
 		CountSums sums = CountSums(0, 0, 0, 0);
-		add_turn(p_state.turn0, solids, sums);
+		add_turn(p_state.turn0, added, sums);
 #if COUNT_TURN_COUNT == 4
-		add_turn(p_state.turn1, solids, sums);
-		add_turn(p_state.turn2, solids, sums);
-		add_turn(p_state.turn3, solids, sums);
+		add_turn(p_state.turn1, added, sums);
+		add_turn(p_state.turn2, added, sums);
+		add_turn(p_state.turn3, added, sums);
 #endif
 		const float trust = float(sums.hidden_changes) / float(max(sums.changes, 1));
 		visibility = 1.0 - float(sums.hidden) * share - trust * (mean - float(sums.count) * share);

@@ -73,9 +73,8 @@ uvec2 find_count_wedge(float p_from, float p_to, uint p_turn) {
 	return from > to ? ~between : between;
 }
 
-/// Counters of all points, one bit of each in a plane: numbers of nine bits, two's complement, plus COUNT_BIAS,
-/// so that they seldom leave the six lowest planes. No array: where one of its indices is not known to the
-/// compiler, drivers keep it in memory.
+/// Counters of all points, one bit of each in a plane: numbers of nine bits, modulo 512. No array: where one of its
+/// indices is not known to the compiler, drivers keep it in memory.
 struct CountPlanes {
 	uvec2 bit0;
 	uvec2 bit1;
@@ -87,41 +86,40 @@ struct CountPlanes {
 	uvec2 bit7;
 	uvec2 bit8;
 };
-const int COUNT_BIAS = 16;
 const int COUNT_MOST_SOLIDS = 200; // before the light's centre; counts of points reach 255
 
 CountPlanes make_count_planes() {
 	const uvec2 zero = uvec2(0u);
-	return CountPlanes(zero, zero, zero, zero, uvec2(0xffffffffu), zero, zero, zero, zero);
+	return CountPlanes(zero, zero, zero, zero, zero, zero, zero, zero, zero);
+}
+
+/// The carry of three bits.
+uvec2 find_carry(uvec2 p_one, uvec2 p_two, uvec2 p_three) {
+	return (p_one & p_two) | (p_three & (p_one ^ p_two));
 }
 
 /// Adds a carry to one plane; the carry that goes on.
-uvec2 carry_count(inout uvec2 r_plane, uvec2 p_carry, uvec2 p_flip) {
-	const uvec2 next = (r_plane ^ p_flip) & p_carry;
+uvec2 carry_count(inout uvec2 r_plane, uvec2 p_carry) {
+	const uvec2 next = r_plane & p_carry;
 	r_plane ^= p_carry;
 	return next;
 }
 
-/// Adds 1 or 2, or subtracts it, at the points of the mask, in the six lowest planes; what goes on from there.
-uvec2 count_step(inout CountPlanes r_counters, uvec2 p_mask, bool p_is_twice, uvec2 p_flip) {
-	uvec2 carry = carry_count(r_counters.bit0, p_is_twice ? uvec2(0u) : p_mask, p_flip);
-	carry = carry_count(r_counters.bit1, p_is_twice ? p_mask : carry, p_flip);
-	carry = carry_count(r_counters.bit2, carry, p_flip);
-	carry = carry_count(r_counters.bit3, carry, p_flip);
-	carry = carry_count(r_counters.bit4, carry, p_flip);
-	return carry_count(r_counters.bit5, carry, p_flip);
-}
-
-/// The rest of a step, where there is one.
-void count_far_step(inout CountPlanes r_counters, uvec2 p_carry, uvec2 p_flip) {
-	uvec2 carry = carry_count(r_counters.bit6, p_carry, p_flip);
-	carry = carry_count(r_counters.bit7, carry, p_flip);
+/// Adds 1 at the points of two masks, and 2 at those of two others.
+void add_masks(inout CountPlanes r_counters, uvec2 p_once0, uvec2 p_once1, uvec2 p_twice0, uvec2 p_twice1) {
+	const uvec2 carry1 = find_carry(r_counters.bit0, p_once0, p_once1);
+	r_counters.bit0 ^= p_once0 ^ p_once1;
+	const uvec2 carry2 = find_carry(r_counters.bit1, carry1, p_twice0);
+	r_counters.bit1 ^= carry1 ^ p_twice0;
+	const uvec2 other2 = carry_count(r_counters.bit1, p_twice1);
+	uvec2 carry = find_carry(r_counters.bit2, carry2, other2);
+	r_counters.bit2 ^= carry2 ^ other2;
+	carry = carry_count(r_counters.bit3, carry);
+	carry = carry_count(r_counters.bit4, carry);
+	carry = carry_count(r_counters.bit5, carry);
+	carry = carry_count(r_counters.bit6, carry);
+	carry = carry_count(r_counters.bit7, carry);
 	r_counters.bit8 ^= carry;
-}
-
-/// Borrowing is carrying over the inverse.
-uvec2 find_flip(bool p_is_added) {
-	return uvec2(p_is_added ? 0u : 0xffffffffu);
 }
 
 int count_points(uvec2 p_mask) {
@@ -138,20 +136,19 @@ void add_bit(inout uvec2 r_plane, int p_bit, inout uvec2 r_carry) {
 	r_carry = next;
 }
 
-/// Each counter plus p_solids, 0..COUNT_MOST_SOLIDS, without the bias.
-CountPlanes add_solids(CountPlanes p_counters, int p_solids) {
-	const int added = p_solids - COUNT_BIAS;
+/// Each counter plus p_added, modulo 512, as numbers in two's complement.
+CountPlanes add_to_all(CountPlanes p_counters, int p_added) {
 	CountPlanes sums = p_counters;
 	uvec2 carry = uvec2(0u);
-	add_bit(sums.bit0, added & 1, carry);
-	add_bit(sums.bit1, added & 2, carry);
-	add_bit(sums.bit2, added & 4, carry);
-	add_bit(sums.bit3, added & 8, carry);
-	add_bit(sums.bit4, added & 16, carry);
-	add_bit(sums.bit5, added & 32, carry);
-	add_bit(sums.bit6, added & 64, carry);
-	add_bit(sums.bit7, added & 128, carry);
-	add_bit(sums.bit8, added & 256, carry);
+	add_bit(sums.bit0, p_added & 1, carry);
+	add_bit(sums.bit1, p_added & 2, carry);
+	add_bit(sums.bit2, p_added & 4, carry);
+	add_bit(sums.bit3, p_added & 8, carry);
+	add_bit(sums.bit4, p_added & 16, carry);
+	add_bit(sums.bit5, p_added & 32, carry);
+	add_bit(sums.bit6, p_added & 64, carry);
+	add_bit(sums.bit7, p_added & 128, carry);
+	add_bit(sums.bit8, p_added & 256, carry);
 	return sums;
 }
 

@@ -116,7 +116,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 				choose_edge_of_bundle(p_box, first_bundle + lane, i + 2u * SUBGROUP_SIZE, end, choice);
 				choose_edge_of_bundle(p_box, first_bundle + lane, i + 3u * SUBGROUP_SIZE, end, choice);
 				i += 4u * SUBGROUP_SIZE;
-			} while (i - gl_SubgroupInvocationID < size);
+			} while (4u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
 		} while (subgroupBallotBitCount(wanted) != 0u);
 	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
@@ -274,7 +274,7 @@ CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, ino
 				share_four(held, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
 			}
 			i += SHARED_AT_ONCE;
-		} while (i < find_held_count(part, p_count));
+		} while (HELD_AT_ONCE > SHARED_AT_ONCE && i < find_held_count(part, p_count));
 		open_parts |= subgroup_any((held.entry >> COUNT_KNOWN_SHIFT & COUNT_KNOWS_WEIGHT) == 0u) ? 1u << part : 0u;
 		++part;
 	} while (part * HELD_AT_ONCE < p_count);
@@ -292,7 +292,7 @@ CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, ino
 				share_four_weights(held, faces, i + 4u, part * HELD_AT_ONCE, p_receiver, share);
 			}
 			i += SHARED_AT_ONCE;
-		} while (i < find_held_count(part, p_count));
+		} while (HELD_AT_ONCE > SHARED_AT_ONCE && i < find_held_count(part, p_count));
 	} while (open_parts != 0u);
 	return share;
 }
@@ -317,18 +317,26 @@ CountSector find_next_sector(HeldRound p_held, CountReceiver p_receiver, CountSh
 			is_there ? ((p_share.is_negative >> place & 1u) != 0u ? -weight : weight) : 0);
 }
 
-/// Counts the edges that each invocation's receiver has, two an iteration.
+/// Counts the next two edges of each invocation's receiver, one behind the other, so that processors deal with both at
+/// once.
+void count_two(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout uint r_left,
+		inout CountState r_state) {
+	const CountSector first = find_next_sector(p_held, p_receiver, p_share, r_left);
+	const CountSector second = find_next_sector(p_held, p_receiver, p_share, r_left);
+	count_sectors(first, second, r_state);
+}
+
+/// Counts the edges that each invocation's receiver has.
 void count_share(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout CountState r_state) {
 	const uint most = subgroup_max(uint(bitCount(p_share.own)));
 	uint left = p_share.own;
 	uint i = 0u;
 	do {
-		// One behind the other, so that processors deal with both at once.
-		const CountSector first = find_next_sector(p_held, p_receiver, p_share, left);
-		const CountSector second = find_next_sector(p_held, p_receiver, p_share, left);
-		count_sector(first, r_state);
-		count_sector(second, r_state);
-		i += 2u;
+		count_two(p_held, p_receiver, p_share, left, r_state);
+		if (HAS_NO_LIST) { // fewer iterations: see SHARED_AT_ONCE
+			count_two(p_held, p_receiver, p_share, left, r_state);
+		}
+		i += HAS_NO_LIST ? 4u : 2u;
 	} while (i < most);
 }
 
