@@ -1,4 +1,4 @@
-// 64 points of the light as two words, and 64 counters as six planes of such words: DiscMasks.
+// 64 points of the light as two words, and 64 counters as nine planes of such words: DiscMasks.
 #ifndef COUNT_MASKS_INC_GLSL
 #define COUNT_MASKS_INC_GLSL
 

@@ -257,6 +257,7 @@ uint find_held_count(uint p_part, uint p_count) {
 const uint SHARED_AT_ONCE = HELD_AT_ONCE < 8u ? 4u : 8u;
 
 /// Takes a round of the slice's edges, p_first and p_count - 1 more, and finds those that the receiver has to count.
+/// r_held: parts that the round does not have stay as they were; no bit of the share is theirs.
 CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, inout HeldRound r_held) {
 	CountShare share = CountShare(0u, 0u, 0u);
 	uint open_parts = 0u; // that have an edge whose weight the list does not know
@@ -279,7 +280,7 @@ CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, ino
 		++part;
 	} while (part * HELD_AT_ONCE < p_count);
 	do {
-		part = uint(findLSB(open_parts)) & 3u;
+		part = open_parts != 0u ? uint(findLSB(open_parts)) : 0u; // without any the weights are all known
 		open_parts &= open_parts - 1u;
 		const HeldEdge held = get_part(r_held, part);
 		const CountEdgeRecord edge = load_count_edge(held.entry & COUNT_EDGE_MASK);
