@@ -2,6 +2,7 @@
 #ifndef COUNT_BLOCKS_INC_GLSL
 #define COUNT_BLOCKS_INC_GLSL
 
+#include "common/work_rows_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
 #ifdef COUNT_GROUP_SIZE // invocations: fewer than the block has pixels
@@ -15,8 +16,10 @@ layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
+/// Every other block first, see find_work_row: blocks that are close in the picture are close in the list.
 uint load_block_entry() {
-	return texelFetch(blocks_buffer, int(push.first_block + gl_WorkGroupID.x)).r;
+	const uint place = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
+	return texelFetch(blocks_buffer, int(push.first_block + place)).r;
 }
 
 uint find_block() {
