@@ -43,15 +43,15 @@ CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	return point;
 }
 
-/// How far a receiver lies from the light along the view in metres; directional: from its far end, negative.
-float find_depth(float p_w) {
-	return light.is_directional != 0u ? -p_w : 1.0 / p_w;
+/// How far a receiver lies from the camera in metres.
+float find_depth(CountPoint p_point) {
+	return distance(p_point.position, light_from_camera[3].xyz);
 }
 
-/// Receivers at such w are far apart.
-bool is_apart(vec2 p_w_range) {
+/// Receivers at such depths are far apart.
+bool is_apart(vec2 p_depth_range) {
 	const float APART_SIZES = 0.05; // of S
-	return find_depth(p_w_range.x) - find_depth(p_w_range.y) > APART_SIZES * light.scene_size_m;
+	return p_depth_range.y - p_depth_range.x > APART_SIZES * light.scene_size_m;
 }
 
 /// The bounds of some of the block's receivers, about the plane of one of them. Empty where there is none.
@@ -88,21 +88,20 @@ void write_box(uint p_block, uint p_part, CountBounds p_bounds) {
 shared float sort_keys[PIXEL_COUNT];
 shared uint sorted_pixels[PIXEL_COUNT];
 
-/// Sorts the block's pixels from the light on, those without a receiver to the end, and writes their order and
-/// the boxes of their parts, of which each has the same range of depth. All receivers are in one view. Returns
-/// the parts that are there.
-uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_w_range) {
+/// Sorts the block's pixels from the camera on, those without a receiver to the end, and writes their order and
+/// the boxes of their parts, each of which has the same range of distances from the camera. All receivers are in one
+/// view. Returns the parts that are there.
+uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2 p_depth_range) {
 	const float PART_COUNTED = float(EDGE_COUNT_SORTED_PARTS);
-	const float least_depth = find_depth(p_w_range.y);
-	const float parts_per_m = PART_COUNTED / (find_depth(p_w_range.x) - least_depth);
+	const float parts_per_m = PART_COUNTED / (p_depth_range.y - p_depth_range.x);
 	float depths[PIXELS_PER_INVOCATION];
 	uint parts[PIXELS_PER_INVOCATION];
 	uint ranks[PIXELS_PER_INVOCATION];
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
 		const bool is_here = p_points[i].view != NO_VIEW;
-		depths[i] = is_here ? find_depth(p_points[i].warped.z) : COUNT_FAR;
-		parts[i] = is_here ? uint(clamp((depths[i] - least_depth) * parts_per_m, 0.0, PART_COUNTED - 1.0)) : 0u;
+		depths[i] = is_here ? find_depth(p_points[i]) : COUNT_FAR;
+		parts[i] = is_here ? uint(clamp((depths[i] - p_depth_range.x) * parts_per_m, 0.0, PART_COUNTED - 1.0)) : 0u;
 		ranks[i] = 0u;
 		if (pixel < PIXEL_COUNT) {
 			sort_keys[pixel] = depths[i];
@@ -175,7 +174,7 @@ void main() {
 	uint parts = 0u;
 	uint view = 0u;
 	bool is_deep = false;
-	vec2 w_range = vec2(0.0);
+	vec2 depth_range = vec2(0.0);
 	while (true) {
 		// The first of the views that are left.
 		uint next = NO_VIEW;
@@ -187,16 +186,17 @@ void main() {
 			break;
 		}
 		bool is_here[PIXELS_PER_INVOCATION];
-		float least_w = COUNT_FAR;
-		float greatest_w = -COUNT_FAR;
+		float least = COUNT_FAR;
+		float greatest = -COUNT_FAR;
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 			is_here[i] = points[i].view == view;
-			least_w = is_here[i] ? min(least_w, points[i].warped.z) : least_w;
-			greatest_w = is_here[i] ? max(greatest_w, points[i].warped.z) : greatest_w;
+			const float depth = find_depth(points[i]);
+			least = is_here[i] ? min(least, depth) : least;
+			greatest = is_here[i] ? max(greatest, depth) : greatest;
 		}
 		write_box(block, view, find_bounds(points, is_here));
-		w_range = vec2(subgroup_min(least_w), subgroup_max(greatest_w));
-		is_deep = is_deep || is_apart(w_range);
+		depth_range = vec2(subgroup_min(least), subgroup_max(greatest));
+		is_deep = is_deep || is_apart(depth_range);
 		parts |= 1u << view;
 		++view;
 	}
@@ -205,7 +205,7 @@ void main() {
 		parts |= is_smooth(points) ? EDGE_COUNT_IS_SMOOTH : 0u;
 	}
 	if (has_one_view && is_deep) {
-		parts = write_sorted(block, points, w_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
+		parts = write_sorted(block, points, depth_range) | uint(findLSB(parts)) << EDGE_COUNT_VIEW_SHIFT | EDGE_COUNT_IS_SORTED;
 	}
 	parts |= subgroup_any(is_lit) ? EDGE_COUNT_IS_PARTLY_LIT : 0u;
 	if (subgroupElect()) {

@@ -145,8 +145,9 @@ SHARED_OFFSET(CountLightConstants, disc_radius, 384);
 SHARED_OFFSET(CountLightConstants, block_count, 400);
 
 // The receivers of a block are divided into parts, each with a box of its own. Where all are in one view and lie at
-// very different depths, as at an object's outline, they are sorted by depth, and each quarter of its range is a
-// part. Else those in view i are part i.
+// very different distances from the camera, as at an object's outline, they are sorted by that, and each quarter of its
+// range is a part: a block is a thin cone of camera rays, so that receivers at like distances lie close together in any
+// light's view. Else those in view i are part i.
 #define EDGE_COUNT_SORTED_PARTS 4
 #define EDGE_COUNT_PARTS(view_count) ((view_count) == 1u ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS)
 /// Receivers of one part: (x', y') lies in a rectangle, and w in a range about a plane.
