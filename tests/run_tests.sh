@@ -101,6 +101,14 @@ add_result() {
     part_lines+=("$(printf '%-16s %5d passed %4d failed %4d skipped  %4d s' "$1" "$2" "$3" "$4" $((SECONDS - part_begin)))")
 }
 
+# keep_failures PART: the log's lines on failures, to be shown at the end: the beginning of a long output is soon lost.
+keep_failures() {
+    {
+        echo "-- $1:"
+        grep -E '^ *FAILED|^(FAIL|ERROR): |: ERROR: |^TEST CASE: |AddressSanitizer|runtime error' "$work/log" | tail -n 40
+    } >>"$work/failures"
+}
+
 # run_part PART COMMAND...: adds up the command's own summary line. No such line, or a bad exit
 # code without a failed test, counts as one failure, so that a crash is never silent.
 run_part() {
@@ -111,6 +119,7 @@ run_part() {
     "$@" 2>&1 | tee "$work/log"
     status=${PIPESTATUS[0]}
     summary=$(grep -E '^[0-9]+ passed, [0-9]+ failed, [0-9]+ skipped$' "$work/log" | tail -n 1)
+    [ "$status" -eq 0 ] || keep_failures "$part"
     read -r -a counts <<<"$(tr -dc '0-9 ' <<<"$summary")"
     if [ ${#counts[@]} -ne 3 ]; then
         echo "FAILED: $part ended with $status and without a summary line"
@@ -140,6 +149,7 @@ run_check() {
 
 finish() {
     echo
+    [ -f "$work/failures" ] && cat "$work/failures"
     printf '%s\n' "${part_lines[@]}"
     echo "$passed passed, $failed failed, $skipped skipped"
     [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
