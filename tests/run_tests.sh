@@ -105,7 +105,7 @@ add_result() {
 keep_failures() {
     {
         echo "-- $1:"
-        grep -E '^ *FAILED|^(FAIL|ERROR): |: ERROR: |^TEST CASE: |AddressSanitizer|runtime error' "$work/log" | tail -n 40
+        grep -E '^ *FAILED|^(FAIL|ERROR): |: ERROR: |^ *TEST CASE: |AddressSanitizer|runtime error' "$work/log" | tail -n 40
     } >>"$work/failures"
 }
 

@@ -1,4 +1,4 @@
-// The order in which rows of work groups are distributed.
+// The order in which rows of work groups, and other items, are distributed.
 #ifndef WORK_ROWS_INC_GLSL
 #define WORK_ROWS_INC_GLSL
 

@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
-/// Every other block first, see find_work_row: blocks that are close in the picture are close in the list.
+/// Every other block first, see find_work_row: blocks that are close in the image are close in the list.
 uint load_block_entry() {
 	const uint place = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
 	return texelFetch(blocks_buffer, int(push.first_block + place)).r;
