@@ -178,10 +178,9 @@ int count_weight(vec3 p_receiver, vec4 p_plane0, vec4 p_plane1, CountEdgeKind p_
 
 /// Sums over the points of the light.
 struct CountSums {
-	int hidden;			// points whose count is above 0
-	int count;			// of all counts
-	int hidden_changes; // pairs of a point and the one two on that are not both hidden or both visible
-	int changes;		// of such pairs, differences of the counts
+	int hidden; // points whose count is above 0
+	int count;	// of all counts
+	CountChanges changes;
 };
 
 void add_turn(CountPlanes p_planes, int p_added, inout CountSums r_sums) {
@@ -189,8 +188,9 @@ void add_turn(CountPlanes p_planes, int p_added, inout CountSums r_sums) {
 	const uvec2 is_hidden = find_hidden(sums);
 	r_sums.hidden += count_points(is_hidden);
 	r_sums.count += sum_points(sums);
-	r_sums.hidden_changes += count_points(is_hidden ^ turn_points(is_hidden));
-	r_sums.changes += sum_changes(sums);
+	const CountChanges changes = sum_changes(sums, is_hidden ^ turn_points(is_hidden));
+	r_sums.changes.square += changes.square;
+	r_sums.changes.product += changes.product;
 }
 
 bool has_overlap(CountState p_state, int p_added) {
@@ -204,8 +204,8 @@ bool has_overlap(CountState p_state, int p_added) {
 
 /// Visibility from all that was counted, 0..1. Where no more than one solid hides the light, the areas alone
 /// are exact. Else the share of hidden points is corrected by what the areas know better than the points, the
-/// mean of the counts; as much of it as neighbouring points say that a change of the count is a change between
-/// hidden and visible.
+/// mean of the counts; as much of it as neighbouring points say, by least squares, that a change of the count is a
+/// change between hidden and visible.
 float count_resolve(CountState p_state) {
 	const float share = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_TURN_COUNT);
 	const int solids = clamp(p_state.solid_count, 0, COUNT_MOST_SOLIDS);
@@ -213,14 +213,14 @@ float count_resolve(CountState p_state) {
 	float visibility = 1.0 - mean;
 	const int added = solids - p_state.surplus;
 	if (has_overlap(p_state, added)) {
-		CountSums sums = CountSums(0, 0, 0, 0);
+		CountSums sums = CountSums(0, 0, CountChanges(0, 0));
 		add_turn(p_state.turn0, added, sums);
 #if COUNT_TURN_COUNT == 4
 		add_turn(p_state.turn1, added, sums);
 		add_turn(p_state.turn2, added, sums);
 		add_turn(p_state.turn3, added, sums);
 #endif
-		const float trust = float(sums.hidden_changes) / float(max(sums.changes, 1));
+		const float trust = float(sums.changes.product) / float(max(sums.changes.square, 1));
 		visibility = 1.0 - float(sums.hidden) * share - trust * (mean - float(sums.count) * share);
 	}
 	return clamp(visibility, 0.0, 1.0);

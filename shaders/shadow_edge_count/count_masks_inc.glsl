@@ -190,8 +190,14 @@ uvec2 subtract_turned(uvec2 p_plane, inout uvec2 r_borrow) {
 	return difference;
 }
 
-/// Sum over all points of |count - count of the point two on|.
-int sum_changes(CountPlanes p_sums) {
+/// How counts change from each point to the one two on: sums over all points.
+struct CountChanges {
+	int square;	 // of the change's square
+	int product; // of the change's size, where one of the two points is hidden and the other is not
+};
+
+/// Changes by more than 15 are taken as 15. p_is_parted: one of the two points is hidden.
+CountChanges sum_changes(CountPlanes p_sums, uvec2 p_is_parted) {
 	uvec2 borrow = uvec2(0u);
 	const uvec2 d0 = subtract_turned(p_sums.bit0, borrow);
 	const uvec2 d1 = subtract_turned(p_sums.bit1, borrow);
@@ -202,9 +208,28 @@ int sum_changes(CountPlanes p_sums) {
 	const uvec2 d6 = subtract_turned(p_sums.bit6, borrow);
 	const uvec2 d7 = subtract_turned(p_sums.bit7, borrow);
 	const uvec2 sign = subtract_turned(p_sums.bit8, borrow);
-	return count_points(d0 ^ sign) + 2 * count_points(d1 ^ sign) + 4 * count_points(d2 ^ sign) +
-			8 * count_points(d3 ^ sign) + 16 * count_points(d4 ^ sign) + 32 * count_points(d5 ^ sign) +
-			64 * count_points(d6 ^ sign) + 128 * count_points(d7 ^ sign) + count_points(sign);
+	// Bits of the size: where the change is negative those of its inverse, plus 1.
+	uvec2 s0 = d0 ^ sign;
+	uvec2 s1 = d1 ^ sign;
+	uvec2 s2 = d2 ^ sign;
+	uvec2 s3 = d3 ^ sign;
+	uvec2 carry = carry_count(s0, sign);
+	carry = carry_count(s1, carry);
+	carry = carry_count(s2, carry);
+	carry = carry_count(s3, carry);
+	const uvec2 is_large = carry | (d4 ^ sign) | (d5 ^ sign) | (d6 ^ sign) | (d7 ^ sign);
+	s0 |= is_large;
+	s1 |= is_large;
+	s2 |= is_large;
+	s3 |= is_large;
+	CountChanges changes;
+	changes.square = count_points(s0) + 4 * (count_points(s1) + count_points(s0 & s1)) +
+			8 * count_points(s0 & s2) +
+			16 * (count_points(s2) + count_points(s0 & s3) + count_points(s1 & s2)) +
+			32 * count_points(s1 & s3) + 64 * (count_points(s3) + count_points(s2 & s3));
+	changes.product = count_points(s0 & p_is_parted) + 2 * count_points(s1 & p_is_parted) +
+			4 * count_points(s2 & p_is_parted) + 8 * count_points(s3 & p_is_parted);
+	return changes;
 }
 
 #endif
