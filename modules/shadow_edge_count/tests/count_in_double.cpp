@@ -109,8 +109,8 @@ public:
 		const double points = double(DiscMasks::SAMPLE_COUNT * masks.size());
 		double hidden = 0;
 		double sum = 0;
-		double hidden_changes = 0;
-		double changes = 0;
+		double products = 0; // of the changes of both
+		double squares = 0;	 // of the count's change
 		bool overlaps = false;
 		for (const auto &samples : counts) {
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
@@ -118,13 +118,14 @@ public:
 				const int other = p_solid_count + samples[(index + 2) % DiscMasks::SAMPLE_COUNT];
 				hidden += count >= 1 ? 1 : 0;
 				sum += count;
-				hidden_changes += (count >= 1) != (other >= 1) ? 1 : 0;
-				changes += std::abs(count - other);
+				const double change = std::min(std::abs(count - other), 15);
+				products += (count >= 1) != (other >= 1) ? change : 0;
+				squares += change * change;
 				overlaps = overlaps || count < 0 || count > 1;
 			}
 		}
 		const double mean = p_solid_count + area;
-		const double trust = !overlaps ? 1.0 : changes > 0 ? hidden_changes / changes : 0.0;
+		const double trust = !overlaps ? 1.0 : squares > 0 ? products / squares : 0.0;
 		hidden = overlaps ? hidden : sum;
 		return std::clamp(1.0 - hidden / points - trust * (mean - sum / points), 0.0, 1.0);
 	}
