@@ -1,6 +1,7 @@
 #include "modules/shadow_edge_count/disc_masks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -65,15 +66,18 @@ uint32_t DiscMasks::find_offset(double p_offset) {
 
 DiscMasks::DiscMasks(uint32_t p_turn, uint32_t p_turn_count) :
 		turn(p_turn), turn_count(p_turn_count), table(size_t(DIRECTION_COUNT) * OFFSET_COUNT, 0) {
+	std::array<glm::dvec2, SAMPLE_COUNT> samples;
+	for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
+		samples[index] = compute_sample(index);
+	}
 	for (uint32_t direction = 0; direction < DIRECTION_COUNT; ++direction) {
 		const glm::dvec2 unit = glm::normalize(compute_bin_center(direction));
-		for (uint32_t row = 0; row < OFFSET_COUNT; ++row) {
-			const double offset = row == 0 ? 0.0 : (row + 0.5) / OFFSET_COUNT;
-			uint64_t &mask = table[size_t(direction) * OFFSET_COUNT + row];
-			for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
-				if (glm::dot(compute_sample(index), unit) > offset) {
-					mask |= uint64_t(1) << index;
-				}
+		for (uint32_t index = 0; index < SAMPLE_COUNT; ++index) {
+			const double along = glm::dot(samples[index], unit);
+			for (uint32_t row = 0; row < OFFSET_COUNT; ++row) {
+				const double offset = row == 0 ? 0.0 : (row + 0.5) / OFFSET_COUNT;
+				const uint64_t bit = along > offset ? 1 : 0;
+				table[size_t(direction) * OFFSET_COUNT + row] |= bit << index;
 			}
 		}
 	}

@@ -95,73 +95,102 @@ TEST_CASE("[GPU][Techniques] scenes of any size and far from the origin have the
 	});
 }
 
+namespace {
+
+/// One thing that is wrong with a scene, or extreme.
+struct HostileCase {
+	const char *name;
+	void (*change)(SmallScene &r_scene);
+};
+
+const HostileCase HOSTILE_CASES[] = {
+	{ "a light without size",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["light_size"] = 0.0;
+				r_scene.light->properties["light_angular_distance"] = 0.0;
+			} },
+	{ "a light larger than the scene",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["light_size"] = 10.0;
+				r_scene.light->properties["light_angular_distance"] = 90.0;
+				r_scene.light->properties["penumbra_outer_width"] = 10.0;
+			} },
+	{ "the light inside the box",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 0, 0, 0.01 });
+			} },
+	{ "the light on the ground",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 1, 0, 0 }, { 0, 0, 0 });
+			} },
+	{ "the light below everything",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0, -5, 0 }, { 0, -8, 0.1 });
+			} },
+	{ "a caster across the light's near plane",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
+						{ 1.2, 3.0, 0.8 });
+			} },
+	{ "a caster a million times as far as the near plane",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
+						{ 0, -400, 0 });
+			} },
+	{ "silhouette edges seen end-on",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node =
+						glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
+								glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 4, 0.4, 1));
+			} },
+	{ "widths larger than the casters",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["penumbra_outer_width"] = 30.0;
+				r_scene.light->properties["penumbra_inner_width"] = 1e4;
+			} },
+	{ "the light at a corner of the box",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
+			} },
+	{ "more casters behind each other than layers",
+			[](SmallScene &r_scene) {
+				for (int sheet = 0; sheet < 12; ++sheet) {
+					add_mesh(r_scene.scene, text("Sheet ", sheet),
+							make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }),
+							{ 0, 1.4 + 0.1 * sheet, 0 });
+				}
+			} },
+	{ "slivers, duplicates, zero area and zero normals",
+			[](SmallScene &r_scene) {
+				std::vector<glm::vec3> positions = { { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 },
+					{ 0.5f, 2, 1e-7f }, { 0, 2, 0 }, { 0, 2, 1 } };
+				add_mesh(r_scene.scene, "Odd",
+						make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
+								{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 }),
+						{ 0, 0, 0 });
+			} },
+	{ "coincident receivers and casters",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Twin", make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)),
+						{ 0, 1.0, 0 });
+			} },
+	{ "a narrow cone", [](SmallScene &r_scene) { r_scene.light->outer_cone_rad = 1e-3f; } },
+	{ "a cone of half a sphere",
+			[](SmallScene &r_scene) { r_scene.light->outer_cone_rad = 1.5707963f; } },
+};
+
+} // namespace
+
 TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
 	RenderFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
-		SmallScene scene(p_type);
-		make_cheap(*scene.light);
-		SUBCASE("a light without size") {
-			scene.light->properties["light_size"] = 0.0;
-			scene.light->properties["light_angular_distance"] = 0.0;
+		for (const HostileCase &hostile : HOSTILE_CASES) {
+			CAPTURE(hostile.name);
+			SmallScene scene(p_type);
+			make_cheap(*scene.light);
+			hostile.change(scene);
+			CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
 		}
-		SUBCASE("a light larger than the scene") {
-			scene.light->properties["light_size"] = 10.0;
-			scene.light->properties["light_angular_distance"] = 90.0;
-			scene.light->properties["penumbra_outer_width"] = 10.0;
-		}
-		SUBCASE("the light inside the box") {
-			scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 0, 0, 0.01 });
-		}
-		SUBCASE("the light on the ground") {
-			scene.light->parent_from_node = look_at({ 1, 0, 0 }, { 0, 0, 0 });
-		}
-		SUBCASE("the light below everything") {
-			scene.light->parent_from_node = look_at({ 0, -5, 0 }, { 0, -8, 0.1 });
-		}
-		SUBCASE("a caster across the light's near plane") {
-			add_mesh(scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
-					{ 1.2, 3.0, 0.8 });
-		}
-		SUBCASE("a caster a million times as far as the near plane") {
-			add_mesh(scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
-					{ 0, -400, 0 });
-		}
-		SUBCASE("silhouette edges seen end-on") {
-			scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0),
-					glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 4, 0.4, 1));
-		}
-		SUBCASE("widths larger than the casters") {
-			scene.light->properties["penumbra_outer_width"] = 30.0;
-			scene.light->properties["penumbra_inner_width"] = 1e4;
-		}
-		SUBCASE("the light at a corner of the box") {
-			scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
-		}
-		SUBCASE("more casters behind each other than layers") {
-			for (int sheet = 0; sheet < 12; ++sheet) {
-				add_mesh(scene.scene, text("Sheet ", sheet),
-						make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }), { 0, 1.4 + 0.1 * sheet, 0 });
-			}
-		}
-		SUBCASE("slivers, duplicates, zero area and zero normals") {
-			std::vector<glm::vec3> positions = { { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 },
-				{ 0.5f, 2, 1e-7f }, { 0, 2, 0 }, { 0, 2, 1 } };
-			add_mesh(scene.scene, "Odd",
-					make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
-							{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 }),
-					{ 0, 0, 0 });
-		}
-		SUBCASE("coincident receivers and casters") {
-			add_mesh(scene.scene, "Twin", make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)),
-					{ 0, 1.0, 0 });
-		}
-		SUBCASE("a narrow cone") {
-			scene.light->outer_cone_rad = 1e-3f;
-		}
-		SUBCASE("a cone of half a sphere") {
-			scene.light->outer_cone_rad = 1.5707963f;
-		}
-		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
 	});
 }
 
