@@ -1,7 +1,7 @@
 """GLSL to SPIR-V at build time, and SPIR-V into one C++ file.
 
 An entry point is `<what>.<stage>`; include paths start at shaders/. Errors show the GLSL file and
-line, as glslangValidator prints them. spirv-opt does once what drivers would do each time that a pipeline is made.
+line, as glslangValidator prints them.
 """
 
 import os
@@ -57,8 +57,7 @@ def add_builders(env):
     debug = "-g" if env["dev_build"] else "-g0"
     env["BUILDERS"]["Spirv"] = env.Builder(
         action=Action(  # not env.Action: that expands $TARGET at once, to nothing
-            "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath} && "
-            "spirv-opt --target-env=vulkan1.3 --preserve-bindings --preserve-spec-constants -O $TARGET -o $TARGET"
+            "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
             % (debug, env.Dir("#shaders").path),
             "Compiling shader $SOURCE",
         ),
