@@ -118,7 +118,7 @@ public:
 				const int other = p_solid_count + samples[(index + 2) % DiscMasks::SAMPLE_COUNT];
 				hidden += count >= 1 ? 1 : 0;
 				sum += count;
-				const double change = std::min(std::abs(count - other), 15);
+				const double change = std::min(std::abs(count - other), 15); // see sum_changes
 				products += (count >= 1) != (other >= 1) ? change : 0;
 				squares += change * change;
 				overlaps = overlaps || count < 0 || count > 1;
