@@ -3,8 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/property.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/renderer/light_properties.h"
 #include "modules/scene/nodes.h"
+#include "modules/shadows/light_properties.h"
 
 #include <nlohmann/json.hpp>
 

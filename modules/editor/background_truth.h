@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/truth_source.h"
+#include "modules/shadows/truth_source.h"
 
 #include <atomic>
 #include <functional>

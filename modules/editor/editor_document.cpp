@@ -5,9 +5,9 @@
 #include "modules/core/module_registry.h"
 #include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
-#include "modules/renderer/light_properties.h"
 #include "modules/scene/node_properties.h"
 #include "modules/scene/scene_snapshot.h"
+#include "modules/shadows/light_properties.h"
 
 namespace gnomon {
 

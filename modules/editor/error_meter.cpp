@@ -2,9 +2,8 @@
 
 #include "modules/core/text.h"
 #include "modules/error_report/mask_picture.h"
-#include "modules/renderer/light_shadows.h"
-#include "modules/renderer/mask_filter.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/mask_filter.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "modules/editor/picture_maker.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <algorithm>
 #include <exception>

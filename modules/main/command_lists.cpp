@@ -5,8 +5,8 @@
 #include "modules/core/module_registry.h"
 #include "modules/core/property_json.h"
 #include "modules/main/commands.h"
-#include "modules/renderer/mask_filter.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/mask_filter.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -47,7 +47,7 @@ void print_properties(const PropertyList &p_list) {
 void list_techniques(bool p_as_json) {
 	Json list = Json::array();
 	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		const PropertyList &properties = ShadowRegistry::get_light_properties(info.id);
 		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
 				{ "is_default", &info == chosen }, { "is_fallback", info.is_fallback },
@@ -69,7 +69,7 @@ void list_techniques(bool p_as_json) {
 
 void list_filters(bool p_as_json) {
 	Json list = Json::array();
-	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
 		const PropertyList &properties = MaskFilterRegistry::get_light_properties(info.id);
 		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
 				{ "properties", describe_properties(properties) } });

@@ -8,7 +8,7 @@
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
 #include "modules/renderer/renderer.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -4,8 +4,8 @@
 #include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
-#include "modules/renderer/light_properties.h"
 #include "modules/scene/light_setting.h"
+#include "modules/shadows/light_properties.h"
 
 #include <unistd.h>
 

@@ -5,7 +5,7 @@
 #include "modules/main/fly_camera.h"
 #include "modules/main/optional_parts.h"
 #include "modules/main/overlay_text.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <GLFW/glfw3.h>
 
@@ -40,7 +40,7 @@ struct GameState {
 
 	/// The light's own technique, then each of the registry's, then again.
 	void choose_next_technique() {
-		const std::vector<ShadowTechniqueInfo> &all = ShadowRegistry::get_techniques();
+		const std::vector<ShadowTechniqueInfo> &all = ShadowRegistry::get_all();
 		size_t next = 0;
 		while (next < all.size() && !request.technique_override.empty() &&
 				all[next].id != request.technique_override) {

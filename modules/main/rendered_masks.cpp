@@ -5,9 +5,9 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
-#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/renderer.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/mask_filter.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <algorithm>
 #include <thread>
@@ -172,10 +172,10 @@ namespace {
 /// Techniques, and the mask filters behind them.
 std::vector<std::string> list_ids() {
 	std::vector<std::string> ids;
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		ids.push_back(info.id);
 	}
-	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
 		ids.push_back(info.id);
 	}
 	return ids;
@@ -226,12 +226,12 @@ std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<st
 		}
 	}
 	std::vector<TechniqueSource> sources;
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (p_ids.empty() ? !info.is_reference && !info.is_example : contains(p_ids, info.id)) {
 			sources.push_back(make_source(info));
 		}
 	}
-	for (const MaskFilterInfo &info : MaskFilterRegistry::get_filters()) {
+	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
 		if (!p_ids.empty() && contains(p_ids, info.id) &&
 				ShadowRegistry::find_default() == nullptr) {
 			fail("Mask filter \"", info.id,

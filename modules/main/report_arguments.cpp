@@ -4,7 +4,7 @@
 #include "modules/core/log.h"
 #include "modules/core/project.h"
 #include "modules/main/commands.h"
-#include "modules/renderer/mask_filter.h"
+#include "modules/shadows/mask_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/surface_spread.h"
+#include "modules/shadows/surface_spread.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/receiver_scatter/scatter_samples.h"
 #include "modules/render_graph/compute_pass.h"
-#include "modules/renderer/gbuffer.h"
+#include "modules/shadows/camera_view.h"
 
 #include "receiver_scatter/receiver_scatter_shared.h"
 
@@ -111,6 +111,10 @@ bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		const PropertyValues &p_properties, TechniquePlan &r_plan) {
 	if (!std::get<bool>(p_properties.at(ENABLED))) {
 		r_plan.leave_out("scatter", text(ENABLED, " is false"));
+		return false;
+	}
+	if (!p_inputs.material) {
+		r_plan.leave_out("scatter", "the host draws no materials");
 		return false;
 	}
 	if (p_inputs.may_leave_out && !has_scatter(p_inputs, Scatter::ANY)) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/receiver_scatter/dipole_spread.h"
-#include "modules/renderer/mask_filter.h"
+#include "modules/shadows/mask_filter.h"
 
 namespace gnomon {
 

@@ -2,7 +2,7 @@
 
 #include "modules/receiver_scatter/dipole_spread.h"
 #include "modules/receiver_scatter/receiver_scatter.h"
-#include "modules/renderer/mask_filter.h"
+#include "modules/shadows/mask_filter.h"
 
 namespace gnomon {
 

@@ -1,6 +1,6 @@
 #include "modules/receiver_scatter/scatter_samples.h"
 
-#include "modules/renderer/surface_spread.h"
+#include "modules/shadows/surface_spread.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,14 @@
 def get_dependencies():
-    return ["core", "scene", "mesh_tools", "rendering_device", "render_graph"]
+    return ["core", "scene", "mesh_tools", "rendering_device", "render_graph", "shadows"]
 
 
 def get_layer():
-    return 3
+    return 4
 
 
 def get_description():
-    return "G-buffer, lighting, and the interfaces that shadow techniques plug into"
+    return "G-buffer, lighting with the masks of shadows, tone map and debug views"
+
+
+def can_disable():
+    return False

@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/render_graph/compute_pass.h"
-#include "modules/renderer/lighting.h"
+#include "modules/shadows/mask.h"
 
 #include "renderer/renderer_shared.h"
 
@@ -16,30 +16,31 @@ const float NO_RECEIVER = -1.0f; // as error_view.comp
 
 } // namespace
 
-ShadowTechnique::DebugView add_error_view(RenderGraph &r_graph, RenderingDevice &p_device,
-		RGTexture p_receivers, RGTexture p_mask, const TruthMask &p_truth, glm::uvec2 p_size_px) {
-	if (p_truth.size_px != p_size_px) {
+ShadowTechnique::DebugView add_error_view(
+		const LitImage &p_image, const LightShadow &p_shadow, const TruthMask &p_truth) {
+	const glm::uvec2 size_px = p_image.size_px;
+	if (p_truth.size_px != size_px) {
 		fail("The truth has ", p_truth.size_px.x, " x ", p_truth.size_px.y, " pixels, the frame ",
-				p_size_px.x, " x ", p_size_px.y, ". Make both with the same --size.");
+				size_px.x, " x ", size_px.y, ". Make both with the same --size.");
 	}
 	std::vector<float> truth = p_truth.visibility;
 	for (size_t pixel = 0; pixel < truth.size(); ++pixel) {
 		truth[pixel] = p_truth.receiver[pixel] >= 0.5f ? truth[pixel] : NO_RECEIVER;
 	}
-	const RGBuffer buffer =
-			r_graph.upload("truth", BufferUsage::STORAGE, bytes_of(std::span<const float>(truth)));
-	const RGTexture error = r_graph.create_texture({ "mask error", Format::RGBA8_UNORM, p_size_px,
-			1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
-	add_compute_pass(r_graph, "mask error",
-			p_device.get_compute_pipeline({ "mask error", "renderer/error_view.comp",
-					make_mask_constants(r_graph, p_mask) }),
+	const RGBuffer buffer = p_image.graph.upload(
+			"truth", BufferUsage::STORAGE, bytes_of(std::span<const float>(truth)));
+	const RGTexture error = p_image.graph.create_texture({ "mask error", Format::RGBA8_UNORM,
+			size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
+	add_compute_pass(p_image.graph, "mask error",
+			p_image.device.get_compute_pipeline({ "mask error", "renderer/error_view.comp",
+					make_mask_constants(p_image.graph, p_shadow.mask) }),
 			{
 					PassBinding::read(RENDERER_BINDING_TRUTH, buffer),
-					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),
-					PassBinding::read(RENDERER_BINDING_MASK, p_mask),
+					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_shadow.receivers),
+					PassBinding::read(RENDERER_BINDING_MASK, p_shadow.mask),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, error),
 			},
-			glm::uvec3(p_size_px, 1u));
+			glm::uvec3(size_px, 1u));
 	ShadowTechnique::DebugView view = { ERROR_VIEW, error };
 	view.is_color = true;
 	return view;
@@ -75,20 +76,18 @@ const ShadowTechnique::DebugView *choose_debug_view(
 			"\" does not exist for this light's technique, must be one of ", ids, ".");
 }
 
-RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} });
-	const RGTexture output = create_picture(r_graph, p_size_px);
+RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view) {
+	const RGTexture output = create_picture(p_image.graph, p_image.size_px);
 	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, p_view.class_count,
 		p_view.is_color ? 1u : 0u, 0, 0, 0 };
-	add_compute_pass(r_graph, "debug view " + p_view.id, pipeline,
+	add_compute_pass(p_image.graph, "debug view " + p_view.id,
+			p_image.device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} }),
 			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_image.frame),
 					PassBinding::read(RENDERER_BINDING_MASK, p_view.texture),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
-			p_size_px, push);
+			p_image.size_px, push);
 	return output;
 }
 

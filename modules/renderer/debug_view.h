@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/renderer/lighting.h"
 
 #include <span>
 #include <string>
@@ -19,8 +19,8 @@ struct TruthMask {
 
 /// "error": the mask less the truth in the colours of shared/heat_map_shared.h. A truth of another
 /// size than the frame's is an Error.
-ShadowTechnique::DebugView add_error_view(RenderGraph &r_graph, RenderingDevice &p_device,
-		RGTexture p_receivers, RGTexture p_mask, const TruthMask &p_truth, glm::uvec2 p_size_px);
+ShadowTechnique::DebugView add_error_view(
+		const LitImage &p_image, const LightShadow &p_shadow, const TruthMask &p_truth);
 
 /// Which view is wanted, see RenderRequest.
 struct DebugViewWish {
@@ -35,7 +35,6 @@ const ShadowTechnique::DebugView *choose_debug_view(
 		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
 
 /// RGBA8_UNORM: the texture of a debug view in place of the picture.
-RGTexture add_debug_view_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		const ShadowTechnique::DebugView &p_view, glm::uvec2 p_size_px);
+RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view);
 
 } // namespace gnomon

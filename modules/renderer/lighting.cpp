@@ -1,109 +1,86 @@
 #include "modules/renderer/lighting.h"
 
 #include "modules/render_graph/compute_pass.h"
+#include "modules/shadows/mask.h"
 
 #include "renderer/renderer_shared.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gnomon {
 
-shader::LightConstants compute_light_constants(
-		const LightSnapshot &p_light, const CameraSnapshot &p_camera) {
-	shader::LightConstants constants = {};
-	const glm::dvec3 position = p_light.type == LightType::DIRECTIONAL
-			? glm::dvec3(0.0)
-			: p_light.position_world - p_camera.position_world;
-	constants.position_radius = glm::vec4(glm::vec3(position), p_light.get_disc_radius());
-	constants.direction = glm::vec4(glm::vec3(p_light.get_direction_world()), 0.0f);
-	constants.intensity = glm::vec4(p_light.color * p_light.intensity, 0.0f);
-	constants.range_m = p_light.range_m;
-	constants.cos_outer = std::cos(p_light.outer_cone_rad);
-	constants.cos_inner = std::cos(p_light.inner_cone_rad);
-	constants.type = p_light.type == LightType::OMNI ? LIGHT_TYPE_OMNI
-			: p_light.type == LightType::SPOT		 ? LIGHT_TYPE_SPOT
-													 : LIGHT_TYPE_DIRECTIONAL;
-	constants.outer_width_m = p_light.penumbra_outer_width_m;
-	constants.inner_width_m = p_light.penumbra_inner_width_m;
-	constants.casts_shadow = p_light.casts_shadow ? 1u : 0u;
-	return constants;
+namespace {
+
+// Ambient light relative to the exposure: enough to read shapes in the umbra.
+constexpr float AMBIENT_SHOWN = 0.06f;
+constexpr float WHITE_SHOWN = 0.8f;
+
+float compute_light_illuminance(const LightSnapshot &p_light, const glm::dvec3 &p_position_world) {
+	const float brightest = std::max({ p_light.color.x, p_light.color.y, p_light.color.z });
+	const float intensity = p_light.intensity * brightest;
+	if (p_light.type == LightType::DIRECTIONAL) {
+		return intensity;
+	}
+	const glm::dvec3 to_light = p_light.position_world - p_position_world;
+	return static_cast<float>(intensity / std::max(glm::dot(to_light, to_light), 1e-6));
 }
 
-RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
-		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "receivers", "renderer/receivers.comp", {} });
-	const RGTexture receivers = r_graph.create_texture({ "receivers", Format::R8_UNORM, p_size_px,
-			1, TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	add_compute_pass(r_graph, "receivers", pipeline,
+shader::ExposurePush make_exposure(const LitImage &p_image) {
+	return { glm::vec4(glm::vec3(AMBIENT_SHOWN / p_image.exposure), p_image.exposure) };
+}
+
+} // namespace
+
+float compute_exposure(const SceneSnapshot &p_scene) {
+	Bounds bounds;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		bounds.add(instance.bounds_world);
+	}
+	float brightest = 0;
+	if (!bounds.is_empty()) {
+		const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
+		for (const LightSnapshot &light : p_scene.lights) {
+			brightest = std::max(brightest, compute_light_illuminance(light, centre));
+		}
+	}
+	return brightest > 0 && std::isfinite(brightest) ? WHITE_SHOWN * 3.14159265f / brightest : 1.0f;
+}
+
+RGTexture add_ambient_pass(const LitImage &p_image) {
+	const RGTexture radiance = p_image.graph.create_texture({ "radiance", Format::RGBA16_SFLOAT,
+			p_image.size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
+	add_compute_pass(p_image.graph, "ambient",
+			p_image.device.get_compute_pipeline({ "ambient", "renderer/ambient.comp", {} }),
 			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
-					PassBinding::constants(RENDERER_BINDING_LIGHT, p_light),
-					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
-					PassBinding::read(
-							RENDERER_BINDING_GEOMETRIC_NORMAL, p_gbuffer.geometric_normal),
-					PassBinding::write(RENDERER_BINDING_RECEIVERS, receivers),
-			},
-			glm::uvec3(p_size_px, 1u));
-	return receivers;
-}
-
-RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility) {
-	const RGTexture mask = r_graph.create_texture({ "constant mask", Format::R16_SFLOAT, p_size_px,
-			1, TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
-	r_graph.add_pass("constant mask")
-			.writes(mask, Access::COPY_WRITE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.clear_color(p_context.get(mask), glm::vec4(p_visibility));
-			});
-	return mask;
-}
-
-bool is_colored_mask(const RenderGraph &p_graph, RGTexture p_mask) {
-	const Format format = p_graph.get_desc(p_mask).format;
-	return format == Format::RGBA16_SFLOAT || format == Format::RGBA32_SFLOAT;
-}
-
-std::vector<SpecializationConstant> make_mask_constants(
-		const RenderGraph &p_graph, RGTexture p_mask) {
-	return { { RENDERER_CONSTANT_IS_COLORED, is_colored_mask(p_graph, p_mask) ? 1u : 0u } };
-}
-
-RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
-		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "ambient", "renderer/ambient.comp", {} });
-	const RGTexture radiance = r_graph.create_texture({ "radiance", Format::RGBA16_SFLOAT,
-			p_size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
-	add_compute_pass(r_graph, "ambient", pipeline,
-			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
-					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
-					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_gbuffer.base_color),
-					PassBinding::read(RENDERER_BINDING_EMISSIVE, p_gbuffer.emissive),
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_image.frame),
+					PassBinding::read(RENDERER_BINDING_DEPTH, p_image.gbuffer.depth),
+					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_image.gbuffer.base_color),
+					PassBinding::read(RENDERER_BINDING_EMISSIVE, p_image.gbuffer.emissive),
 					PassBinding::write(RENDERER_BINDING_RADIANCE, radiance),
 			},
-			glm::uvec3(p_size_px, 1u));
+			p_image.size_px, make_exposure(p_image));
 	return radiance;
 }
 
-void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
-		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
-		RGTexture p_radiance, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline = p_device.get_compute_pipeline(
-			{ "lighting", "renderer/lighting.comp", make_mask_constants(r_graph, p_mask) });
-	add_compute_pass(r_graph, "lighting", pipeline,
+void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGTexture p_radiance) {
+	const GBuffer &gbuffer = p_image.gbuffer;
+	add_compute_pass(p_image.graph, "lighting",
+			p_image.device.get_compute_pipeline({ "lighting", "renderer/lighting.comp",
+					make_mask_constants(p_image.graph, p_shadow.mask) }),
 			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
-					PassBinding::constants(RENDERER_BINDING_LIGHT, p_light),
-					PassBinding::read(RENDERER_BINDING_DEPTH, p_gbuffer.depth),
-					PassBinding::read(RENDERER_BINDING_SHADING_NORMAL, p_gbuffer.shading_normal),
-					PassBinding::read(RENDERER_BINDING_MATERIAL, p_gbuffer.material),
-					PassBinding::read(RENDERER_BINDING_BASE_COLOR, p_gbuffer.base_color),
-					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_receivers),
-					PassBinding::read(RENDERER_BINDING_MASK, p_mask),
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_image.frame),
+					PassBinding::constants(RENDERER_BINDING_LIGHT, p_shadow.light_constants),
+					PassBinding::read(RENDERER_BINDING_DEPTH, gbuffer.depth),
+					PassBinding::read(RENDERER_BINDING_SHADING_NORMAL, gbuffer.shading_normal),
+					PassBinding::read(RENDERER_BINDING_MATERIAL, gbuffer.material),
+					PassBinding::read(RENDERER_BINDING_BASE_COLOR, gbuffer.base_color),
+					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_shadow.receivers),
+					PassBinding::read(RENDERER_BINDING_MASK, p_shadow.mask),
 					PassBinding::write(
 							RENDERER_BINDING_RADIANCE, p_radiance, PassBuilder::Content::UPDATE),
 			},
-			glm::uvec3(p_size_px, 1u));
+			p_image.size_px, make_exposure(p_image));
 }
 
 RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
@@ -111,18 +88,16 @@ RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
 			TextureUsage::STORAGE | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
 }
 
-RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		RGTexture p_radiance, glm::uvec2 p_size_px) {
-	const PipelineRID pipeline =
-			p_device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} });
-	const RGTexture output = create_picture(r_graph, p_size_px);
-	add_compute_pass(r_graph, "tone map", pipeline,
+RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {
+	const RGTexture output = create_picture(p_image.graph, p_image.size_px);
+	add_compute_pass(p_image.graph, "tone map",
+			p_image.device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} }),
 			{
-					PassBinding::constants(RENDERER_BINDING_FRAME, p_frame),
+					PassBinding::constants(RENDERER_BINDING_FRAME, p_image.frame),
 					PassBinding::read(RENDERER_BINDING_RADIANCE, p_radiance),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
-			glm::uvec3(p_size_px, 1u));
+			glm::uvec3(p_image.size_px, 1u));
 	return output;
 }
 

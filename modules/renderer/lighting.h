@@ -1,41 +1,31 @@
 #pragma once
 
 #include "modules/renderer/gbuffer.h"
-#include "modules/renderer/shadow_technique.h"
-
-#include "shared/light_shared.h"
+#include "modules/shadows/shadow_frame.h"
 
 namespace gnomon {
 
-/// The light in camera-relative space, as the shaders read it.
-shader::LightConstants compute_light_constants(
-		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
+/// Scales radiance so that a white surface at the middle of the casters, facing the brightest
+/// light, shows at about 0.8, whatever unit the file's intensities are in. 1 without lights.
+float compute_exposure(const SceneSnapshot &p_scene);
 
-/// R8_UNORM: 1 where the light can reach (TECHNIQUES, section 0: receiver pixels).
-RGTexture add_receivers_pass(RenderGraph &r_graph, RenderingDevice &p_device,
-		const GBuffer &p_gbuffer, RGBuffer p_frame, RGBuffer p_light, glm::uvec2 p_size_px);
-
-/// A mask of one value; for lights without a shadow.
-RGTexture add_constant_mask(RenderGraph &r_graph, glm::uvec2 p_size_px, float p_visibility);
-
-/// Has the mask a value for each colour? A technique's has one; behind translucent casters it has
-/// three.
-bool is_colored_mask(const RenderGraph &p_graph, RGTexture p_mask);
-/// RENDERER_CONSTANT_IS_COLORED of shaders that read a mask.
-std::vector<SpecializationConstant> make_mask_constants(
-		const RenderGraph &p_graph, RGTexture p_mask);
+/// What the passes of one image have in common.
+struct LitImage {
+	RenderGraph &graph;
+	RenderingDevice &device;
+	GBuffer gbuffer;
+	RGBuffer frame; // FrameConstants
+	glm::uvec2 size_px = glm::uvec2(0);
+	float exposure = 1.0f;
+};
 
 /// RGBA16_SFLOAT, exposed: ambient and emitted light.
-RGTexture add_ambient_pass(RenderGraph &r_graph, RenderingDevice &p_device,
-		const GBuffer &p_gbuffer, RGBuffer p_frame, glm::uvec2 p_size_px);
+RGTexture add_ambient_pass(const LitImage &p_image);
 /// Adds one light, times its mask.
-void add_lighting_pass(RenderGraph &r_graph, RenderingDevice &p_device, const GBuffer &p_gbuffer,
-		RGBuffer p_frame, RGBuffer p_light, RGTexture p_receivers, RGTexture p_mask,
-		RGTexture p_radiance, glm::uvec2 p_size_px);
+void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGTexture p_radiance);
 /// What is shown or captured: RGBA8_UNORM, sRGB-encoded.
 RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px);
 /// Fills one.
-RGTexture add_tone_map_pass(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_frame,
-		RGTexture p_radiance, glm::uvec2 p_size_px);
+RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance);
 
 } // namespace gnomon

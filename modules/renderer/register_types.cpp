@@ -1,21 +1,10 @@
 #include "modules/renderer/register_types.h"
 
-#include "modules/renderer/light_properties.h"
-#include "modules/scene/node_properties.h"
-
 namespace gnomon {
 
-// Techniques and filters register themselves in this module's registries.
-void initialize_renderer_module(ModuleLevel p_level) {
-	if (p_level == ModuleLevel::SERVERS) {
-		add_node_property_source(&add_light_properties);
-	}
-}
+// Techniques, filters and their properties are registered by the modules that hold them.
+void initialize_renderer_module(ModuleLevel) {}
 
-void uninitialize_renderer_module(ModuleLevel p_level) {
-	if (p_level == ModuleLevel::SERVERS) {
-		remove_node_property_source(&add_light_properties);
-	}
-}
+void uninitialize_renderer_module(ModuleLevel) {}
 
 } // namespace gnomon

@@ -1,9 +1,12 @@
 #include "modules/renderer/renderer.h"
 
 #include "modules/core/error.h"
+#include "modules/render_graph/read_back.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
-#include "modules/renderer/mask_texels.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/shadow_frame.h"
 
 namespace gnomon {
 
@@ -19,9 +22,6 @@ void check_request(const RenderRequest &p_request, const RenderingDevice &p_devi
 		fail("Size is ", size_px.x, "x", size_px.y, ", must be 1x1..", limit_px, "x", limit_px,
 				". Choose another --size.");
 	}
-	if (!p_request.technique_override.empty()) {
-		ShadowRegistry::get(p_request.technique_override);
-	}
 }
 
 /// True when the request names a light whose technique can be looked at.
@@ -30,31 +30,27 @@ bool has_debug_light(const RenderRequest &p_request) {
 	return light != nullptr && light->casts_shadow;
 }
 
-/// Why a light that reaches no receiver changes nothing.
-std::string describe_unlit(const LightSnapshot &p_light) {
-	return text("the camera sees no surface",
-			p_light.type == LightType::SPOT			  ? " in its cone and range"
-					: p_light.type == LightType::OMNI ? " in its range"
-													  : "");
-}
-
 } // namespace
 
 struct Renderer::Frame {
 	const RenderRequest &request;
 	RenderResult &result;
 	RenderGraph graph;
-	RGBuffer constants;
-	GBuffer gbuffer;
-	VisibleReceivers receivers;							 // of any light
+	ShadowFrame shadows;
+	LitImage image;
 	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is asked for
 	bool has_asked_for_debug_view = false;
-	std::vector<uint8_t> mask_bytes;
-	std::vector<uint8_t> receiver_bytes;
+	MaskReadback mask;
 	std::vector<uint8_t> depth_bytes;
 	std::vector<uint8_t> normal_bytes;
 	std::vector<uint8_t> material_bytes;
-	Format mask_format = Format::R16_SFLOAT;
+
+	Frame(Renderer &r_renderer, const RenderRequest &p_request, RenderResult &r_result) :
+			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
+			shadows(r_renderer.shadows, graph, result.plan, request.scene, request.size_px,
+					{ request.technique_override, request.may_leave_out, request.may_keep }),
+			image{ graph, r_renderer.device, {}, shadows.get_constants(), request.size_px,
+				compute_exposure(*request.scene) } {}
 
 	/// The light whose intermediate images are shown: nothing of it is left out.
 	bool asks_for_debug_view(const LightSnapshot &p_light) const {
@@ -76,66 +72,22 @@ std::vector<PassTiming> RenderResult::find_light_passes(const std::string &p_lig
 }
 
 Renderer::Renderer(RenderingDevice &p_device) :
-		device(p_device), transients(p_device), meshes(p_device), shadows(p_device, meshes) {}
+		device(p_device), transients(p_device), shadows(p_device) {}
 
 Renderer::~Renderer() = default;
 
-void Renderer::add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes) {
-	const TextureDesc desc = r_frame.graph.get_desc(p_texture);
-	const uint64_t size_bytes =
-			uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
-	const RGBuffer buffer = r_frame.graph.create_buffer({ desc.name + " readback", size_bytes,
-			BufferUsage::COPY_TARGET, MemoryKind::READBACK });
-	r_frame.graph.add_pass("read back " + desc.name)
-			.reads(p_texture, Access::COPY_READ)
-			.writes(buffer, Access::COPY_WRITE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.copy_texture_to_buffer(
-						p_context.get(p_texture), p_context.get(buffer));
-			});
-	r_frame.graph.add_pass("copy " + desc.name)
-			.reads(buffer, Access::HOST_READ)
-			.keep()
-			.execute_on_host([=, &r_bytes](HostContext &p_context) {
-				const uint8_t *mapped = p_context.get_mapped(buffer);
-				r_bytes.assign(mapped, mapped + size_bytes);
-			});
-}
-
-RGTexture Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light, RGTexture &r_receivers,
-		RGBuffer &r_light_constants) {
-	RenderGraph &graph = r_frame.graph;
+LightShadow Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light) {
 	const RenderRequest &request = r_frame.request;
-	FramePlan &plan = r_frame.result.plan;
-	graph.set_pass_prefix(p_light.name + ": ");
-	plan.set_light(p_light.name);
-	r_light_constants = graph.upload_constants(
-			"light constants", compute_light_constants(p_light, request.scene->camera));
-	r_receivers = add_receivers_pass(
-			graph, device, r_frame.gbuffer, r_frame.constants, r_light_constants, request.size_px);
-	plan.run("receivers");
-	RGTexture mask;
 	const bool asks = r_frame.asks_for_debug_view(p_light);
-	const VisibleReceivers lit = find_lit_receivers(p_light, r_frame.receivers);
-	if (!p_light.casts_shadow) {
-		plan.leave_out("shadow", "shadow_enabled is false");
-		mask = add_constant_mask(graph, request.size_px, 1.0f);
-	} else if (request.may_leave_out && lit.list.empty() && !asks) {
-		plan.leave_out("shadow", describe_unlit(p_light));
-		mask = add_constant_mask(graph, request.size_px, 1.0f);
-	} else {
-		r_frame.has_asked_for_debug_view |= asks;
-		mask = shadows.add_passes(graph,
-				{ *request.scene, p_light, r_frame.gbuffer, r_receivers, r_frame.constants,
-						r_light_constants, request.size_px, request.technique_override,
-						request.may_leave_out, request.may_keep, asks, lit },
-				plan, r_frame.debug_views);
-		if (asks && request.truth) {
-			r_frame.debug_views.push_back(add_error_view(
-					graph, device, r_receivers, mask, *request.truth, request.size_px));
+	r_frame.has_asked_for_debug_view |= asks;
+	const LightShadow shadow = r_frame.shadows.add_light(p_light, asks);
+	if (asks) {
+		r_frame.debug_views = shadow.debug_views;
+		if (request.truth) {
+			r_frame.debug_views.push_back(add_error_view(r_frame.image, shadow, *request.truth));
 		}
 	}
-	return mask;
+	return shadow;
 }
 
 void Renderer::add_mask_only(Frame &r_frame) {
@@ -144,21 +96,18 @@ void Renderer::add_mask_only(Frame &r_frame) {
 		if (light.name != request.mask_light) {
 			continue;
 		}
-		RGTexture receivers;
-		RGBuffer constants;
-		const RGTexture mask = add_light(r_frame, light, receivers, constants);
+		const LightShadow shadow = add_light(r_frame, light);
 		r_frame.graph.set_pass_prefix("");
-		r_frame.mask_format = r_frame.graph.get_desc(mask).format;
 		if (request.wants_mask) {
-			add_readback(r_frame, mask, r_frame.mask_bytes);
-			add_readback(r_frame, receivers, r_frame.receiver_bytes);
+			r_frame.mask.add(r_frame.graph, shadow.mask, shadow.receivers);
 			if (request.wants_surfaces) {
-				add_readback(r_frame, r_frame.gbuffer.depth, r_frame.depth_bytes);
-				add_readback(r_frame, r_frame.gbuffer.geometric_normal, r_frame.normal_bytes);
-				add_readback(r_frame, r_frame.gbuffer.material, r_frame.material_bytes);
+				const GBuffer &gbuffer = r_frame.image.gbuffer;
+				add_readback(r_frame.graph, gbuffer.depth, r_frame.depth_bytes);
+				add_readback(r_frame.graph, gbuffer.geometric_normal, r_frame.normal_bytes);
+				add_readback(r_frame.graph, gbuffer.material, r_frame.material_bytes);
 			}
 		} else {
-			r_frame.graph.add_pass("mask").reads(mask, Access::SHADER_READ_COMPUTE).keep();
+			r_frame.graph.add_pass("mask").reads(shadow.mask, Access::SHADER_READ_COMPUTE).keep();
 		}
 		return;
 	}
@@ -169,25 +118,21 @@ void Renderer::add_picture(Frame &r_frame) {
 	RenderGraph &graph = r_frame.graph;
 	const RenderRequest &request = r_frame.request;
 	FramePlan &plan = r_frame.result.plan;
-	const RGTexture radiance =
-			add_ambient_pass(graph, device, r_frame.gbuffer, r_frame.constants, request.size_px);
+	const RGTexture radiance = add_ambient_pass(r_frame.image);
 	plan.run("ambient");
 	for (const LightSnapshot &light : request.scene->lights) {
 		plan.set_light(light.name);
 		const bool may_leave_out = request.may_leave_out && !r_frame.asks_for_debug_view(light);
-		if (may_leave_out && find_lit_receivers(light, r_frame.receivers).list.empty()) {
-			plan.leave_out("light", describe_unlit(light));
+		const std::string unlit = r_frame.shadows.describe_unlit(light);
+		if (may_leave_out && !unlit.empty()) {
+			plan.leave_out("light", unlit);
 			continue;
 		}
 		if (may_leave_out && (light.intensity <= 0.0f || light.color == glm::vec3(0.0f))) {
 			plan.leave_out("light", "its intensity is 0");
 			continue;
 		}
-		RGTexture receivers;
-		RGBuffer constants;
-		const RGTexture mask = add_light(r_frame, light, receivers, constants);
-		add_lighting_pass(graph, device, r_frame.gbuffer, r_frame.constants, constants, receivers,
-				mask, radiance, request.size_px);
+		add_lighting_pass(r_frame.image, add_light(r_frame, light), radiance);
 		plan.run("lighting");
 	}
 	graph.set_pass_prefix("");
@@ -198,10 +143,10 @@ void Renderer::add_picture(Frame &r_frame) {
 	RGTexture picture;
 	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame.debug_views,
 				{ request.debug_view, request.needs_debug_view, request.truth != nullptr })) {
-		picture = add_debug_view_pass(graph, device, r_frame.constants, *view, request.size_px);
+		picture = add_debug_view_pass(r_frame.image, *view);
 		plan.run("debug view");
 	} else {
-		picture = add_tone_map_pass(graph, device, r_frame.constants, radiance, request.size_px);
+		picture = add_tone_map_pass(r_frame.image, radiance);
 		plan.run("tone map");
 	}
 	if (!request.overlay.empty()) {
@@ -227,7 +172,7 @@ void Renderer::add_picture(Frame &r_frame) {
 				});
 	}
 	if (request.wants_image) {
-		add_readback(r_frame, picture, r_frame.result.image);
+		add_readback(graph, picture, r_frame.result.image);
 	} else if (!request.acquire_window_image && !request.picture_target) {
 		graph.add_pass("picture").reads(picture, Access::COPY_READ).keep();
 	}
@@ -268,33 +213,24 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	check_request(p_request, device);
 	const SceneSnapshot &scene = *p_request.scene;
 	RenderResult result;
-	shadows.collect_garbage(scene);
-	Frame frame{ p_request, result, RenderGraph(device, transients), {}, {}, {}, {}, false, {}, {},
-		{}, {}, {}, Format::R16_SFLOAT };
-	frame.receivers =
-			find_visible_receivers(scene, make_camera_view(scene.camera, p_request.size_px));
-	frame.constants = frame.graph.upload_constants(
-			"frame constants", compute_frame_constants(scene, p_request.size_px));
+	Frame frame(*this, p_request, result);
 	const CommandCounts counts_before = device.get_command_counts();
-	try {
-		uint32_t drawn_count = 0;
-		frame.gbuffer = add_gbuffer_pass(frame.graph, device, meshes, scene, p_request.size_px,
-				frame.constants, drawn_count);
-		result.plan.run("G-buffer");
-		if (drawn_count < scene.instances.size()) {
-			result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
-					"outside the camera's view");
-		}
-		if (p_request.mask_light.empty()) {
-			add_picture(frame);
-		} else {
-			add_mask_only(frame);
-		}
-		frame.graph.execute(p_request.mode);
-	} catch (...) {
-		shadows.drop_techniques(); // they may count on passes that never ran
-		throw;
+	uint32_t drawn_count = 0;
+	const GBuffer &gbuffer = frame.image.gbuffer = add_gbuffer_pass(frame.graph, device,
+			shadows.get_meshes(), scene, p_request.size_px, frame.image.frame, drawn_count);
+	result.plan.run("G-buffer");
+	if (drawn_count < scene.instances.size()) {
+		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
+				"outside the camera's view");
 	}
+	frame.shadows.set_surfaces({ gbuffer.depth, gbuffer.geometric_normal, gbuffer.material });
+	if (p_request.mask_light.empty()) {
+		add_picture(frame);
+	} else {
+		add_mask_only(frame);
+	}
+	frame.graph.execute(p_request.mode);
+	frame.shadows.end();
 	result.plan.set_light("");
 	for (const std::string &pass : frame.graph.get_culled_passes()) {
 		result.plan.leave_out(pass, "nothing uses its result");
@@ -314,28 +250,10 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 						{ frame.depth_bytes.data(), frame.normal_bytes.data(),
 								frame.material_bytes.data() });
 	}
-	if (!frame.mask_bytes.empty()) {
+	if (p_request.wants_mask && !p_request.mask_light.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);
-		const size_t pixel_count = size_t(p_request.size_px.x) * p_request.size_px.y;
-		result.colors = read_mask_colors(frame.mask_bytes, frame.mask_format, pixel_count);
-		for (const glm::vec3 &color : result.colors) {
-			result.visibility.push_back(compute_mask_luminance(color));
-		}
-		if (result.colors.empty()) {
-			result.visibility = read_mask(frame.mask_bytes, frame.mask_format, pixel_count);
-		}
-		result.receiver.resize(pixel_count);
-		for (size_t index = 0; index < pixel_count; ++index) {
-			result.receiver[index] = frame.receiver_bytes[index] != 0 ? 1.0f : 0.0f;
-			if (result.receiver[index] == 0.0f) {
-				result.visibility[index] = 0.0f;
-				if (!result.colors.empty()) {
-					result.colors[index] = glm::vec3(0.0f);
-				}
-			}
-		}
+		static_cast<MaskValues &>(result) = frame.mask.get_values();
 	}
-	meshes.collect_garbage();
 	return result;
 }
 

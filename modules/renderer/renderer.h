@@ -3,11 +3,12 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
 #include "modules/renderer/debug_view.h"
-#include "modules/renderer/frame_plan.h"
-#include "modules/renderer/light_shadows.h"
-#include "modules/renderer/mesh_store.h"
-#include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
+#include "modules/shadows/frame_plan.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/shadow_system.h"
+#include "modules/shadows/surface_points.h"
+#include "modules/shadows/truth_source.h"
 
 #include <memory>
 #include <optional>
@@ -55,16 +56,14 @@ struct RenderRequest {
 	bool may_keep = true;
 };
 
-struct RenderResult {
+/// The mask's values are there when they were asked for.
+struct RenderResult : MaskValues {
 	FramePlan plan;
 	std::vector<PassTiming> timings;	  // QUEUE: of an earlier frame
 	double gpu_ms = 0;					  // sum of the passes
 	double wall_ms = 0;					  // of the frame's submission
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
 	std::vector<std::string> debug_views; // that there are, when one was asked for
-	std::vector<float> visibility;		  // Y: 0 where receiver is 0
-	std::vector<glm::vec3> colors;		  // of the mask behind translucent casters; else empty
-	std::vector<float> receiver;		  // 1 or 0
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
 	CommandCounts commands;				  // draws and dispatches of the frame
@@ -85,23 +84,19 @@ public:
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
 	/// Techniques start anew, as after shaders were replaced.
-	void forget_kept() { shadows.drop_techniques(); }
+	void forget_kept() { shadows.forget_kept(); }
 	RenderingDevice &get_device() { return device; }
 
 private:
 	struct Frame;
-	RGTexture add_light(Frame &r_frame, const LightSnapshot &p_light, RGTexture &r_receivers,
-			RGBuffer &r_light_constants);
+	LightShadow add_light(Frame &r_frame, const LightSnapshot &p_light);
 	void add_mask_only(Frame &r_frame);
 	void add_picture(Frame &r_frame);
 	void add_overlay(Frame &r_frame, RGTexture p_target);
-	/// A pass that copies a texture where the CPU can read it, and fills r_bytes.
-	void add_readback(Frame &r_frame, RGTexture p_texture, std::vector<uint8_t> &r_bytes);
 
 	RenderingDevice &device;
 	TransientPool transients;
-	MeshStore meshes;
-	LightShadows shadows;
+	ShadowSystem shadows;
 };
 
 } // namespace gnomon

@@ -1,8 +1,8 @@
 #include "modules/shadow_edge_count/block_passes.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/map_resolve.h"
-#include "modules/renderer/nearest_caster.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/nearest_caster.h"
 
 #include <algorithm>
 #include <bit>
@@ -226,9 +226,9 @@ RGTexture add_count_passes(
 
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
-	const RGTexture output =
-			r_graph.create_texture({ "counted", Format::R16_SFLOAT, p_passes.inputs.size_px,
-					EDGE_COUNT_DEBUG_LAYERS, TextureUsage::STORAGE | TextureUsage::SAMPLED });
+	const RGTexture output = r_graph.create_texture(
+			{ "counted", Format::R16_SFLOAT, p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	for (uint32_t kind = 0; kind < EDGE_COUNT_BLOCK_KINDS; ++kind) {
 		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, output,

@@ -1,8 +1,8 @@
 #include "modules/shadow_edge_count/count_casters.h"
 
 #include "modules/core/error.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mesh_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +152,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 					with_faces.contains(index) ? get_topology(instance.mesh)->get_face_count() : 0;
 		}
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
-		// All casters: also those that the renderer knows to lie beside the view.
+		// All casters: also those known to lie beside the view.
 		for (const uint32_t index : with_faces) {
 			if (result.face_count <= MAX_BOUNDED_FACES) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];

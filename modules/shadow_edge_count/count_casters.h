@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
 #include "modules/shadow_edge_count/count_mesh.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 

@@ -1,7 +1,7 @@
 #include "modules/shadow_edge_count/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_edge_count/shadow_edge_count.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

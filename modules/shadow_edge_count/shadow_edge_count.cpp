@@ -2,10 +2,10 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/lighting.h"
 #include "modules/shadow_edge_count/disc_masks.h"
 #include "modules/shadow_edge_count/find_passes.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mask.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/kept_views.h"
 #include "modules/shadow_edge_count/block_passes.h"
+#include "modules/shadows/kept_views.h"
 
 #include <vector>
 

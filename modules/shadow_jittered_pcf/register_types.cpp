@@ -1,7 +1,7 @@
 #include "modules/shadow_jittered_pcf/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_jittered_pcf/shadow_jittered_pcf.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

@@ -2,9 +2,8 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
-#include "modules/renderer/lighting.h"
-#include "modules/renderer/map_resolve.h"
 #include "modules/shadow_jittered_pcf/jitter_offsets.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 

@@ -1,8 +1,8 @@
 #include "modules/shadow_map/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_map/shadow_map.h"
 #include "modules/shadow_map/views.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

@@ -1,8 +1,7 @@
 #include "modules/shadow_map/shadow_map.h"
 
 #include "modules/core/error.h"
-#include "modules/renderer/lighting.h"
-#include "modules/renderer/map_resolve.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_map/shadow_map_shared.h"
 

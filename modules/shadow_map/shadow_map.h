@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/kept_depth_map.h"
+#include "modules/shadows/kept_depth_map.h"
 
 namespace gnomon {
 

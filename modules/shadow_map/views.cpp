@@ -1,10 +1,9 @@
 #include "modules/shadow_map/views.h"
 
 #include "modules/core/error.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/lighting.h"
-#include "modules/renderer/map_resolve.h"
 #include "modules/shadow_map/light_points.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_map/shadow_map_shared.h"
 

@@ -1,7 +1,7 @@
 #include "modules/shadow_pcss/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_pcss/shadow_pcss.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

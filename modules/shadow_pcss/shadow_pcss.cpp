@@ -1,9 +1,8 @@
 #include "modules/shadow_pcss/shadow_pcss.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/lighting.h"
-#include "modules/renderer/map_resolve.h"
-#include "modules/renderer/nearest_caster.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/nearest_caster.h"
 
 #include "shadow_pcss/shadow_pcss_shared.h"
 

@@ -1,5 +1,5 @@
 def get_dependencies():
-    return ["core", "scene", "mesh_tools", "rendering_device", "render_graph", "renderer"]
+    return ["core", "scene", "mesh_tools", "rendering_device", "render_graph", "shadows"]
 
 
 def get_layer():

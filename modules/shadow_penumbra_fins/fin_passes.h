@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/silhouette_lists.h"
 #include "modules/shadow_penumbra_fins/fins_settings.h"
+#include "modules/shadows/silhouette_lists.h"
 
 namespace gnomon {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/shadow_penumbra_fins/fin_passes.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include <string>
 #include <vector>

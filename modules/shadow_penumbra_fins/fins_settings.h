@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 

@@ -2,7 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/mesh_tools/topology.h"
-#include "modules/renderer/caster_pass.h"
+#include "modules/shadows/caster_pass.h"
 
 #include <algorithm>
 

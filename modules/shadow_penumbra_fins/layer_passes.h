@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
 #include "modules/shadow_penumbra_fins/fins_settings.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include <span>
 

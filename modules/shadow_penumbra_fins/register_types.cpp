@@ -1,7 +1,7 @@
 #include "modules/shadow_penumbra_fins/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_penumbra_fins/shadow_penumbra_fins.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

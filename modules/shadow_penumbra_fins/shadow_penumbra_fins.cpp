@@ -1,9 +1,8 @@
 #include "modules/shadow_penumbra_fins/shadow_penumbra_fins.h"
 
 #include "modules/core/error.h"
-#include "modules/renderer/lighting.h"
-#include "modules/renderer/map_resolve.h"
 #include "modules/shadow_penumbra_fins/layer_passes.h"
+#include "modules/shadows/mask.h"
 
 #include <algorithm>
 

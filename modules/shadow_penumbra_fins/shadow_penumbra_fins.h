@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/kept_views.h"
 #include "modules/shadow_penumbra_fins/fins_maps.h"
+#include "modules/shadows/kept_views.h"
 
 namespace gnomon {
 

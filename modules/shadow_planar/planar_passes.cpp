@@ -1,9 +1,9 @@
 #include "modules/shadow_planar/planar_passes.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/drawn_mask.h"
-#include "modules/renderer/gbuffer.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/mesh_store.h"
 
 #include "shadow_planar/shadow_planar_shared.h"
 
@@ -16,7 +16,7 @@ const uint32_t ON_PLANE = 1; // in the stencil: of the plane, and not dark yet
 const float SAME_PLANE = 1e-5f; // of S: a pixel so near to the plane lies in it
 const float SAME_PLANE_PER_DISTANCE = 2e-6f;
 
-/// As in renderer/receivers: what the shaders read of the G-buffer.
+/// What the shaders read of the host's surfaces.
 void read_gbuffer(PassBuilder &r_pass, const ShadowTechnique::Inputs &p_inputs) {
 	r_pass.reads(p_inputs.frame, Access::UNIFORM_READ)
 			.reads(p_inputs.depth, Access::SHADER_READ_FRAGMENT)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
 #include "modules/shadow_planar/receiver_planes.h"
+#include "modules/shadows/shadow_technique.h"
 
 namespace gnomon {
 

@@ -1,9 +1,9 @@
 #include "modules/shadow_planar/shadow_planar.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/lighting.h"
 #include "modules/shadow_planar/planar_passes.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mask.h"
 
 namespace gnomon {
 

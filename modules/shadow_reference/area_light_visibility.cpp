@@ -1,10 +1,10 @@
 #include "modules/shadow_reference/area_light_visibility.h"
 
 #include "modules/core/error.h"
-#include "modules/renderer/truth_source.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/disc_samples.h"
 #include "modules/shadow_reference/spread_visibility.h"
+#include "modules/shadows/mask.h"
 
 #include "shared/light_shared.h"
 

@@ -22,7 +22,7 @@ struct ReceiverPoint {
 	glm::vec3 position = glm::vec3(0.0f);
 	/// Unit, on the side that is seen. Zero moves the start nowhere.
 	glm::vec3 geometric_normal = glm::vec3(0.0f);
-	bool is_receiver = false; // decided by the renderer; otherwise v = 0 and no ray
+	bool is_receiver = false; // see LightShadow::receivers; otherwise v = 0 and no ray
 	/// Above 0: light that leaves here entered about here, see VisibilityOptions::spread.
 	float spread_radius_m = 0.0f;
 };

@@ -3,7 +3,7 @@ import subprocess
 
 
 def get_dependencies():
-    return ["core", "scene", "rendering_device", "render_graph", "renderer"]
+    return ["core", "scene", "rendering_device", "render_graph", "shadows"]
 
 
 def get_layer():

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "modules/renderer/truth_source.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
+#include "modules/shadows/truth_source.h"
 
 #include <functional>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "modules/renderer/truth_source.h"
 #include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/spread_visibility.h"
+#include "modules/shadows/truth_source.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #include "modules/shadow_reference/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_reference/reference_truth.h"
 #include "modules/shadow_reference/shadow_reference.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

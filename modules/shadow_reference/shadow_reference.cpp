@@ -4,9 +4,10 @@
 #include "modules/core/files.h"
 #include "modules/core/log.h"
 #include "modules/core/progress.h"
-#include "modules/renderer/gbuffer.h"
-#include "modules/renderer/mask_filter.h"
+#include "modules/render_graph/read_back.h"
 #include "modules/shadow_reference/reference_input.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/mask_filter.h"
 
 #include <chrono>
 #include <cstring>
@@ -114,7 +115,7 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 	const std::vector<ReceiverPoint> points = make_receiver_points(
 			read_surfaces(p_job.frame, p_job.size_px,
 					{ p_context.get_mapped(p_job.depth), p_context.get_mapped(p_job.normal),
-							p_context.get_mapped(p_job.material) }),
+							p_job.material ? p_context.get_mapped(p_job.material) : nullptr }),
 			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
 	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
@@ -159,36 +160,26 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->spread_bodies = collect_spread_bodies(p_inputs.scene, job->spread.get());
 
 	const uint64_t pixel_count = uint64_t(p_inputs.size_px.x) * p_inputs.size_px.y;
-	const auto add_copy = [&](RGTexture p_texture) {
-		const TextureDesc desc = r_graph.get_desc(p_texture);
-		const RGBuffer buffer = r_graph.create_buffer(
-				{ desc.name + " for the reference", pixel_count * get_texel_size_bytes(desc.format),
-						BufferUsage::COPY_TARGET, MemoryKind::READBACK });
-		r_graph.add_pass("read back " + desc.name)
-				.reads(p_texture, Access::COPY_READ)
-				.writes(buffer, Access::COPY_WRITE)
-				.execute([=](PassContext &p_context) {
-					p_context.commands.copy_texture_to_buffer(
-							p_context.get(p_texture), p_context.get(buffer));
-				});
-		return buffer;
-	};
-	job->depth = add_copy(p_inputs.depth);
-	job->normal = add_copy(p_inputs.geometric_normal);
-	job->material = add_copy(p_inputs.material);
-	job->receivers = add_copy(p_inputs.receivers);
+	job->depth = add_copy_for_host(r_graph, p_inputs.depth);
+	job->normal = add_copy_for_host(r_graph, p_inputs.geometric_normal);
+	job->receivers = add_copy_for_host(r_graph, p_inputs.receivers);
+	if (p_inputs.material) {
+		job->material = add_copy_for_host(r_graph, p_inputs.material);
+	}
 	const Format format =
 			job->triangles.translucent.empty() ? Format::R32_SFLOAT : Format::RGBA32_SFLOAT;
 	job->mask =
 			r_graph.create_buffer({ "reference mask", pixel_count * get_texel_size_bytes(format),
 					BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD });
-	r_graph.add_pass("trace")
-			.reads(job->depth, Access::HOST_READ)
-			.reads(job->normal, Access::HOST_READ)
-			.reads(job->material, Access::HOST_READ)
-			.reads(job->receivers, Access::HOST_READ)
-			.writes(job->mask, Access::HOST_WRITE)
-			.execute_on_host([this, job](HostContext &p_context) { run(*job, p_context); });
+	PassBuilder pass = r_graph.add_pass("trace");
+	for (const RGBuffer &read : { job->depth, job->normal, job->receivers, job->material }) {
+		if (read) {
+			pass.reads(read, Access::HOST_READ);
+		}
+	}
+	pass.writes(job->mask, Access::HOST_WRITE).execute_on_host([this, job](HostContext &p_context) {
+		run(*job, p_context);
+	});
 	const RGTexture mask = r_graph.create_texture({ "visibility mask", format, p_inputs.size_px, 1,
 			TextureUsage::COPY_TARGET | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	r_graph.add_pass("upload mask")

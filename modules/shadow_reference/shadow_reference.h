@@ -1,8 +1,8 @@
 #pragma once
 
-#include "modules/renderer/shadow_technique.h"
 #include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/truth_cache.h"
+#include "modules/shadows/shadow_technique.h"
 
 namespace gnomon {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "modules/renderer/surface_spread.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/light_disc.h"
+#include "modules/shadows/surface_spread.h"
 
 #include <cstdint>
 #include <memory>

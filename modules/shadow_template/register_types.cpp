@@ -1,7 +1,7 @@
 #include "modules/shadow_template/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_template/shadow_template.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

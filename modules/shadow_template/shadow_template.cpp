@@ -1,8 +1,8 @@
 #include "modules/shadow_template/shadow_template.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/map_resolve.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_template/shadow_template_shared.h"
 
@@ -16,7 +16,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 			"How dark a hidden place is: 0 = as if lit, 1 = no light.", "", "Template" });
 }
 
-// Which cameras stand at the light: the renderer culls the casters of each.
+// Which cameras stand at the light: the casters of each are culled to it.
 void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const auto size_px =

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/draw_predicates.h"
-#include "modules/renderer/shadow_technique.h"
+#include "modules/shadows/draw_predicates.h"
+#include "modules/shadows/shadow_technique.h"
 
 #include <array>
 #include <optional>

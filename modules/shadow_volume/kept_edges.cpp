@@ -2,7 +2,7 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/shadows/mesh_store.h"
 
 namespace gnomon {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/silhouette_lists.h"
+#include "modules/shadows/silhouette_lists.h"
 
 namespace gnomon {
 

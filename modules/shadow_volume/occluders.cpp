@@ -1,9 +1,9 @@
 #include "modules/shadow_volume/occluders.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/caster_pass.h"
-#include "modules/renderer/mesh_store.h"
-#include "modules/renderer/silhouette_lists.h"
+#include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mesh_store.h"
+#include "modules/shadows/silhouette_lists.h"
 
 #include "shadow_volume/culling_shared.h"
 

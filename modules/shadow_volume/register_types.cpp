@@ -1,7 +1,7 @@
 #include "modules/shadow_volume/register_types.h"
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/shadow_volume/shadow_volume.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 

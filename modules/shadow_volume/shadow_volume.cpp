@@ -1,8 +1,8 @@
 #include "modules/shadow_volume/shadow_volume.h"
 
 #include "modules/core/text.h"
-#include "modules/renderer/lighting.h"
 #include "modules/shadow_volume/volume_passes.h"
+#include "modules/shadows/mask.h"
 
 #include "shadow_volume/culling_shared.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/light_view.h"
+#include "modules/shadows/light_view.h"
 
 #include <glm/glm.hpp>
 

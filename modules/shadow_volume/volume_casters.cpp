@@ -1,8 +1,8 @@
 #include "modules/shadow_volume/volume_casters.h"
 
 #include "modules/mesh_tools/convexity.h"
-#include "modules/renderer/gbuffer.h"
-#include "modules/renderer/mesh_store.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/mesh_store.h"
 
 #include "shadow_volume/shadow_volume_shared.h"
 #include "shared/light_shared.h"

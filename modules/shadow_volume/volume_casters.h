@@ -1,9 +1,9 @@
 #pragma once
 
-#include "modules/renderer/silhouette_lists.h"
 #include "modules/shadow_volume/volume_area.h"
 #include "modules/shadow_volume/volume_settings.h"
 #include "modules/shadow_volume/volume_shape.h"
+#include "modules/shadows/silhouette_lists.h"
 
 #include <vector>
 

@@ -2,10 +2,10 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
-#include "modules/renderer/drawn_mask.h"
-#include "modules/renderer/gbuffer.h"
-#include "modules/renderer/mesh_store.h"
 #include "modules/shadow_volume/cpu_volumes.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/mesh_store.h"
 
 #include "shadow_volume/shadow_volume_shared.h"
 

@@ -1,5 +1,5 @@
 // The receiver of each pixel as a light view sees it: what a compute shader needs that looks
-// receivers up in maps drawn from the light. It reads make_map_resolve_bindings of the renderer.
+// receivers up in maps drawn from the light. It reads make_map_resolve_bindings of shadows.
 #ifndef MAP_RESOLVE_INC_GLSL
 #define MAP_RESOLVE_INC_GLSL
 

@@ -21,4 +21,18 @@ vec3 unpack_normal(uint p_packed) {
 	return normalize(n);
 }
 
+/// Of a triangle, camera-relative: on the side that is seen, which is the side that is lit. Along z
+/// where it has no area.
+vec3 face_normal_to_viewer(vec3 p_a, vec3 p_b, vec3 p_c) {
+	const vec3 ab = p_b - p_a;
+	const vec3 ac = p_c - p_a;
+	// Scaled first, so that tiny triangles do not underflow.
+	const float scale = max(max(max(abs(ab.x), abs(ab.y)), abs(ab.z)),
+			max(max(abs(ac.x), abs(ac.y)), abs(ac.z)));
+	vec3 normal = cross(ab / scale, ac / scale);
+	const float length2 = dot(normal, normal);
+	normal = length2 > 0.0 ? normal * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
+	return dot(normal, p_a) > 0.0 ? -normal : normal;
+}
+
 #endif

@@ -1,5 +1,5 @@
 // The receivers of a picture's pixels, and the views of one light. It reads make_map_resolve_bindings of
-// the renderer.
+// shadows.
 #ifndef RECEIVER_PIXELS_INC_GLSL
 #define RECEIVER_PIXELS_INC_GLSL
 

@@ -13,16 +13,19 @@ layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_textur
 layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_color_texture;
 layout(set = 0, binding = RENDERER_BINDING_EMISSIVE) uniform texture2D emissive_texture;
 layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform writeonly image2D radiance_image;
+layout(push_constant) uniform Push {
+	ExposurePush push;
+};
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
 		return;
 	}
-	vec3 radiance = frame.ambient.rgb * 0.6; // background
+	vec3 radiance = push.ambient.rgb * 0.6; // background
 	if (texelFetch(depth_texture, pixel, 0).r > 0.0) {
-		radiance = frame.ambient.rgb * texelFetch(base_color_texture, pixel, 0).rgb +
+		radiance = push.ambient.rgb * texelFetch(base_color_texture, pixel, 0).rgb +
 				texelFetch(emissive_texture, pixel, 0).rgb;
 	}
-	imageStore(radiance_image, pixel, vec4(radiance * frame.ambient.a, 1.0));
+	imageStore(radiance_image, pixel, vec4(radiance * push.ambient.a, 1.0));
 }

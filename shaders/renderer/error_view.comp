@@ -13,7 +13,7 @@ layout(std430, set = 0, binding = RENDERER_BINDING_TRUTH) readonly buffer Truth 
 layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba8) uniform writeonly image2D output_image;
-layout(constant_id = RENDERER_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
+layout(constant_id = MASK_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/normal_inc.glsl"
-#include "shared/frame_shared.h"
+#include "renderer/renderer_shared.h"
 
 layout(set = 0, binding = GBUFFER_BINDING_POSITIONS) readonly buffer Positions {
 	float positions_node[];
@@ -30,16 +30,7 @@ vec3 load_position(uint p_corner) {
 void main() {
 	// From the triangle's corners, not from derivatives: exact at grazing angles and edges.
 	const vec3 a = load_position(0u);
-	const vec3 ab = load_position(1u) - a;
-	const vec3 ac = load_position(2u) - a;
-	// Scaled first, so that tiny triangles do not underflow.
-	const float scale = max(max(max(abs(ab.x), abs(ab.y)), abs(ab.z)),
-			max(max(abs(ac.x), abs(ac.y)), abs(ac.z)));
-	vec3 geometric = cross(ab / scale, ac / scale);
-	const float length2 = dot(geometric, geometric);
-	geometric = length2 > 0.0 ? geometric * inversesqrt(length2) : vec3(0.0, 0.0, 1.0);
-	// Towards the viewer: the side that is seen is the side that is lit.
-	geometric = dot(geometric, a) > 0.0 ? -geometric : geometric;
+	const vec3 geometric = face_normal_to_viewer(a, load_position(1u), load_position(2u));
 	vec3 shading = dot(in_normal, in_normal) > 0.0 ? normalize(in_normal) : geometric;
 	shading = dot(shading, geometric) < 0.0 ? -shading : shading;
 

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame {

@@ -6,6 +6,7 @@
 #include "common/normal_inc.glsl"
 #include "renderer/brdf_inc.glsl"
 #include "renderer/renderer_shared.h"
+#include "shared/mask_shared.h"
 
 // Adds one light, times its visibility mask, to the frame's radiance.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
@@ -22,7 +23,10 @@ layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_co
 layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform image2D radiance_image;
-layout(constant_id = RENDERER_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
+layout(constant_id = MASK_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
+layout(push_constant) uniform Push {
+	ExposurePush push;
+};
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -43,7 +47,7 @@ void main() {
 			reflect_light(surface, unpack_normal(texelFetch(normal_texture, pixel, 0).r),
 					normalize(-position), normalize(to_light));
 	// Exposure before half floats, so that lights of 1e6 cd do not overflow.
-	const vec3 added = reflected * illuminance(light, to_light) * visibility * frame.ambient.a;
+	const vec3 added = reflected * illuminance(light, to_light) * visibility * push.ambient.a;
 	imageStore(radiance_image, pixel,
 			vec4(imageLoad(radiance_image, pixel).rgb + min(added, vec3(6e4)), 1.0));
 }

@@ -2,7 +2,7 @@
 #define RENDERER_SHARED_H
 #include "shared/shared_begin.h"
 
-// Bindings of the renderer's compute passes (receivers, lighting, tone map, debug view).
+// Bindings of the renderer's compute passes (ambient, lighting, tone map, debug view).
 #define RENDERER_BINDING_FRAME 0
 #define RENDERER_BINDING_LIGHT 1
 #define RENDERER_BINDING_DEPTH 2
@@ -17,19 +17,28 @@
 #define RENDERER_BINDING_OUTPUT 11
 #define RENDERER_BINDING_TRUTH 12
 #define RENDERER_GROUP_SIZE 8
-#define RENDERER_CONSTANT_IS_COLORED 0 // 1: the mask has three colours
 
-// Bindings of tint.comp.
-#define TINT_BINDING_OPAQUE 0 // the mask of the opaque casters
-#define TINT_BINDING_BOTH 1	  // of them and the group
-#define TINT_BINDING_BEFORE 2 // as coloured so far
-#define TINT_BINDING_RESULT 3
+#define GBUFFER_BINDING_FRAME 0
+#define GBUFFER_BINDING_POSITIONS 1
+#define GBUFFER_BINDING_INDICES 2
 
-/// Push constants of tint.comp.
-struct SHARED_ALIGN TintPush {
-	vec4 transmittance; // rgb
+/// Push constants of gbuffer.vert and gbuffer.frag.
+struct SHARED_ALIGN InstancePush {
+	mat4 camera_relative_from_node;
+	vec4 base_color_roughness; // rgb linear; a: -1 - roughness for Phong's model
+	vec4 emissive_metallic;	   // rgb in cd/m^2
+	float scatter;			   // s in 0..1
+	float scatter_distance_m;
+	uint is_mirrored; // 1: the transform turns the winding round
+	uint padding;
 };
-SHARED_SIZE(TintPush, 16);
+SHARED_SIZE(InstancePush, 112);
+
+/// Push constants of ambient.comp and lighting.comp.
+struct SHARED_ALIGN ExposurePush {
+	vec4 ambient; // rgb: radiance that every surface reflects; a: exposure
+};
+SHARED_SIZE(ExposurePush, 16);
 
 /// Push constants of debug_view.comp.
 struct SHARED_ALIGN DebugViewPush {

@@ -5,8 +5,8 @@
 #define LIGHT_TYPE_OMNI 0u
 #define LIGHT_TYPE_SPOT 1u
 #define LIGHT_TYPE_DIRECTIONAL 2u
-/// A receiver is moved along its normal by this part of S before anything asks what hides it: by the
-/// reference and by all techniques, so that all answer for one point.
+/// A receiver is moved along its normal by this part of S before anything asks what hides it: by
+/// the reference and by all techniques, so that all answer for one point.
 #define RECEIVER_OFFSET 5e-5f
 /// Cosine between a surface's normal and the way to the light below which it does not face the
 /// light: closer to edge on, rounding decides.
@@ -20,13 +20,9 @@ struct SHARED_ALIGN LightConstants {
 	float range_m;		  // 0 = unlimited
 	float cos_outer;	  // of the spot's outer half angle
 	float cos_inner;
-	uint type;			 // LIGHT_TYPE_*
-	float outer_width_m; // r of Sun et al. 2010
-	float inner_width_m; // t
-	uint casts_shadow;
-	uint padding;
+	uint type; // LIGHT_TYPE_*
 };
-SHARED_SIZE(LightConstants, 80);
+SHARED_SIZE(LightConstants, 64);
 
 /// A camera placed at the light. View space: x right, y down, z along the view, metres. Map
 /// coordinates: perspective (x/z, y/z) with w = 1/z, orthographic (x, y) with w = far - z: in both

@@ -2,7 +2,7 @@
 #define SILHOUETTE_SHARED_H
 #include "shared/shared_begin.h"
 
-// Lists of silhouette edges: find_edges.comp and list_edges.comp of the renderer. An edge word holds
+// Lists of silhouette edges: find_edges.comp and list_edges.comp of shadows. An edge word holds
 // one bit for each of 32 edges; a block counts the silhouettes of 64 words.
 #define SILHOUETTE_EDGES_PER_WORD 32
 #define SILHOUETTE_WORDS_PER_BLOCK 64

@@ -4,8 +4,8 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/error_report/mask_metrics.h"
-#include "modules/renderer/mask_filter.h"
 #include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/mask_filter.h"
 
 #include "tests/demo_scene.h"
 
@@ -170,7 +170,7 @@ TEST_CASE("[GPU][Accuracy] every technique gives valid masks of every scene that
 	RenderFixture fixture;
 	const nlohmann::json limits = load_limits();
 	for (const nlohmann::json &accuracy_case : limits.at("cases")) {
-		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 			CAPTURE(info.id);
 			if (!info.is_reference) { // render() checks the mask
 				AccuracyScene scene(accuracy_case, nlohmann::json::object());

@@ -30,7 +30,7 @@ MaskImage make_wrong_truth(const RenderResult &p_frame, glm::uvec2 p_size_px) {
 TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error picture") {
 	RenderFixture fixture;
 	const SmallScene scene;
-	const std::string id = ShadowRegistry::get_techniques().front().id;
+	const std::string id = ShadowRegistry::get_all().front().id;
 	const glm::uvec2 size_px(48, 40);
 	const RenderResult frame = fixture.render_mask(scene, id, size_px);
 	const MaskImage mask = { size_px, frame.visibility, frame.receiver };

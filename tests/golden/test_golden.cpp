@@ -235,8 +235,8 @@ TEST_CASE("[GPU][Golden] every picture looks as it did when it was accepted") {
 
 TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes the picture") {
 	RenderFixture fixture(find_software_device());
-	REQUIRE_FALSE(ShadowRegistry::get_techniques().empty());
-	const std::string &id = ShadowRegistry::get_techniques().front().id;
+	REQUIRE_FALSE(ShadowRegistry::get_all().empty());
+	const std::string &id = ShadowRegistry::get_all().front().id;
 	GoldenSettings settings;
 	settings.size_px = glm::uvec2(64);
 	const std::unique_ptr<Scene> scene = load_demo_scene("sphere");

@@ -1,4 +1,4 @@
-#include "modules/renderer/gbuffer.h"
+#include "modules/shadows/camera_view.h"
 
 #include "tests/shaders/kernel_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "modules/renderer/light_view.h"
+#include "modules/shadows/light_view.h"
 
 #include "tests/shaders/kernel_fixture.h"
 

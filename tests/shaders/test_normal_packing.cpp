@@ -1,4 +1,4 @@
-#include "modules/renderer/normal_packing.h"
+#include "modules/shadows/normal_packing.h"
 
 #include "tests/shaders/kernel_fixture.h"
 

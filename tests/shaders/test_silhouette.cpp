@@ -2,8 +2,8 @@
 
 #include "modules/mesh_tools/silhouette.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
-#include "modules/renderer/gpu_topology.h"
 #include "modules/rendering_device/tests/device_fixture.h"
+#include "modules/shadows/gpu_topology.h"
 
 #include "tests/shaders/kernel_fixture.h"
 

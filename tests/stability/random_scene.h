@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/renderer/shadow_registry.h"
 #include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -103,7 +103,7 @@ private:
 	/// In the same order, however their modules were switched.
 	static std::vector<std::string> list_techniques() {
 		std::set<std::string> ids;
-		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+		for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 			ids.insert(info.id);
 		}
 		return { ids.begin(), ids.end() };

@@ -1,5 +1,5 @@
 #include "modules/editor/panels/viewport_gizmos.h"
-#include "modules/renderer/shadow_registry.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <imgui.h>
 
@@ -89,7 +89,7 @@ void draw_choices(EditorContext &r_context) {
 	if (ImGui::BeginCombo("##against",
 				viewport.compared_technique.empty() ? "one technique" : against.c_str())) {
 		choose(viewport.compared_technique, "", "one technique");
-		for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_techniques()) {
+		for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_all()) {
 			choose(viewport.compared_technique, technique.id, technique.id.c_str());
 			if (ImGui::IsItemHovered()) {
 				ImGui::SetTooltip("%s\n%s", technique.name.c_str(), technique.source.c_str());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <memory>
 #include <string>

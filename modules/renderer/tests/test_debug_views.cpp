@@ -1,7 +1,8 @@
 // The views of their work that techniques show, asked of each one that is registered.
 
 #include "modules/core/error.h"
-#include "modules/renderer/tests/each_technique.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/tests/each_technique.h"
 
 #include <algorithm>
 

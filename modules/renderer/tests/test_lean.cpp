@@ -86,7 +86,7 @@ TEST_CASE("[GPU][Lean] the light whose debug view is asked for is drawn wherever
 	RenderRequest request;
 	request.scene = lights.scene.snap();
 	request.size_px = glm::uvec2(32);
-	request.technique_override = ShadowRegistry::get_techniques().at(0).id;
+	request.technique_override = ShadowRegistry::get_all().at(0).id;
 	request.debug_view = "mask";
 	request.debug_light = "Second";
 	const RenderResult result = fixture.renderer->render(request);
@@ -98,7 +98,7 @@ TEST_CASE("[GPU][Lean] the mask of a light that lights nothing in view runs no t
 	RenderFixture fixture;
 	SmallScene scene;
 	scene.light->parent_from_node = look_at({ 1.2, 4.0, 0.8 }, { 1.2, 9.0, 0.9 });
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		CAPTURE(info.id);
 		const RenderResult lean = fixture.render_mask(scene, info.id);
 		CHECK(lean.plan.is_left_out("Light", "shadow"));
@@ -112,7 +112,7 @@ TEST_CASE("[GPU][Lean] the mask of a light that lights nothing in view runs no t
 }
 
 TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the camera turns") {
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (info.is_reference) {
 			continue; // it draws no views
 		}
@@ -182,4 +182,18 @@ TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds 
 		scene.camera->parent_from_node = towards;
 		CHECK(get_reason() == "drawn"); // after long what was kept is given back
 	}
+}
+
+TEST_CASE("[GPU][TranslucentCasters] the picture behind glass is the same with everything run") {
+	RenderFixture fixture;
+	SmallScene scene;
+	const std::string id = ShadowRegistry::find_default()->id;
+	const RenderResult opaque = fixture.render_picture(scene, id);
+	auto glass = std::make_shared<Material>(*scene.box->surfaces[0].material);
+	glass->transmission = 1.0f;
+	glass->base_color = glm::vec3(0.9f, 0.1f, 0.1f);
+	scene.box->surfaces[0].material = glass;
+	const RenderResult lean = fixture.render_picture(scene, id);
+	CHECK(lean.image == fixture.render_picture(scene, id, false).image);
+	CHECK(lean.image != opaque.image);
 }

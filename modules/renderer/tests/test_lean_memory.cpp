@@ -61,7 +61,7 @@ Used measure_use(RenderingDevice &r_device) {
 
 TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothing") {
 	std::vector<std::string> ids;
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		ids.push_back(info.id);
 	}
 	const auto measure = [](const std::string &p_id) {
@@ -117,7 +117,7 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 		return measure_use(*fixture.device);
 	};
 	const Used before = render_empty();
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (info.is_reference) {
 			continue;
 		}

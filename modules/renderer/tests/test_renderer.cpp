@@ -1,8 +1,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
-#include "modules/renderer/light_properties.h"
 #include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/light_properties.h"
 
 #include <doctest/doctest.h>
 
@@ -34,7 +34,7 @@ TEST_CASE("[GPU][Renderer] a light makes the picture brighter, and its shadow da
 	RenderFixture fixture;
 	SmallScene scene;
 	// Any technique will do; which there are depends on the build.
-	const std::string any = ShadowRegistry::get_techniques().at(0).id;
+	const std::string any = ShadowRegistry::get_all().at(0).id;
 	scene.light->properties["shadow_enabled"] = false;
 	const RenderResult without_shadow = fixture.render_picture(scene, any);
 	scene.light->properties["shadow_enabled"] = true;
@@ -120,24 +120,24 @@ TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while fr
 		}
 	}
 	CaughtLines log;
-	const size_t technique_count = ShadowRegistry::get_techniques().size();
+	const size_t technique_count = ShadowRegistry::get_all().size();
 	for (const std::string &name : names) {
 		ModuleRegistry::set_enabled(name, false);
 		CHECK(fixture.render_picture(scene).image.size() == before.image.size());
 	}
-	CHECK(ShadowRegistry::get_techniques().empty());
+	CHECK(ShadowRegistry::get_all().empty());
 	const RenderResult none = fixture.render_picture(scene);
 	CHECK(none.plan.is_left_out("Light", "shadow"));
 	for (const std::string &name : names) {
 		ModuleRegistry::set_enabled(name, true);
 	}
-	CHECK(ShadowRegistry::get_techniques().size() == technique_count);
+	CHECK(ShadowRegistry::get_all().size() == technique_count);
 	CHECK(fixture.render_picture(scene).image == before.image);
 }
 
 TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default is used") {
 	RenderFixture fixture;
-	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_techniques()) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		for (const PropertyInfo &property :
 				ShadowRegistry::get_light_properties(info.id).get_properties()) {
 			if (property.type != PropertyType::INT) {
@@ -190,7 +190,7 @@ TEST_CASE("[GPU][Renderer] surfaces lie on the meshes and face the camera") {
 	request.size_px = glm::uvec2(48, 32);
 	request.mask_light = "Light";
 	request.wants_mask = true;
-	request.technique_override = ShadowRegistry::get_techniques().at(0).id;
+	request.technique_override = ShadowRegistry::get_all().at(0).id;
 	CHECK(fixture.renderer->render(request).surfaces.empty());
 	request.wants_surfaces = true;
 	const RenderResult result = fixture.renderer->render(request);

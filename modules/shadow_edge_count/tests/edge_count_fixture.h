@@ -1,10 +1,10 @@
 #pragma once
 
 #include "modules/core/text.h"
-#include "modules/renderer/light_properties.h"
-#include "modules/renderer/tests/render_fixture.h"
 #include "modules/shadow_edge_count/shadow_edge_count.h"
 #include "modules/shadow_edge_count/tests/count_scene.h"
+#include "modules/shadows/light_properties.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -23,17 +23,16 @@ struct FrameWishes {
 	bool wants_surfaces = false;
 };
 
-inline RenderResult render_frame(
-		RenderFixture &r_fixture, const SmallScene &p_scene, const FrameWishes &p_wishes = {}) {
-	RenderRequest request;
+inline MaskResult render_frame(
+		MaskFixture &r_fixture, const SmallScene &p_scene, const FrameWishes &p_wishes = {}) {
+	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = p_wishes.size_px;
 	request.technique_override = p_wishes.technique;
-	request.mask_light = p_scene.light->name;
-	request.wants_mask = true;
+	request.light = p_scene.light->name;
 	request.wants_surfaces = p_wishes.wants_surfaces;
 	request.may_keep = p_wishes.may_keep;
-	RenderResult result = r_fixture.renderer->render(request);
+	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;
 }
@@ -101,7 +100,7 @@ struct MaskDifference {
 	size_t apart_count = 0; // by more than 0.01
 };
 
-inline MaskDifference compare_masks(const std::vector<float> &p_mask, const RenderResult &p_truth) {
+inline MaskDifference compare_masks(const std::vector<float> &p_mask, const MaskResult &p_truth) {
 	MaskDifference difference;
 	for (size_t index = 0; index < p_mask.size(); ++index) {
 		if (p_truth.receiver[index] == 0.0f) {
@@ -123,10 +122,10 @@ inline MaskDifference compare_masks(const std::vector<float> &p_mask, const Rend
 }
 
 /// What the mask would be in double. p_frame: with surfaces.
-inline RenderResult count_in_double(const SmallScene &p_scene, const RenderResult &p_frame) {
+inline MaskResult count_in_double(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
 	const CountedLight light(*scene, scene->lights[0]);
-	RenderResult result;
+	MaskResult result;
 	result.receiver = p_frame.receiver;
 	result.visibility.resize(p_frame.visibility.size());
 	for (size_t index = 0; index < result.visibility.size(); ++index) {
@@ -147,7 +146,7 @@ inline bool has_reference() {
 }
 
 /// The truth, which there must be. p_sample_count: rays per pixel.
-inline RenderResult render_reference(RenderFixture &r_fixture, SmallScene &r_scene,
+inline MaskResult render_reference(MaskFixture &r_fixture, SmallScene &r_scene,
 		glm::uvec2 p_size_px = glm::uvec2(96), int64_t p_sample_count = 256) {
 	const std::string id = ShadowRegistry::find_reference()->id;
 	for (const PropertyInfo &property : ShadowRegistry::get_light_properties(id).get_properties()) {

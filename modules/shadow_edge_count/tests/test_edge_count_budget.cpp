@@ -15,7 +15,7 @@ namespace {
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
 /// The line of the plan that begins so; there must be one.
-FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_begin) {
+FramePlanEntry find_entry(const MaskResult &p_result, const std::string &p_begin) {
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
 		if (entry.pass.starts_with(p_begin)) {
 			return entry;
@@ -25,33 +25,16 @@ FramePlanEntry find_entry(const RenderResult &p_result, const std::string &p_beg
 	return {};
 }
 
-/// The blocks of the debug view "blocks" have these colours, see debug_view.comp.
-enum class BlockColor { EVEN, PLAIN, LISTED, UNLISTED, FILTERED, SMOOTH };
-
-BlockColor find_block_color(const uint8_t *p_pixel) {
-	return p_pixel[0] == 0
-			? (p_pixel[2] == 0 ? BlockColor::EVEN : BlockColor::SMOOTH) // black, blue
-			: p_pixel[0] == p_pixel[1] ? BlockColor::UNLISTED			// grey
-			: p_pixel[2] == 0		   ? BlockColor::PLAIN				// orange
-			: p_pixel[2] > p_pixel[1]  ? BlockColor::FILTERED			// pink
-									   : BlockColor::LISTED;				// yellow
-}
-
-/// How many of the pixels lie in blocks of a kind.
-size_t count_pixels(RenderFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px,
-		BlockColor p_color) {
-	RenderRequest request;
+/// How many of the pixels lie in blocks of a kind, EDGE_COUNT_BLOCKS_*.
+size_t count_pixels(
+		MaskFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px, int p_kind) {
+	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = p_size_px;
 	request.technique_override = "edge_count";
-	request.wants_image = true;
 	request.debug_view = "blocks";
-	const std::vector<uint8_t> image = r_fixture.renderer->render(request).image;
-	size_t count = 0;
-	for (size_t index = 0; index < image.size(); index += 4) {
-		count += find_block_color(&image[index]) == p_color ? 1 : 0;
-	}
-	return count;
+	const std::vector<float> kinds = r_fixture.render(request).debug_values;
+	return size_t(std::count(kinds.begin(), kinds.end(), float(p_kind)));
 }
 
 /// A mesh of triangles as large as the scene, one above another, below its ground.
@@ -80,33 +63,33 @@ TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at 
 
 TEST_CASE(
 		"[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan says") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const FrameWishes wishes;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_mesh(scene.scene, "Globe", make_count_sphere(0.45, 40), { -0.8, 1.0, 0.6 });
 		scene.light->properties["light_size"] = 0.3;
-		const RenderResult counted = render_frame(fixture, scene, wishes);
+		const MaskResult counted = render_frame(fixture, scene, wishes);
 		CHECK_FALSE(find_entry(counted, "filter").runs);
 		CHECK(find_entry(counted, "filter").reason.starts_with("edge_count_budget is -1"));
-		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED) == 0);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::LISTED) > 256);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED) == 0);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_LISTED) > 256);
 
 		scene.light->properties["edge_count_budget"] = int64_t(65536);
-		const RenderResult unlimited = render_frame(fixture, scene, wishes);
+		const MaskResult unlimited = render_frame(fixture, scene, wishes);
 		CHECK_FALSE(find_entry(unlimited, "filter where").runs);
 		CHECK(find_entry(unlimited, "filter where")
 						.reason.starts_with("all casters together have"));
 		CHECK(unlimited.visibility == counted.visibility);
 
 		scene.light->properties["edge_count_budget"] = int64_t(64);
-		const RenderResult filtered = render_frame(fixture, scene, wishes);
+		const MaskResult filtered = render_frame(fixture, scene, wishes);
 		CHECK(find_entry(filtered, "filter where").runs);
 		CHECK(find_entry(filtered, "filter where").pass ==
 				"filter where a block has more than 64 edges");
 		const size_t filtered_count =
-				count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED);
+				count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED);
 		CHECK(filtered_count >= 256);
 		CHECK(filtered_count < size_t(wishes.size_px.x) * wishes.size_px.y / 2);
 		const MaskDifference difference = compare_masks(filtered.visibility, counted);
@@ -119,19 +102,20 @@ TEST_CASE(
 
 		// Every block that has an edge.
 		scene.light->properties["edge_count_budget"] = int64_t(0);
-		const RenderResult all_filtered = render_frame(fixture, scene, wishes);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::FILTERED) > filtered_count);
-		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::LISTED) == 0);
+		const MaskResult all_filtered = render_frame(fixture, scene, wishes);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_FILTERED) >
+				filtered_count);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_LISTED) == 0);
 		CHECK(compare_masks(all_filtered.visibility, counted).mean < 0.01);
 	}
 }
 
 TEST_CASE("[GPU][EdgeCount] a budget holds for the edges that a block lists in all views") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["light_size"] = 1.0;
 	const FrameWishes wishes = { .size_px = glm::uvec2(16) };
-	const RenderResult counted = render_frame(fixture, scene, wishes);
+	const MaskResult counted = render_frame(fixture, scene, wishes);
 	for (const int64_t budget : { 8, 16, 24, 32, 48, 64, 128 }) {
 		CAPTURE(budget);
 		scene.light->properties["edge_count_budget"] = budget;
@@ -140,7 +124,7 @@ TEST_CASE("[GPU][EdgeCount] a budget holds for the edges that a block lists in a
 }
 
 TEST_CASE("[GPU][EdgeCount] blocks whose lists have no room are counted as exactly as the others") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -148,8 +132,8 @@ TEST_CASE("[GPU][EdgeCount] blocks whose lists have no room are counted as exact
 		scene.light->properties["light_size"] = 1.5;
 		scene.light->properties["edge_count_quality"] = std::string("64");
 		const FrameWishes wishes = { .size_px = glm::uvec2(32), .wants_surfaces = true };
-		CHECK(count_pixels(fixture, scene, wishes.size_px, BlockColor::UNLISTED) > 0);
-		const RenderResult frame = render_frame(fixture, scene, wishes);
+		CHECK(count_pixels(fixture, scene, wishes.size_px, EDGE_COUNT_BLOCKS_UNLISTED) > 0);
+		const MaskResult frame = render_frame(fixture, scene, wishes);
 		const MaskDifference difference =
 				compare_masks(frame.visibility, count_in_double(scene, frame));
 		CHECK(difference.penumbra_count > 200);
@@ -163,7 +147,7 @@ TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the firs
 		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> masks[2];
 		for (const bool has_floors : { false, true }) {
-			RenderFixture fixture; // so that each frame is the first one
+			MaskFixture fixture; // so that each frame is the first one
 			SmallScene scene(type);
 			scene.light->properties["edge_count_map_size"] = int64_t(16);
 			if (has_floors) {
@@ -171,7 +155,7 @@ TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the firs
 				add_mesh(scene.scene, "Floors", make_floors(21'000), {});
 			}
 			const FrameWishes wishes = { .size_px = glm::uvec2(48) };
-			const RenderResult frame = render_frame(fixture, scene, wishes);
+			const MaskResult frame = render_frame(fixture, scene, wishes);
 			masks[has_floors ? 1 : 0] = frame.visibility;
 			if (has_floors) {
 				CHECK(find_entry(frame, "face lists with larger texels").runs);
@@ -189,7 +173,7 @@ TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the firs
 }
 
 TEST_CASE("[GPU][EdgeCount] the size of the map changes no bit of the mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -199,7 +183,7 @@ TEST_CASE("[GPU][EdgeCount] the size of the map changes no bit of the mask") {
 		for (const int64_t map_size_px : { 256, 16, 48, 1024 }) {
 			CAPTURE(map_size_px);
 			scene.light->properties["edge_count_map_size"] = map_size_px;
-			const RenderResult frame = render_frame(fixture, scene);
+			const MaskResult frame = render_frame(fixture, scene);
 			CHECK(find_entry(frame, "find edges").runs);
 			expected = expected.empty() ? frame.visibility : expected;
 			CHECK(frame.visibility == expected);

@@ -20,9 +20,9 @@ glm::dmat4 look_down(double p_height_m) {
 
 /// With the double version, and with the reference where there is one. Returns how far it is from
 /// the latter.
-MaskDifference check_mask(RenderFixture &r_fixture, SmallScene &r_scene, double p_reference_limit,
+MaskDifference check_mask(MaskFixture &r_fixture, SmallScene &r_scene, double p_reference_limit,
 		glm::uvec2 p_size_px = glm::uvec2(96)) {
-	const RenderResult frame =
+	const MaskResult frame =
 			render_frame(r_fixture, r_scene, { .size_px = p_size_px, .wants_surfaces = true });
 	const MaskDifference difference =
 			compare_masks(frame.visibility, count_in_double(r_scene, frame));
@@ -40,7 +40,7 @@ MaskDifference check_mask(RenderFixture &r_fixture, SmallScene &r_scene, double 
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const int64_t map_size_px : { 64, 256 }) {
 			CAPTURE(std::string(get_light_type_name(type)));
@@ -60,7 +60,7 @@ TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
 }
 
 TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or beside it, do no harm") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	const double height_m = 4.0;
 	const double top_m = 1.3; // of the box
@@ -81,7 +81,7 @@ TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or beside it, do no harm
 
 // A block without edges is not wholly lit or dark where a face passes between its receivers.
 TEST_CASE("[GPU][EdgeCount] a thin wall parts lit from dark ground within blocks of pixels") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);

@@ -15,8 +15,8 @@ const glm::uvec2 SIZE_PX(72);
 
 /// Without a reference all pixels count as right.
 MaskDifference compare_with_reference(
-		RenderFixture &r_fixture, SmallScene &r_scene, int64_t p_sample_count = 1024) {
-	const RenderResult frame = render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
+		MaskFixture &r_fixture, SmallScene &r_scene, int64_t p_sample_count = 1024) {
+	const MaskResult frame = render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
 	if (!has_reference()) {
 		return compare_masks(frame.visibility, frame);
 	}
@@ -58,7 +58,7 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster 
 	{
 		DeviceOptions::Without without;
 		without.subgroup_operations = true;
-		RenderFixture fixture("", without);
+		MaskFixture fixture("", without);
 		std::string message;
 		try {
 			fixture.render_mask(SmallScene(), "edge_count");
@@ -70,12 +70,12 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster 
 	}
 	SmallScene scene;
 	scene.box->parent_from_node = glm::scale(scene.box->parent_from_node, glm::dvec3(1, 0, 0));
-	RenderFixture fixture;
-	const RenderResult result = fixture.render_mask(scene, "edge_count");
+	MaskFixture fixture;
+	const MaskResult result = fixture.render_mask(scene, "edge_count");
 	CHECK(is_valid_mask(result));
 	CHECK(result.plan.is_left_out("Light", "edges of instances: 1"));
 	scene.ground->casts_shadow = false; // now no caster has a face
-	const RenderResult lit = fixture.render_mask(scene, "edge_count");
+	const MaskResult lit = fixture.render_mask(scene, "edge_count");
 	CHECK(is_valid_mask(lit));
 	CHECK(std::count(lit.visibility.begin(), lit.visibility.end(), 1.0f) > 100);
 }
@@ -84,10 +84,10 @@ TEST_CASE("[GPU][EdgeCount] a file with the property edge_count_layers loads wit
 	std::vector<std::string> lines;
 	const LogSink before =
 			set_log_sink([&](LogLevel, const std::string &p_line) { lines.push_back(p_line); });
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->name = "Old lamp";
-	const RenderResult plain = render_frame(fixture, scene, { .size_px = SIZE_PX });
+	const MaskResult plain = render_frame(fixture, scene, { .size_px = SIZE_PX });
 	CHECK(lines.empty());
 	scene.light->properties["edge_count_layers"] = int64_t(3);
 	for (int frame = 0; frame < 3; ++frame) {
@@ -100,14 +100,14 @@ TEST_CASE("[GPU][EdgeCount] a file with the property edge_count_layers loads wit
 }
 
 TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_globe(scene);
 		scene.light->properties["light_size"] = 0.0;
 		scene.light->properties["light_angular_distance"] = 0.0;
-		const RenderResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+		const MaskResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
 		size_t dark_count = 0;
 		size_t between_count = 0;
 		for (size_t index = 0; index < frame.visibility.size(); ++index) {
@@ -125,7 +125,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 }
 
 TEST_CASE("[GPU][EdgeCount] a light nearly as large as the scene is as exact as a small one") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -138,7 +138,7 @@ TEST_CASE("[GPU][EdgeCount] a light nearly as large as the scene is as exact as 
 }
 
 TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines nowhere else") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -158,7 +158,7 @@ TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines no
 }
 
 TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut, not lost") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 1.2f, 0.05f });
 	const auto sheet = make_mesh(
 			"sheet", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
@@ -168,10 +168,10 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 			CAPTURE(mesh->name);
 			SmallScene scene(type);
 			scene.light->properties["light_size"] = 0.1;
-			const RenderResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(without.plan.is_left_out("Light", "faces that cut the light's disc"));
 			add_mesh(scene.scene, "Beside", mesh, { 1.05, 3.8, 0.62 });
-			const RenderResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(compute_mask_difference(with, without) > 0.02);
 			const MaskDifference difference = compare_with_reference(fixture, scene);
 			CHECK(difference.mean < 0.004);
@@ -182,7 +182,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 
 TEST_CASE(
 		"[GPU][EdgeCount] a caster that cuts the light's disc hides what rays say, mirrored too") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 0.3f, 0.08f });
 	const auto sheet = make_mesh("sheet",
 			{ { -0.3f, -0.4f, 0.01f }, { 0.3f, -0.4f, -0.02f }, { 0.02f, 0.5f, 0.1f } }, {},
@@ -214,7 +214,7 @@ TEST_CASE(
 
 TEST_CASE(
 		"[GPU][EdgeCount] a beam that reaches far behind the light's plane shades itself rightly") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		for (const float half_length : { 25.0f, 250.0f }) {
 			CAPTURE(std::string(get_light_type_name(type)));
@@ -229,7 +229,7 @@ TEST_CASE(
 }
 
 TEST_CASE("[GPU][EdgeCount] a sun's map holds what the camera sees, however large the ground is") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::DIRECTIONAL);
 	add_mesh(scene.scene, "Small", make_box_mesh("small", { 0.15f, 0.25f, 0.1f }),
 			{ 1.1, 0.25, 0.9 });
@@ -240,7 +240,7 @@ TEST_CASE("[GPU][EdgeCount] a sun's map holds what the camera sees, however larg
 }
 
 TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts the same shadow") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> first;
@@ -253,7 +253,7 @@ TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts th
 			plate.parent_from_node = glm::scale(
 					glm::translate(scene.light->parent_from_node, glm::dvec3(0, 0, -near_m)),
 					glm::dvec3(near_m));
-			const RenderResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
+			const MaskResult frame = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			if (first.empty()) {
 				first = frame.visibility;
 				CHECK(compare_with_reference(fixture, scene).penumbra_mean < 0.006);
@@ -272,7 +272,7 @@ TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts th
 }
 
 TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both sides") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const bool is_turned : { false, true }) {
 			CAPTURE(std::string(get_light_type_name(type)));
@@ -292,7 +292,7 @@ TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both side
 }
 
 TEST_CASE("[GPU][EdgeCount] meshes that are no plain solids cast the shadow that rays see") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
 	const auto inside_out = make_mesh("inside out", box->positions_node, {},
 			std::vector<uint32_t>(box->indices.rbegin(), box->indices.rend()));

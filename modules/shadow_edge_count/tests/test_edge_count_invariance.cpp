@@ -20,7 +20,7 @@ void turn_scene(SmallScene &r_scene, double p_angle_rad, const glm::dvec3 &p_axi
 }
 
 /// Which of an omni light's views holds each pixel; 6: the pixel is none's.
-std::vector<int> find_views(const SmallScene &p_scene, const RenderResult &p_frame) {
+std::vector<int> find_views(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
 	const LightSnapshot &light = scene->lights[0];
 	std::vector<int> views;
@@ -62,7 +62,7 @@ struct MeanError {
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		const auto render = [&](double p_scale, const glm::dvec3 &p_origin) {
@@ -70,7 +70,7 @@ TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the 
 			add_globe(scene, p_scale, p_origin);
 			return render_frame(fixture, scene);
 		};
-		const RenderResult expected = render(1.0, glm::dvec3(0.0));
+		const MaskResult expected = render(1.0, glm::dvec3(0.0));
 		for (const double scale : { 1e-3, 1e3 }) {
 			CAPTURE(scale);
 			CHECK(compute_mask_difference(expected, render(scale, glm::dvec3(0.0))) < 1e-5);
@@ -81,7 +81,7 @@ TEST_CASE("[GPU][EdgeCount] scenes of any size and far from the origin have the 
 }
 
 TEST_CASE("[GPU][EdgeCount] a scene turned as a whole has the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		const auto render = [&](double p_angle_rad) {
@@ -90,7 +90,7 @@ TEST_CASE("[GPU][EdgeCount] a scene turned as a whole has the same mask") {
 			turn_scene(scene, p_angle_rad, { 0.3, 0.8, -0.5 });
 			return render_frame(fixture, scene);
 		};
-		const RenderResult expected = render(0.0);
+		const MaskResult expected = render(0.0);
 		for (const double angle_rad : { 0.7, 2.345 }) {
 			CAPTURE(angle_rad);
 			CHECK(compute_mask_difference(expected, render(angle_rad)) < 1e-5);
@@ -102,16 +102,16 @@ TEST_CASE("[GPU][EdgeCount] where two of an omni light's views meet nothing is s
 	if (!has_reference()) {
 		return;
 	}
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const glm::uvec2 size_px(128);
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["light_size"] = 0.4;
 	// Half a right angle about its own upright axis: the border runs through the shadow's middle.
 	scene.light->parent_from_node =
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 1, 0));
-	const RenderResult frame =
+	const MaskResult frame =
 			render_frame(fixture, scene, { .size_px = size_px, .wants_surfaces = true });
-	const RenderResult truth = render_reference(fixture, scene, size_px, 1024);
+	const MaskResult truth = render_reference(fixture, scene, size_px, 1024);
 	const std::vector<int> views = find_views(scene, frame);
 	MeanError near_seam;
 	MeanError elsewhere;
@@ -131,11 +131,11 @@ TEST_CASE("[GPU][EdgeCount] where two of an omni light's views meet nothing is s
 }
 
 TEST_CASE("[GPU][EdgeCount] how an omni light is turned does not matter") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	add_globe(scene);
 	scene.light->properties["light_size"] = 0.4;
-	const RenderResult expected = render_frame(fixture, scene);
+	const MaskResult expected = render_frame(fixture, scene);
 	const glm::dmat4 world_from_light = scene.light->parent_from_node;
 	for (const double angle_rad : { 0.785398, 1.1, 2.9 }) {
 		CAPTURE(angle_rad);

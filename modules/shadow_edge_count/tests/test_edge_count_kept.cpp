@@ -11,12 +11,12 @@ using namespace gnomon;
 
 namespace {
 
-RenderResult render(RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep = true) {
+MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep = true) {
 	return render_frame(r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_keep = p_may_keep });
 }
 
 /// Casters whose edges the frame found, or kept.
-int count_casters(const RenderResult &p_result, bool p_is_found) {
+int count_casters(const MaskResult &p_result, bool p_is_found) {
 	const std::string begin = "find edges, casters: ";
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
 		if (entry.runs == p_is_found && entry.pass.starts_with(begin)) {
@@ -27,7 +27,7 @@ int count_casters(const RenderResult &p_result, bool p_is_found) {
 }
 
 /// Passes that ran.
-size_t count_passes(const RenderResult &p_result, const std::string &p_name) {
+size_t count_passes(const MaskResult &p_result, const std::string &p_name) {
 	return size_t(std::count_if(
 			p_result.timings.begin(), p_result.timings.end(), [&](const PassTiming &p_timing) {
 				return p_timing.name.find(p_name) != std::string::npos;
@@ -36,8 +36,8 @@ size_t count_passes(const RenderResult &p_result, const std::string &p_name) {
 
 /// Changes one thing after another; each frame must be the one that a fresh renderer draws.
 void check_changes(LightType p_type) {
-	RenderFixture keeping;
-	RenderFixture fresh;
+	MaskFixture keeping;
+	MaskFixture fresh;
 	SmallScene scene(p_type);
 	MeshInstance3D &globe = add_globe(scene);
 	const auto set = [&](const char *p_name, PropertyValue p_value) {
@@ -83,7 +83,7 @@ void check_changes(LightType p_type) {
 	for (const Step &step : steps) {
 		CAPTURE(std::string(step.what));
 		step.change();
-		const RenderResult kept = render(keeping, scene);
+		const MaskResult kept = render(keeping, scene);
 		CHECK((count_casters(kept, true) > 0) == step.finds);
 		CHECK(kept.visibility == render(fresh, scene, false).visibility);
 	}
@@ -92,13 +92,13 @@ void check_changes(LightType p_type) {
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(int(type));
 		SmallScene scene(type);
 		add_globe(scene);
-		const RenderResult first = render(fixture, scene);
-		const RenderResult second = render(fixture, scene);
+		const MaskResult first = render(fixture, scene);
+		const MaskResult second = render(fixture, scene);
 		CHECK(first.visibility == second.visibility);
 		CHECK(count_casters(first, true) >= 3);
 		CHECK(count_casters(first, false) == 0);
@@ -118,12 +118,12 @@ TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again")
 
 TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are kept, and the mask is that of a new "
 		  "frame") {
-	RenderFixture keeping;
-	RenderFixture fresh;
+	MaskFixture keeping;
+	MaskFixture fresh;
 	SmallScene scene;
 	MeshInstance3D &globe = add_globe(scene);
 	const auto check = [&](int p_found_count, int p_kept_count) {
-		const RenderResult kept = render(keeping, scene);
+		const MaskResult kept = render(keeping, scene);
 		CHECK(count_casters(kept, true) == p_found_count);
 		CHECK(count_casters(kept, false) == p_kept_count);
 		CHECK(kept.visibility == render(fresh, scene, false).visibility);
@@ -154,7 +154,7 @@ TEST_CASE("[GPU][EdgeCount] likewise of an omni light, some of whose views have 
 TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") {
 	std::vector<float> first[2];
 	for (int device = 0; device < 2; ++device) {
-		RenderFixture fixture;
+		MaskFixture fixture;
 		for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 			SmallScene scene(type);
 			add_globe(scene);
@@ -198,9 +198,9 @@ TEST_CASE("[GPU][EdgeCount] what memory held before changes no bit of the mask")
 	std::vector<float> expected;
 	for (const uint32_t value : { 0u, 0xffffffffu, 0x7f7f7f7fu, 0x00000fffu }) {
 		CAPTURE(value);
-		RenderFixture fixture;
+		MaskFixture fixture;
 		fill_memory(*fixture.device, value);
-		const RenderResult result = render(fixture, scene);
+		const MaskResult result = render(fixture, scene);
 		expected = expected.empty() ? result.visibility : expected;
 		CHECK(result.visibility == expected);
 	}

@@ -20,7 +20,7 @@ SmallScene make_scene(LightType p_type) {
 	return scene;
 }
 
-MaskDifference compare_with_double(const RenderResult &p_frame, const SmallScene &p_scene) {
+MaskDifference compare_with_double(const MaskResult &p_frame, const SmallScene &p_scene) {
 	const MaskDifference difference =
 			compare_masks(p_frame.visibility, count_in_double(p_scene, p_frame));
 	CHECK(difference.receiver_count > 2500);
@@ -48,7 +48,7 @@ void add_overlapping_solids(SmallScene &r_scene) {
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every kind of light") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene = make_scene(type);
@@ -66,7 +66,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version, for every ki
 // Where solids overlap points of the light are counted, and one of 64 is 0.016 of it. Rounding
 // decides on which side of an edge it lies where it lies on one.
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids overlap") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		std::vector<float> masks[2];
@@ -77,7 +77,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids 
 			scene.light->properties["light_size"] = 0.5;
 			scene.light->properties["light_angular_distance"] = 14.0;
 			scene.light->properties["edge_count_quality"] = std::string(turn == 0 ? "64" : "256");
-			const RenderResult frame = render_frame(
+			const MaskResult frame = render_frame(
 					fixture, scene, { .size_px = glm::uvec2(64), .wants_surfaces = true });
 			const MaskDifference difference = compare_with_double(frame, scene);
 			CHECK(difference.penumbra_count > 250);
@@ -90,7 +90,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version where solids 
 }
 
 TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many solids at once") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const int count : { 12, 30, 130 }) {
 		CAPTURE(count);
 		SmallScene scene;
@@ -101,7 +101,7 @@ TEST_CASE("[GPU][EdgeCount] the mask is that of the double version under many so
 		}
 		scene.light->properties["light_size"] = 0.4;
 		const FrameWishes wishes = { .size_px = glm::uvec2(64), .wants_surfaces = true };
-		const RenderResult frame = render_frame(fixture, scene, wishes);
+		const MaskResult frame = render_frame(fixture, scene, wishes);
 		const MaskDifference difference = compare_with_double(frame, scene);
 		CHECK(difference.penumbra_count > 300);
 		CHECK(difference.mean < 3e-4);

@@ -10,10 +10,10 @@ using namespace gnomon;
 
 namespace {
 
-using Masks = std::vector<RenderResult>; // one per frame
+using Masks = std::vector<MaskResult>; // one per frame
 
 /// The light moves by 1 cm a frame.
-Masks render_frames(RenderFixture &r_fixture, const std::string &p_technique) {
+Masks render_frames(MaskFixture &r_fixture, const std::string &p_technique) {
 	SmallScene scene;
 	scene.box->surfaces[0].mesh = make_count_sphere(0.5, 16);
 	Masks masks;
@@ -25,13 +25,13 @@ Masks render_frames(RenderFixture &r_fixture, const std::string &p_technique) {
 }
 
 /// What the masks should be, without noise: counted in double with 256 points.
-Masks count_frames(RenderFixture &r_fixture) {
+Masks count_frames(MaskFixture &r_fixture) {
 	SmallScene scene;
 	scene.box->surfaces[0].mesh = make_count_sphere(0.5, 16);
 	scene.light->properties["edge_count_quality"] = std::string("256");
 	Masks masks;
 	for (int frame = 0; frame < 6; ++frame) {
-		const RenderResult seen = render_frame(r_fixture, scene, { .wants_surfaces = true });
+		const MaskResult seen = render_frame(r_fixture, scene, { .wants_surfaces = true });
 		masks.push_back(count_in_double(scene, seen));
 		scene.light->parent_from_node[3] += glm::dvec4(0.008, 0.0, -0.006, 0.0);
 	}
@@ -48,9 +48,9 @@ struct MotionError {
 MotionError compute_motion_error(const Masks &p_masks, const Masks &p_truths) {
 	MotionError error;
 	for (size_t frame = 1; frame < p_masks.size(); ++frame) {
-		const RenderResult *truth = &p_truths[frame];
+		const MaskResult *truth = &p_truths[frame];
 		for (size_t index = 0; index < truth->visibility.size(); ++index) {
-			const auto is_penumbra = [&](const RenderResult &p_truth) {
+			const auto is_penumbra = [&](const MaskResult &p_truth) {
 				return p_truth.receiver[index] > 0 && p_truth.visibility[index] > 0.002f &&
 						p_truth.visibility[index] < 0.998f;
 			};
@@ -75,7 +75,7 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_truths) {
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] under a light that moves nothing flickers") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	REQUIRE(ShadowRegistry::find_fallback() != nullptr);
 	const Masks truths = count_frames(fixture);
 	const MotionError own = compute_motion_error(render_frames(fixture, "edge_count"), truths);

@@ -28,7 +28,7 @@ SmallScene make_scene(LightType p_type) {
 	return scene;
 }
 
-RenderResult render_interpolated(RenderFixture &r_fixture, SmallScene &r_scene, double p_share) {
+MaskResult render_interpolated(MaskFixture &r_fixture, SmallScene &r_scene, double p_share) {
 	r_scene.light->properties["edge_count_interpolation"] = p_share;
 	return render_frame(r_fixture, r_scene, { .size_px = SIZE_PX });
 }
@@ -39,7 +39,7 @@ struct Change {
 	size_t count = 0;
 };
 
-Change compare(const RenderResult &p_one, const RenderResult &p_other) {
+Change compare(const MaskResult &p_one, const MaskResult &p_other) {
 	Change change;
 	for (size_t index = 0; index < p_one.visibility.size(); ++index) {
 		const float apart = std::abs(p_one.visibility[index] - p_other.visibility[index]);
@@ -53,17 +53,17 @@ Change compare(const RenderResult &p_one, const RenderResult &p_other) {
 
 TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as right as a "
 		  "counted one") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene = make_scene(type);
-		const RenderResult counted = render_interpolated(fixture, scene, 0.0);
-		const RenderResult interpolated = render_interpolated(fixture, scene, 0.5);
+		const MaskResult counted = render_interpolated(fixture, scene, 0.0);
+		const MaskResult interpolated = render_interpolated(fixture, scene, 0.5);
 		const Change change = compare(counted, interpolated);
 		CHECK(change.count > 2000);
 		CHECK(change.greatest < 0.04f); // ten points of 256
 		if (has_reference()) {
-			const RenderResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
+			const MaskResult reference = render_reference(fixture, scene, SIZE_PX, 4096);
 			const double error = compare_masks(counted.visibility, reference).penumbra_mean;
 			CHECK(compare_masks(interpolated.visibility, reference).penumbra_mean < error + 2e-4);
 		}
@@ -71,15 +71,15 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 }
 
 TEST_CASE("[GPU][EdgeCount] beside outlines and contacts every pixel is counted") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene; // a box on the ground
 	scene.light->properties["light_size"] = 0.05;
-	const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+	const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 	CHECK(compare(counted, render_interpolated(fixture, scene, 0.5)).count == 0);
 }
 
 TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far all edges are") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -92,7 +92,7 @@ TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far a
 		// Its penumbra lies on both sides.
 		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 0.02f, 0.2f, 0.6f }),
 				{ 1.8, 0.95, 0.0 });
-		const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+		const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 		const Change change = compare(counted, render_interpolated(fixture, scene, 0.5));
 		CHECK(change.count > 500);
 		CHECK(change.greatest < 0.04f);
@@ -100,10 +100,10 @@ TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far a
 }
 
 TEST_CASE("[GPU][EdgeCount] where a face cuts the light's disc nothing is interpolated") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::OMNI);
 	add_mesh(scene.scene, "Cutter", make_box_mesh("cutter", { 0.3f, 0.02f, 0.3f }),
 			glm::dvec3(scene.light->parent_from_node[3]) + glm::dvec3(0.2, 0.05, 0.1));
-	const RenderResult counted = render_interpolated(fixture, scene, 0.0);
+	const MaskResult counted = render_interpolated(fixture, scene, 0.0);
 	CHECK(compare(counted, render_interpolated(fixture, scene, 1.0)).count == 0);
 }

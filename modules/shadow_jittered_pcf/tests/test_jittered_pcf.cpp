@@ -1,5 +1,5 @@
-#include "modules/renderer/tests/render_fixture.h"
 #include "modules/shadow_jittered_pcf/jitter_offsets.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 
@@ -32,13 +32,13 @@ TEST_CASE("[JitteredPcf] each set has its rings from the outermost in, one tap i
 }
 
 TEST_CASE("[GPU][JitteredPcf] a wider filter has a wider edge, and none a hard one") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
 		std::ptrdiff_t before = -1;
 		for (double radius : { 0.0, 0.01, 0.04 }) {
 			scene.light->properties["jittered_pcf_radius_uv"] = radius;
-			const RenderResult mask = fixture.render_mask(scene, "jittered_pcf");
+			const MaskResult mask = fixture.render_mask(scene, "jittered_pcf");
 			const auto shades = std::count_if(mask.visibility.begin(), mask.visibility.end(),
 					[](float p_value) { return p_value > 0.0f && p_value < 1.0f; });
 			CHECK((radius == 0.0 ? shades == 0 : shades > before));
@@ -48,12 +48,12 @@ TEST_CASE("[GPU][JitteredPcf] a wider filter has a wider edge, and none a hard o
 }
 
 TEST_CASE("[GPU][JitteredPcf] the early out changes only what is smaller than the filter") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->properties["jittered_pcf_radius_uv"] = 0.02;
-	const RenderResult with = fixture.render_mask(scene, "jittered_pcf");
+	const MaskResult with = fixture.render_mask(scene, "jittered_pcf");
 	scene.light->properties["jittered_pcf_early_out"] = false;
-	const RenderResult without = fixture.render_mask(scene, "jittered_pcf");
+	const MaskResult without = fixture.render_mask(scene, "jittered_pcf");
 	size_t different_count = 0;
 	for (size_t pixel = 0; pixel < with.visibility.size(); ++pixel) {
 		const bool is_same = with.visibility[pixel] == without.visibility[pixel];
@@ -66,11 +66,11 @@ TEST_CASE("[GPU][JitteredPcf] the early out changes only what is smaller than th
 }
 
 TEST_CASE("[GPU][JitteredPcf] the number of rings can change from frame to frame") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
-	const RenderResult eight = fixture.render_mask(scene, "jittered_pcf");
+	const MaskResult eight = fixture.render_mask(scene, "jittered_pcf");
 	scene.light->properties["jittered_pcf_rings"] = int64_t(2);
-	const RenderResult two = fixture.render_mask(scene, "jittered_pcf");
+	const MaskResult two = fixture.render_mask(scene, "jittered_pcf");
 	CHECK(two.plan.is_left_out("Light", "light view 0")); // the map is kept
 	CHECK(two.visibility != eight.visibility);
 	CHECK(compute_mask_difference(two, eight) < 0.02);

@@ -1,6 +1,6 @@
 // Which views the maps of this module leave out, and which other maps may not.
 
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -27,7 +27,7 @@ SmallScene make_room() {
 	return scene;
 }
 
-size_t count_left_out(const RenderResult &p_result, const std::string &p_reason) {
+size_t count_left_out(const MaskResult &p_result, const std::string &p_reason) {
 	const auto &entries = p_result.plan.get_entries();
 	return static_cast<size_t>(
 			std::count_if(entries.begin(), entries.end(), [&](const FramePlanEntry &p_entry) {
@@ -40,10 +40,10 @@ size_t count_left_out(const RenderResult &p_result, const std::string &p_reason)
 TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are left out") {
 	for (const std::string id : { "shadow_map", "views" }) {
 		CAPTURE(id);
-		RenderFixture fixture;
+		MaskFixture fixture;
 		SmallScene scene = make_room();
 		scene.light->properties["light_size"] = 0.0; // one point
-		const RenderResult lean = fixture.render_mask(scene, id);
+		const MaskResult lean = fixture.render_mask(scene, id);
 		// Only the wall towards +x is seen: every other of the six views is not needed.
 		CHECK(count_left_out(lean, NO_RECEIVERS) == 5);
 		CHECK(count_left_out(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
@@ -51,13 +51,13 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are left 
 		// From above and outside all walls and the ground are seen, but nothing above the light.
 		scene.camera->parent_from_node = look_at({ 0.5, 12, 0.5 }, { 0, 0, 0 });
 		scene.camera->vertical_fov_rad = 1.0f;
-		const RenderResult wide = fixture.render_mask(scene, id);
+		const MaskResult wide = fixture.render_mask(scene, id);
 		CHECK(count_left_out(wide, NO_RECEIVERS) + count_left_out(wide, "no casters") <= 1);
 	}
 }
 
 TEST_CASE("[GPU][ShadowMap] a map that was drawn is still there when the camera turns back") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene = make_room();
 	const auto look = [&](double p_x) {
 		scene.camera->parent_from_node = look_at({ 0, 1.2, 0 }, { p_x, 1.1, 0 });

@@ -1,4 +1,4 @@
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@ using namespace gnomon;
 
 namespace {
 
-bool draws_light_view(const RenderResult &p_result) {
+bool draws_light_view(const MaskResult &p_result) {
 	for (const PassTiming &timing : p_result.timings) {
 		if (timing.name.find("depth view") != std::string::npos) {
 			return true;
@@ -18,11 +18,11 @@ bool draws_light_view(const RenderResult &p_result) {
 } // namespace
 
 TEST_CASE("[GPU][ShadowMap] a static scene's second frame draws no light view") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
-		const RenderResult first = fixture.render_mask(scene, "shadow_map");
-		const RenderResult second = fixture.render_mask(scene, "shadow_map");
+		const MaskResult first = fixture.render_mask(scene, "shadow_map");
+		const MaskResult second = fixture.render_mask(scene, "shadow_map");
 		CHECK(draws_light_view(first));
 		CHECK_FALSE(draws_light_view(second));
 		CHECK(second.plan.is_left_out("Light", "light view 0"));
@@ -31,7 +31,7 @@ TEST_CASE("[GPU][ShadowMap] a static scene's second frame draws no light view") 
 }
 
 TEST_CASE("[GPU][ShadowMap] a camera that moves keeps the map, a caster or light does not") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	fixture.render_mask(scene, "shadow_map");
 	scene.camera->parent_from_node = look_at({ -2, 3, 3 }, { 0, 0, 0 });
@@ -46,21 +46,21 @@ TEST_CASE("[GPU][ShadowMap] a camera that moves keeps the map, a caster or light
 }
 
 TEST_CASE("[GPU][ShadowMap] a moved caster's kept frame equals a fresh one bit for bit") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	fixture.render_mask(scene, "shadow_map");
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.4, 1.2, 0.1));
-	const RenderResult kept = fixture.render_mask(scene, "shadow_map");
-	RenderFixture fresh;
+	const MaskResult kept = fixture.render_mask(scene, "shadow_map");
+	MaskFixture fresh;
 	CHECK(kept.visibility == fresh.render_mask(scene, "shadow_map").visibility);
 }
 
 TEST_CASE("[GPU][ShadowMap] a hard mask holds only 0 and 1, wider filters more shades") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	const auto count_shades = [&](const char *p_filter) {
 		scene.light->properties["shadow_map_filter"] = std::string(p_filter);
-		const RenderResult result = fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
+		const MaskResult result = fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
 		size_t count = 0;
 		for (float value : result.visibility) {
 			count += value > 0.0f && value < 1.0f;
@@ -75,14 +75,14 @@ TEST_CASE("[GPU][ShadowMap] a hard mask holds only 0 and 1, wider filters more s
 }
 
 TEST_CASE("[GPU][ShadowMap] a flat lit floor has no acne at any map size or light angle") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (int64_t size : { 64, 256, 2048 }) {
 		for (double x : { 0.0, 2.0, 8.0, 40.0 }) {
 			SmallScene scene(LightType::DIRECTIONAL);
 			scene.box->casts_shadow = false;
 			scene.light->parent_from_node = look_at({ x, 4, 0 }, { 0, 0, 0 });
 			scene.light->properties["shadow_map_size"] = size;
-			const RenderResult result = fixture.render_mask(scene, "shadow_map");
+			const MaskResult result = fixture.render_mask(scene, "shadow_map");
 			CAPTURE(size);
 			CAPTURE(x);
 			CHECK(count_receivers(result) > 100);
@@ -92,20 +92,20 @@ TEST_CASE("[GPU][ShadowMap] a flat lit floor has no acne at any map size or ligh
 }
 
 TEST_CASE("[GPU][ShadowMap] omni faces meet without a seam") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	// The light hangs level with the floor's plate edges, so that several faces see the floor.
 	scene.box->casts_shadow = false;
 	scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 1, 0.2, 0.3 });
 	for (const char *filter : { "hard", "7x7" }) {
 		scene.light->properties["shadow_map_filter"] = std::string(filter);
-		const RenderResult result = fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
+		const MaskResult result = fixture.render_mask(scene, "shadow_map", glm::uvec2(128));
 		CHECK(result.visibility == result.receiver);
 	}
 }
 
 TEST_CASE("[GPU][Views] more views come nearer to the mean of many") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
 		scene.light->properties["views_map_size"] = int64_t(512);
@@ -113,7 +113,7 @@ TEST_CASE("[GPU][Views] more views come nearer to the mean of many") {
 			scene.light->properties["views_count"] = p_count;
 			return fixture.render_mask(scene, "views");
 		};
-		const RenderResult many = render(128);
+		const MaskResult many = render(128);
 		const double error_4 = compute_mask_difference(many, render(4));
 		const double error_32 = compute_mask_difference(many, render(32));
 		CHECK(error_4 > 0);
@@ -122,10 +122,10 @@ TEST_CASE("[GPU][Views] more views come nearer to the mean of many") {
 }
 
 TEST_CASE("[GPU][Views] a light without size is drawn once and equals the hard map") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->properties["light_size"] = 0.0;
-	const RenderResult views = fixture.render_mask(scene, "views");
+	const MaskResult views = fixture.render_mask(scene, "views");
 	size_t pass_count = 0;
 	for (const PassTiming &timing : views.timings) {
 		pass_count += timing.name.find("accumulate") != std::string::npos;

@@ -1,4 +1,4 @@
-#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@ using namespace gnomon;
 
 namespace {
 
-double compute_mean(const RenderResult &p_result) {
+double compute_mean(const MaskResult &p_result) {
 	double sum = 0;
 	for (float value : p_result.visibility) {
 		sum += value;
@@ -16,7 +16,7 @@ double compute_mean(const RenderResult &p_result) {
 	return sum / double(count_receivers(p_result));
 }
 
-size_t count_shades(const RenderResult &p_result) {
+size_t count_shades(const MaskResult &p_result) {
 	return static_cast<size_t>(std::count_if(p_result.visibility.begin(), p_result.visibility.end(),
 			[](float p_value) { return p_value > 0.01f && p_value < 0.99f; }));
 }
@@ -24,14 +24,14 @@ size_t count_shades(const RenderResult &p_result) {
 } // namespace
 
 TEST_CASE("[GPU][Pcss] a light without size has a hard shadow, a larger one a wider penumbra") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
 		size_t before = 0;
 		for (double size : { 0.0, 1.0, 3.0 }) {
 			scene.light->properties["light_size"] = 0.15 * size;
 			scene.light->properties["light_angular_distance"] = 4.0 * size;
-			const RenderResult mask = fixture.render_mask(scene, "pcss");
+			const MaskResult mask = fixture.render_mask(scene, "pcss");
 			const size_t shades = count_shades(mask);
 			CHECK((size == 0.0 ? shades < 20 : shades > before + 20));
 			before = shades;
@@ -40,14 +40,14 @@ TEST_CASE("[GPU][Pcss] a light without size has a hard shadow, a larger one a wi
 }
 
 TEST_CASE("[GPU][Pcss] more taps change the noise, not the mean") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	scene.light->properties["light_size"] = 0.4;
 	const auto render = [&](int64_t p_tap_count) {
 		scene.light->properties["pcss_taps"] = p_tap_count;
 		return fixture.render_mask(scene, "pcss", glm::uvec2(96));
 	};
-	const RenderResult many = render(256);
+	const MaskResult many = render(256);
 	const double few_difference = compute_mask_difference(render(8), many);
 	const double more_difference = compute_mask_difference(render(64), many);
 	CHECK(more_difference < 0.6 * few_difference);
@@ -55,53 +55,53 @@ TEST_CASE("[GPU][Pcss] more taps change the noise, not the mean") {
 }
 
 TEST_CASE("[GPU][Pcss] an omni light's penumbra does not end at the border of a view") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["light_size"] = 0.5;
 	scene.light->properties["pcss_taps"] = int64_t(128);
 	// Borders of the views pass through the penumbra.
 	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.6, 2.9, 0.1));
-	const RenderResult mask = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	const MaskResult mask = fixture.render_mask(scene, "pcss", glm::uvec2(96));
 	scene.light->parent_from_node =
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
-	const RenderResult turned = fixture.render_mask(scene, "pcss", glm::uvec2(96));
+	const MaskResult turned = fixture.render_mask(scene, "pcss", glm::uvec2(96));
 	CHECK(count_shades(mask) > 100);
 	CHECK(compute_mask_difference(mask, turned) < 0.01);
 }
 
 TEST_CASE("[GPU][Pcss] a static scene's second frame draws no map, another tap count neither") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
-	const RenderResult first = fixture.render_mask(scene, "pcss");
+	const MaskResult first = fixture.render_mask(scene, "pcss");
 	scene.light->properties["pcss_taps"] = int64_t(16);
-	const RenderResult second = fixture.render_mask(scene, "pcss");
+	const MaskResult second = fixture.render_mask(scene, "pcss");
 	CHECK_FALSE(first.plan.is_left_out("Light", "light view 0"));
 	CHECK(second.plan.is_left_out("Light", "light view 0"));
 	CHECK(first.visibility != second.visibility);
 }
 
 TEST_CASE("[GPU][Pcss] a caster behind the light changes nothing") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI }) {
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
-		const RenderResult without = fixture.render_mask(scene, "pcss", glm::uvec2(64));
+		const MaskResult without = fixture.render_mask(scene, "pcss", glm::uvec2(64));
 		const glm::dvec3 way = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));
 		MeshInstance3D &box = add_mesh(scene.scene, "Behind",
 				make_box_mesh("behind", glm::vec3(0.4f)), glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way);
 		box.parent_from_node = scene.light->parent_from_node;
 		box.parent_from_node[3] = glm::dvec4(glm::dvec3(1.2, 4.0, 0.8) + 1.0 * way, 1.0);
-		const RenderResult with = fixture.render_mask(scene, "pcss", glm::uvec2(64));
+		const MaskResult with = fixture.render_mask(scene, "pcss", glm::uvec2(64));
 		CHECK(compute_mask_difference(with, without) < 1e-3);
 	}
 }
 
 TEST_CASE("[GPU][Pcss] views without receivers are drawn: taps reach across into them") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.camera->parent_from_node = look_at({ 0, 1.2, 2.5 }, { 0, 0.2, 0 });
 	scene.camera->vertical_fov_rad = 0.1f;
-	const RenderResult result = fixture.render_mask(scene, "pcss");
+	const MaskResult result = fixture.render_mask(scene, "pcss");
 	for (const FramePlanEntry &entry : result.plan.get_entries()) {
 		CHECK(entry.reason.find("receiver") == std::string::npos);
 	}

@@ -1,17 +1,17 @@
 #pragma once
 
-#include "modules/renderer/mesh_store.h"
-#include "modules/renderer/tests/render_fixture.h"
 #include "modules/shadow_penumbra_fins/fin_passes.h"
 #include "modules/shadow_penumbra_fins/layer_passes.h"
+#include "modules/shadows/mesh_store.h"
+#include "modules/shadows/tests/mask_fixture.h"
 
 #include <cstring>
 
 namespace gnomon {
 
 /// Runs the passes of this module by themselves and reads what they leave.
-struct FinsFixture : RenderFixture {
-	using RenderFixture::RenderFixture;
+struct FinsFixture : MaskFixture {
+	using MaskFixture::MaskFixture;
 
 	MeshStore meshes{ *device };
 	TransientPool transients{ *device };

@@ -112,24 +112,23 @@ Expected compute_expected(const glm::dvec3 &p_point) {
 } // namespace
 
 TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, where it should be") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	std::map<int, int> right_counts;
 	// From above, and from below the large cube's top to see the ground under it.
 	for (const glm::dvec3 eye : { glm::dvec3(-2.5, 6.0, 3.0), glm::dvec3(-3.5, 1.0, 4.2) }) {
 		SmallScene scene = make_scene();
 		scene.camera->parent_from_node = look_at(eye, { 0, 1.0, 0 });
-		RenderRequest request;
+		MaskRequest request;
 		request.scene = scene.snap();
 		request.size_px = glm::uvec2(SIZE_PX);
 		request.technique_override = "penumbra_fins";
 		const std::shared_ptr<const SceneSnapshot> snapshot = request.scene;
-		const RenderResult mask = fixture.render_mask(scene, "penumbra_fins", request.size_px);
-		request.wants_image = true;
+		const MaskResult mask = fixture.render_mask(scene, "penumbra_fins", request.size_px);
 		request.debug_view = "case";
-		const std::vector<uint8_t> image = fixture.renderer->render(request).image;
-		// The debug view's colours, found where the case is known beyond doubt, by the mask's
+		const std::vector<float> cases = fixture.render(request).debug_values;
+		// The debug view's classes, found where the case is known beyond doubt, by the mask's
 		// values.
-		std::map<int, std::map<uint32_t, int>> colors;
+		std::map<int, std::map<float, int>> classes;
 		for (uint32_t y = 0; y < SIZE_PX; ++y) {
 			for (uint32_t x = 0; x < SIZE_PX; ++x) {
 				const size_t pixel = size_t(y) * SIZE_PX + x;
@@ -138,9 +137,7 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 				if (expected.case_number == 0 || mask.receiver[pixel] == 0) {
 					continue;
 				}
-				uint32_t color = 0;
-				std::memcpy(&color, &image[4 * pixel], sizeof(color));
-				++colors[expected.case_number][color];
+				++classes[expected.case_number][cases[pixel]];
 				const bool is_right = std::abs(mask.visibility[pixel] - expected.visibility) < 0.05;
 				CHECK_MESSAGE(is_right, "pixel ", x, " ", y, ": case ", expected.case_number,
 						", visibility ", mask.visibility[pixel], ", expected ",
@@ -148,9 +145,9 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 				right_counts[expected.case_number] += is_right;
 			}
 		}
-		// One colour per case, and no two alike.
-		std::set<uint32_t> seen;
-		for (const auto &[case_number, counts] : colors) {
+		// One class per case, and no two alike.
+		std::set<float> seen;
+		for (const auto &[case_number, counts] : classes) {
 			CAPTURE(case_number);
 			CHECK(counts.size() == 1);
 			CHECK(seen.insert(counts.begin()->first).second);
@@ -163,14 +160,14 @@ TEST_CASE("[GPU][PenumbraFins] each of the six cases of figure 7 is reached, whe
 }
 
 TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins and layers") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene(type);
 		scene.light->properties["penumbra_outer_width"] = 0.0;
 		scene.light->properties["penumbra_inner_width"] = 0.0;
 		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
-			const RenderResult lean = fixture.render_mask(scene, id);
-			const RenderResult all = fixture.render_mask(scene, id, glm::uvec2(64), false);
+			const MaskResult lean = fixture.render_mask(scene, id);
+			const MaskResult all = fixture.render_mask(scene, id, glm::uvec2(64), false);
 			CHECK(lean.visibility == all.visibility);
 			for (float value : lean.visibility) {
 				CHECK((value == 0.0f || value == 1.0f));
@@ -186,13 +183,13 @@ TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins a
 }
 
 TEST_CASE("[GPU][PenumbraFins] one width of 0 leaves out its half alone, with the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const char *width : { "penumbra_outer_width", "penumbra_inner_width" }) {
 		CAPTURE(width);
 		SmallScene scene = make_scene(LightType::SPOT);
 		scene.light->properties[width] = 0.0;
-		const RenderResult lean = fixture.render_mask(scene, "penumbra_fins");
-		const RenderResult all = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), false);
+		const MaskResult lean = fixture.render_mask(scene, "penumbra_fins");
+		const MaskResult all = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), false);
 		CHECK(lean.visibility == all.visibility);
 		const bool is_inner = std::string(width) == "penumbra_inner_width";
 		CHECK(lean.plan.is_left_out("Light", is_inner ? "inner fins" : "outer fins"));
@@ -201,10 +198,10 @@ TEST_CASE("[GPU][PenumbraFins] one width of 0 leaves out its half alone, with th
 }
 
 TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene scene = make_scene(type);
-		const RenderResult first = fixture.render_mask(scene, "penumbra_fins");
+		const MaskResult first = fixture.render_mask(scene, "penumbra_fins");
 		for (const std::string peeling : { "passes", "one_pass" }) {
 			for (const std::string method : { "geometry_shader", "compute" }) {
 				scene.light->properties["penumbra_fins_peeling"] = peeling;
@@ -216,7 +213,7 @@ TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same
 }
 
 TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside them stay valid") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		for (const std::string id : { "penumbra_fins", "outer_fins" }) {
 			for (double width_m : { 1.0, 10.0, 1e4 }) {
@@ -232,12 +229,12 @@ TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside 
 }
 
 TEST_CASE("[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan says so") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::SPOT);
 	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })
 			.parent_from_node =
 			glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 1.5, 0)), glm::dvec3(1, 0, 0));
-	const RenderResult result = fixture.render_mask(scene, "penumbra_fins");
+	const MaskResult result = fixture.render_mask(scene, "penumbra_fins");
 	CHECK(is_valid_mask(result));
 	CHECK(result.plan.is_left_out("Light", "fins of 1 instances"));
 }

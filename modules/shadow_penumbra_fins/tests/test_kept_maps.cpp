@@ -12,19 +12,18 @@ using namespace gnomon;
 
 namespace {
 
-RenderResult render(RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep,
+MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep,
 		const std::string &p_technique = "penumbra_fins") {
-	RenderRequest request;
+	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = glm::uvec2(64);
 	request.technique_override = p_technique;
-	request.mask_light = p_scene.light->name;
-	request.wants_mask = true;
+	request.light = p_scene.light->name;
 	request.may_keep = p_may_keep;
-	return r_fixture.renderer->render(request);
+	return r_fixture.render(request);
 }
 
-size_t count_drawn_views(const RenderResult &p_result) {
+size_t count_drawn_views(const MaskResult &p_result) {
 	return static_cast<size_t>(std::count_if(
 			p_result.timings.begin(), p_result.timings.end(), [](const PassTiming &p_timing) {
 				return p_timing.name.find("fins view") != std::string::npos;
@@ -34,8 +33,8 @@ size_t count_drawn_views(const RenderResult &p_result) {
 } // namespace
 
 TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fresh ones give") {
-	RenderFixture keeping;
-	RenderFixture fresh;
+	MaskFixture keeping;
+	MaskFixture fresh;
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["penumbra_outer_width"] = 0.2;
 	scene.light->properties["penumbra_inner_width"] = 0.15;
@@ -78,8 +77,8 @@ TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fre
 	for (const Step &step : steps) {
 		CAPTURE(step.what);
 		step.change();
-		const RenderResult kept = render(keeping, scene, true);
-		const RenderResult anew = render(fresh, scene, false);
+		const MaskResult kept = render(keeping, scene, true);
+		const MaskResult anew = render(fresh, scene, false);
 		CHECK(kept.visibility == anew.visibility);
 		full_count = std::max(full_count, count_drawn_views(kept));
 		CHECK((count_drawn_views(kept) > 0) == step.draws_all);
@@ -87,40 +86,39 @@ TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fre
 	}
 	// A caster that moves within two views draws these two alone.
 	scene.box->parent_from_node[3].x += 0.05;
-	const RenderResult moved = render(keeping, scene, true);
+	const MaskResult moved = render(keeping, scene, true);
 	CHECK(moved.visibility == render(fresh, scene, false).visibility);
 	CHECK(count_drawn_views(moved) > 0);
 	CHECK(count_drawn_views(moved) < full_count);
 }
 
 TEST_CASE("[GPU][PenumbraFins] another technique and back draws the maps anew") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const SmallScene scene;
-	const RenderResult first = render(fixture, scene, true);
+	const MaskResult first = render(fixture, scene, true);
 	render(fixture, scene, true, "outer_fins");
-	const RenderResult again = render(fixture, scene, true);
+	const MaskResult again = render(fixture, scene, true);
 	CHECK(again.visibility == first.visibility);
 	CHECK(count_drawn_views(again) == 1);
 }
 
 TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing that is kept") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const SmallScene scene;
-	RenderRequest request;
+	MaskRequest request;
 	request.scene = scene.snap();
 	request.size_px = glm::uvec2(64);
 	request.technique_override = "penumbra_fins";
-	request.wants_image = true;
 	request.debug_view = "no such view"; // refused after the technique has planned its frame
-	CHECK_THROWS_AS(fixture.renderer->render(request), Error);
-	RenderFixture fresh;
+	CHECK_THROWS_AS(fixture.render(request), Error);
+	MaskFixture fresh;
 	CHECK(render(fixture, scene, true).visibility == render(fresh, scene, true).visibility);
 }
 
 TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reach into it") {
 	// The box stands outside the view downwards; its outer fins reach into it and darken the
 	// ground.
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(2.4, 2.0, 0));
 	scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 3.2, 0));
@@ -134,11 +132,11 @@ TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reac
 			box.bounds_world));
 	CHECK(build_light_views(snapshot->lights[0], *snapshot, 256, 2, 1.0f)[down_view].may_see(
 			box.bounds_world));
-	const RenderResult omni = render(fixture, scene, true);
+	const MaskResult omni = render(fixture, scene, true);
 	// The same light turned by 45 degrees has its borders elsewhere.
 	scene.light->parent_from_node =
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 0, 1));
-	const RenderResult turned = render(fixture, scene, true);
+	const MaskResult turned = render(fixture, scene, true);
 	CHECK(compute_mask_difference(omni, turned) < 0.001);
 	// And the fins do darken what the downward view holds, within 45 degrees of the light's foot.
 	scene.light->properties["penumbra_outer_width"] = 0.0;

@@ -115,11 +115,10 @@ TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped
 }
 
 TEST_CASE("[GPU][PenumbraFins] the plan says where layer 3 waits for layer 2, with the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	const auto is_asked = [&](const SmallScene &p_scene) {
-		const RenderResult lean = fixture.render_mask(p_scene, "penumbra_fins");
-		const RenderResult all =
-				fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
+		const MaskResult lean = fixture.render_mask(p_scene, "penumbra_fins");
+		const MaskResult all = fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
 		CHECK(lean.visibility == all.visibility);
 		CHECK(all.plan.to_text().find("layer 3 only if") == std::string::npos);
 		return lean.plan.to_text().find("layer 3 only if layer 2 holds anything, views: 1") !=

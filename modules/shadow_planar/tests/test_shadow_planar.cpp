@@ -1,5 +1,5 @@
-#include "modules/renderer/tests/hard_truth.h"
 #include "modules/shadow_planar/receiver_planes.h"
+#include "modules/shadows/tests/hard_truth.h"
 
 #include <doctest/doctest.h>
 
@@ -9,23 +9,22 @@ namespace {
 
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
-RenderResult render_planar(
-		RenderFixture &r_fixture, const SmallScene &p_scene, bool p_may_leave_out = true) {
-	RenderRequest request;
+MaskResult render_planar(
+		MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_leave_out = true) {
+	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = glm::uvec2(128);
 	request.technique_override = "planar";
-	request.mask_light = p_scene.light->name;
-	request.wants_mask = true;
+	request.light = p_scene.light->name;
 	request.wants_surfaces = true;
 	request.may_leave_out = p_may_leave_out;
-	RenderResult result = r_fixture.renderer->render(request);
+	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;
 }
 
 /// Surfaces at the height of the floor's top.
-HardDifference compare_floor(const SmallScene &p_scene, const RenderResult &p_frame) {
+HardDifference compare_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const double camera_height = p_scene.snap()->camera.position_world.y;
 	return HardTruth(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
 		return std::abs(p_surface.position.y + camera_height) < 1e-3 &&
@@ -33,7 +32,7 @@ HardDifference compare_floor(const SmallScene &p_scene, const RenderResult &p_fr
 	});
 }
 
-void check_floor(const SmallScene &p_scene, const RenderResult &p_frame) {
+void check_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const HardDifference difference = compare_floor(p_scene, p_frame);
 	CHECK(difference.receiver_count > 3000);
 	CHECK(difference.hidden_count > 50);
@@ -41,20 +40,20 @@ void check_floor(const SmallScene &p_scene, const RenderResult &p_frame) {
 	CHECK(difference.unexplained_count == 0);
 }
 
-bool has_line(const RenderResult &p_frame, const char *p_text) {
+bool has_line(const MaskResult &p_frame, const char *p_text) {
 	return p_frame.plan.to_text().find(p_text) != std::string::npos;
 }
 
 } // namespace
 
 TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of rays") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_mesh(scene.scene, "Upper", make_box_mesh("upper", glm::vec3(0.3f, 0.1f, 0.2f)),
 				{ 0.2, 1.8, 0.1 }); // shades what the box shades, in part
-		const RenderResult frame = render_planar(fixture, scene);
+		const MaskResult frame = render_planar(fixture, scene);
 		check_floor(scene, frame);
 		CHECK(has_line(frame, "planes: "));
 		CHECK(has_line(frame, "shadows on 2 other meshes"));
@@ -63,9 +62,9 @@ TEST_CASE("[GPU][ShadowPlanar] on a declared floor the mask is that of rays") {
 }
 
 TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide nothing") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
-	const RenderResult before = render_planar(fixture, scene);
+	const MaskResult before = render_planar(fixture, scene);
 	add_mesh(scene.scene, "Cellar", make_box_mesh("cellar", glm::vec3(0.6f, 0.1f, 0.6f)),
 			{ 0.6, -1.0, 0.4 });
 	add_mesh(scene.scene, "Ceiling", make_box_mesh("ceiling", glm::vec3(2.0f, 0.1f, 2.0f)),
@@ -78,10 +77,10 @@ TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide
 }
 
 TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit says so") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene undeclared;
 	undeclared.ground->is_planar_receiver = false;
-	const RenderResult none = render_planar(fixture, undeclared);
+	const MaskResult none = render_planar(fixture, undeclared);
 	CHECK(has_line(none, "no node has shadow_planar_receiver"));
 	CHECK(compute_mask_difference(none, none) == 0);
 	CHECK(std::count(none.visibility.begin(), none.visibility.end(), 1.0f) >=
@@ -105,8 +104,8 @@ TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit says so") {
 
 TEST_CASE("[GPU][ShadowPlanar] the mask does not depend on scale, nor on the distance from the "
 		  "origin") {
-	RenderFixture fixture;
-	const RenderResult first = render_planar(fixture, SmallScene());
+	MaskFixture fixture;
+	const MaskResult first = render_planar(fixture, SmallScene());
 	for (const double scale : { 1e-3, 1e3 }) {
 		CAPTURE(scale);
 		CHECK(compute_mask_difference(

@@ -17,7 +17,7 @@ double draw(std::mt19937 &r_random, double p_least, double p_greatest) {
 }
 
 /// The number before " casters" in the plan's line that says so; 0 without one.
-size_t read_hidden_count(const RenderResult &p_frame) {
+size_t read_hidden_count(const MaskResult &p_frame) {
 	const std::string plan = p_frame.plan.to_text();
 	const size_t reason = plan.find(HIDDEN);
 	if (reason == std::string::npos) {
@@ -27,7 +27,7 @@ size_t read_hidden_count(const RenderResult &p_frame) {
 	return std::stoul(plan.substr(plan.rfind(start, reason) + start.size()));
 }
 
-RenderResult render_culled(RenderFixture &r_fixture, SmallScene &r_scene, const char *p_wish,
+MaskResult render_culled(MaskFixture &r_fixture, SmallScene &r_scene, const char *p_wish,
 		const char *p_extrusion = "auto") {
 	return render_volumes(r_fixture, r_scene,
 			{ { "culling", std::string(p_wish) }, { "extrusion", std::string(p_extrusion) } });
@@ -58,7 +58,7 @@ struct WallScene : SmallScene {
 	}
 };
 
-void check_same(const RenderResult &p_one, const RenderResult &p_other) {
+void check_same(const MaskResult &p_one, const MaskResult &p_other) {
 	CHECK(p_one.visibility == p_other.visibility);
 }
 
@@ -123,20 +123,20 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 TEST_CASE("[GPU][ShadowVolume] casters behind a wall are left out, those beside and before not") {
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
-		RenderFixture fixture;
+		MaskFixture fixture;
 		WallScene scene(type);
-		const RenderResult all = render_culled(fixture, scene, "off");
+		const MaskResult all = render_culled(fixture, scene, "off");
 		CHECK(read_hidden_count(all) == 0);
-		const RenderResult first = render_culled(fixture, scene, "auto"); // decided on the GPU
+		const MaskResult first = render_culled(fixture, scene, "auto"); // decided on the GPU
 		CHECK(first.plan.to_text().find("occlusion culling, casters: 75") != std::string::npos);
 		check_same(first, all);
-		const RenderResult second = render_culled(fixture, scene, "auto"); // known from the first
+		const MaskResult second = render_culled(fixture, scene, "auto"); // known from the first
 		CHECK(second.plan.to_text().find("occlusion culling, casters") == std::string::npos);
 		CHECK(read_hidden_count(second) >= WallScene::COUNT_BEHIND - 6);
 		CHECK(read_hidden_count(second) <= WallScene::COUNT_BEHIND + 1); // and the box
 		check_same(second, all);
 		scene.camera->parent_from_node = look_at({ 2.8, 1.2, 2.0 }, { 0.2, 0.3, 0 });
-		const RenderResult elsewhere = render_culled(fixture, scene, "auto"); // still known
+		const MaskResult elsewhere = render_culled(fixture, scene, "auto"); // still known
 		CHECK(read_hidden_count(elsewhere) == read_hidden_count(second));
 		check_same(elsewhere, render_culled(fixture, scene, "off"));
 	}
@@ -144,7 +144,7 @@ TEST_CASE("[GPU][ShadowVolume] casters behind a wall are left out, those beside 
 
 TEST_CASE(
 		"[GPU][ShadowVolume] a caster that comes out from behind its wall has its shadow at once") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	WallScene scene;
 	render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(render_culled(fixture, scene, "auto")) > 0);
@@ -153,7 +153,7 @@ TEST_CASE(
 		scene.last->parent_from_node =
 				glm::translate(glm::dmat4(1.0), { 0.2 - 0.1 * step, 0.1 + 0.3 * step, 1.3 });
 		for (const char *extrusion : { "compute", "geometry_shader" }) {
-			const RenderResult culled = render_culled(fixture, scene, "auto", extrusion);
+			const MaskResult culled = render_culled(fixture, scene, "auto", extrusion);
 			check_same(culled, render_culled(fixture, scene, "off", extrusion));
 		}
 	}
@@ -162,7 +162,7 @@ TEST_CASE(
 }
 
 TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the picture") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	std::mt19937 random(11);
 	size_t hidden_count = 0;
 	for (int round = 0; round < 12; ++round) {
@@ -171,9 +171,9 @@ TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the picture
 		add_random_casters(scene, random);
 		const glm::dvec3 from(draw(random, -3, 3), draw(random, 0.3, 4), draw(random, -3, 3));
 		scene.light->parent_from_node = look_at(from, { draw(random, -1, 1), 0.5, 0 });
-		const RenderResult all = render_culled(fixture, scene, "off");
+		const MaskResult all = render_culled(fixture, scene, "off");
 		check_same(render_culled(fixture, scene, "on"), all);
-		const RenderResult known = render_culled(fixture, scene, "on");
+		const MaskResult known = render_culled(fixture, scene, "on");
 		check_same(known, all);
 		hidden_count += read_hidden_count(known);
 	}
@@ -182,7 +182,7 @@ TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the picture
 }
 
 TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, and on request") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	WallScene scene;
 	scene.wall->parent_from_node = glm::translate(glm::dmat4(1.0), { -2.8, 0.9, 0 });
 	const auto move_light = [&](double p_step) {
@@ -213,20 +213,20 @@ TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, an
 TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a frame later") {
 	DeviceOptions::Without without;
 	without.conditional_rendering = true;
-	RenderFixture fixture("", without);
+	MaskFixture fixture("", without);
 	WallScene scene;
-	const RenderResult all = render_culled(fixture, scene, "off");
-	const RenderResult first = render_culled(fixture, scene, "auto");
+	const MaskResult all = render_culled(fixture, scene, "off");
+	const MaskResult first = render_culled(fixture, scene, "auto");
 	CHECK(first.plan.to_text().find("needs conditional rendering") != std::string::npos);
 	check_same(first, all);
 	check_same(render_culled(fixture, scene, "auto"), all); // nothing moved: it is worth asking
-	const RenderResult known = render_culled(fixture, scene, "auto");
+	const MaskResult known = render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(known) > 0);
 	check_same(known, all);
 }
 
 TEST_CASE("[GPU][ShadowVolume] what is known of casters follows them when their order changes") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	WallScene scene(LightType::OMNI);
 	render_culled(fixture, scene, "on");
 	CHECK(read_hidden_count(render_culled(fixture, scene, "on")) > 0);
@@ -236,7 +236,7 @@ TEST_CASE("[GPU][ShadowVolume] what is known of casters follows them when their 
 }
 
 TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	std::mt19937 random(5);
 	size_t hidden_count = 0;
 	for (int round = 0; round < 9; ++round) {
@@ -248,9 +248,9 @@ TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts") {
 				look_at({ 0.9 + gap, draw(random, 0.6, 1.6), 0.1 }, { -0.5, 0.1, 0 });
 		scene.wall->parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), { 0.8, 0.9, 0 }),
 				draw(random, -0.4, 0.4), { draw(random, -1, 1), draw(random, -1, 1), 1 });
-		const RenderResult all = render_culled(fixture, scene, "off");
+		const MaskResult all = render_culled(fixture, scene, "off");
 		check_same(render_culled(fixture, scene, "on"), all);
-		const RenderResult known = render_culled(fixture, scene, "on");
+		const MaskResult known = render_culled(fixture, scene, "on");
 		check_same(known, all);
 		hidden_count += read_hidden_count(known);
 	}
@@ -258,7 +258,7 @@ TEST_CASE("[GPU][ShadowVolume] occluders that the light's near plane cuts") {
 }
 
 TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's origin") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const double offset_m : { 1e2, 1e4, 1e5 }) {
 		CAPTURE(offset_m);
 		WallScene scene;
@@ -271,9 +271,9 @@ TEST_CASE("[GPU][ShadowVolume] meshes whose vertices are far from their node's o
 		scene.wall->surfaces[0].mesh = make_mesh("far wall", positions, {}, wall.indices);
 		scene.wall->parent_from_node =
 				glm::translate(scene.wall->parent_from_node, -glm::dvec3(offset));
-		const RenderResult all = render_culled(fixture, scene, "off");
+		const MaskResult all = render_culled(fixture, scene, "off");
 		check_same(render_culled(fixture, scene, "on"), all);
-		const RenderResult known = render_culled(fixture, scene, "on");
+		const MaskResult known = render_culled(fixture, scene, "on");
 		check_same(known, all);
 		CHECK((read_hidden_count(known) > 0) == (offset_m < 1e4)); // else it is no occluder
 	}

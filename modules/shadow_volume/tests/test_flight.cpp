@@ -65,7 +65,7 @@ struct FlightScene : SmallScene {
 
 TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wrong only at "
 		  "borders of shadows") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	struct Leg {
 		LightType type;
 		size_t step; // all 300 frames once, every fifth for the other lights
@@ -85,7 +85,7 @@ TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wr
 				{ "extrusion", std::string(frame % 2 == 0 ? "compute" : "auto") },
 				{ "culling", std::string("on") }
 			};
-			const RenderResult result =
+			const MaskResult result =
 					render_volumes(fixture, scene, wishes, "shadow_volume", glm::uvec2(80));
 			const std::string plan = result.plan.to_text();
 			const bool has_z_fail = plan.find("by z-fail") != std::string::npos;

@@ -10,14 +10,14 @@ namespace {
 
 const char KEPT[] = "kept: neither the light nor a caster moved";
 
-bool has_reason(const RenderResult &p_result, const std::string &p_reason) {
+bool has_reason(const MaskResult &p_result, const std::string &p_reason) {
 	const auto &entries = p_result.plan.get_entries();
 	return std::any_of(entries.begin(), entries.end(), [&](const FramePlanEntry &p_entry) {
 		return !p_entry.runs && p_entry.reason.starts_with(p_reason);
 	});
 }
 
-bool finds_edges(const RenderResult &p_result) {
+bool finds_edges(const MaskResult &p_result) {
 	return std::any_of(p_result.timings.begin(), p_result.timings.end(),
 			[](const PassTiming &p_timing) { return p_timing.name == "Light: find edges"; });
 }
@@ -27,20 +27,19 @@ const VolumeWishes COMPUTE = { { "extrusion", std::string("compute") } };
 } // namespace
 
 TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and nowhere else") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		SmallScene scene(type);
 		scene.ground->casts_shadow = false;
 		const glm::uvec2 size_px(96);
-		const RenderResult lean = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
-		const RenderResult all =
-				render_volumes(fixture, scene, {}, "shadow_volume", size_px, false);
+		const MaskResult lean = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
+		const MaskResult all = render_volumes(fixture, scene, {}, "shadow_volume", size_px, false);
 		CHECK(lean.visibility == all.visibility);
 		CHECK(lean.plan.is_left_out("Light", "far caps of 1 casters"));
 		CHECK_FALSE(all.plan.is_left_out("Light", "far caps of 1 casters"));
 		// In the box's shadow the near plane is hidden: caps are needed.
 		scene.camera->parent_from_node = look_at({ -0.05, 0.5, -0.05 }, { -0.6, 0.1, -0.5 });
-		const RenderResult within = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
+		const MaskResult within = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
 		CHECK_FALSE(has_reason(within, "z-pass is safe"));
 		CHECK(within.visibility ==
 				render_volumes(fixture, scene, {}, "shadow_volume", size_px, false).visibility);
@@ -48,12 +47,12 @@ TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and no
 }
 
 TEST_CASE("[GPU][ShadowVolume] edges of lights and casters at rest are found once, with one mask") {
-	RenderFixture keeping;
-	RenderFixture fresh;
+	MaskFixture keeping;
+	MaskFixture fresh;
 	SmallScene scene;
 	const auto render = [&](bool p_is_known) {
-		const RenderResult result = render_volumes(keeping, scene, COMPUTE);
-		const RenderResult all =
+		const MaskResult result = render_volumes(keeping, scene, COMPUTE);
+		const MaskResult all =
 				render_volumes(fresh, scene, COMPUTE, "shadow_volume", glm::uvec2(128), false);
 		CHECK(result.visibility == all.visibility);
 		CHECK(finds_edges(all));

@@ -50,7 +50,7 @@ private:
 } // namespace
 
 TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, however they are made") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	if (!fixture.device->get_features().conditional_rendering) {
 		MESSAGE("this device has no conditional rendering");
 		return;
@@ -63,7 +63,7 @@ TEST_CASE("[GPU][ShadowVolume] casters whose predicate is 0 are not drawn, howev
 	SmallScene scene;
 	for (const VolumeMaker maker : { VolumeMaker::COMPUTE, VolumeMaker::GEOMETRY_SHADER }) {
 		NothingSeen::maker = maker;
-		const RenderResult frame = fixture.render_mask(scene, "nothing_seen");
+		const MaskResult frame = fixture.render_mask(scene, "nothing_seen");
 		CHECK(frame.visibility == frame.receiver); // lit wherever there is a receiver
 	}
 	ShadowRegistry::remove("nothing_seen");

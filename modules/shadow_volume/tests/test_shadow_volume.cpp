@@ -5,7 +5,7 @@
 using namespace gnomon;
 
 TEST_CASE("[GPU][ShadowVolume] the mask is that of rays, for every light and class of mesh") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
@@ -17,14 +17,14 @@ TEST_CASE("[GPU][ShadowVolume] the mask is that of rays, for every light and cla
 }
 
 TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same mask") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		add_meshes(scene);
 		add_mirrored_box(scene);
-		const RenderResult first = render_volumes(fixture, scene);
-		const auto check_same = [&](const RenderResult &p_other) {
+		const MaskResult first = render_volumes(fixture, scene);
+		const auto check_same = [&](const MaskResult &p_other) {
 			CHECK(p_other.visibility == first.visibility);
 		};
 		for (const char *extrusion : { "geometry_shader", "compute" }) {
@@ -43,14 +43,14 @@ TEST_CASE("[GPU][ShadowVolume] all ways to make and count volumes give the same 
 		}
 		check_same(render_volumes(fixture, scene, {}, "shadow_volume", glm::uvec2(128), false));
 		// In double a face in the light's plane may be decided otherwise.
-		const RenderResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
+		const MaskResult on_cpu = render_volumes(fixture, scene, {}, "shadow_volume_cpu");
 		CHECK(compute_mask_difference(first, on_cpu) < 1e-4);
 		check_against_rays(scene, on_cpu);
 	}
 }
 
 TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its border") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	add_meshes(scene);
 	size_t z_fail_count = 0;
@@ -60,7 +60,7 @@ TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its bo
 		const double way = -1.0 + step / 12.0;
 		scene.camera->parent_from_node =
 				look_at({ -0.3 + 1.2 * way, 0.5 + 0.1 * step, -0.1 + way }, { 0.6, 0, 1.4 - way });
-		const RenderResult frame = render_volumes(fixture, scene);
+		const MaskResult frame = render_volumes(fixture, scene);
 		z_fail_count += frame.plan.to_text().find("by z-fail") != std::string::npos ? 1 : 0;
 		const HardDifference difference = HardTruth(scene).compare(frame);
 		CHECK(difference.wrong_count <= difference.receiver_count / 500);
@@ -70,13 +70,13 @@ TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its bo
 }
 
 TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of its faces") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	const auto place_light = [&](const glm::dvec3 &p_place) {
 		scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), p_place);
 	};
 	place_light({ 0.05, 1.02, 0.03 }); // all is hidden
-	const RenderResult inside = render_volumes(fixture, scene);
+	const MaskResult inside = render_volumes(fixture, scene);
 	CHECK(HardTruth(scene).compare(inside).wrong_count == 0);
 	CHECK(HardTruth(scene).compare(inside).hidden_count == count_receivers(inside));
 	place_light({ 0.5, 3.0, 0.4 }); // above an edge of the box
@@ -86,14 +86,13 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 }
 
 TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the other") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	const auto sheet = make_box_mesh("sheet", glm::vec3(0.5f, 0.001f, 0.4f));
 	for (int index = 0; index < 255; ++index) { // with the box 256: a count that wraps to 0
 		add_mesh(scene.scene, text("Sheet ", index), sheet, { 0, 1.4 + 0.004 * index, 0 });
 	}
-	const RenderResult frame =
-			render_volumes(fixture, scene, { { "culling", std::string("off") } });
+	const MaskResult frame = render_volumes(fixture, scene, { { "culling", std::string("off") } });
 	check_against_rays(scene, frame, 500); // the border is long: each sheet has one
 	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
 }

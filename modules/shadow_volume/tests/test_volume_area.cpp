@@ -1,5 +1,5 @@
-#include "modules/renderer/gbuffer.h"
 #include "modules/shadow_volume/volume_area.h"
+#include "modules/shadows/camera_view.h"
 
 #include <doctest/doctest.h>
 

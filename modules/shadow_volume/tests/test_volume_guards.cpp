@@ -18,13 +18,13 @@ void add_probes(SmallScene &r_scene) {
 
 /// Every light type against rays, with culling and without; p_arrange changes the scene first.
 template <typename Arrange> void check_for_each_type(Arrange p_arrange) {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		p_arrange(scene);
 		add_probes(scene);
-		const RenderResult all =
+		const MaskResult all =
 				render_volumes(fixture, scene, { { "culling", std::string("off") } });
 		check_against_rays(scene, all);
 		for (int frame = 0; frame < 2; ++frame) { // decided on the GPU, then known
@@ -42,15 +42,15 @@ void place_light(SmallScene &r_scene, const glm::dvec3 &p_from, const glm::dvec3
 } // namespace
 
 TEST_CASE("[GPU][ShadowVolume] scenes of any size and far from the origin") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
-		const RenderResult first = [&] {
+		const MaskResult first = [&] {
 			SmallScene scene(type);
 			return render_volumes(fixture, scene);
 		}();
 		const auto check_same = [&](SmallScene &&p_scene) {
-			const RenderResult other = render_volumes(fixture, p_scene);
+			const MaskResult other = render_volumes(fixture, p_scene);
 			CHECK(compute_mask_difference(first, other) < 3e-4);
 			check_against_rays(p_scene, other);
 		};
@@ -129,12 +129,12 @@ TEST_CASE("[GPU][ShadowVolume] light that grazes the floor, and edges seen end-o
 }
 
 TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene scene(type);
 		add_meshes(scene);
 		scene.camera->parent_from_node = scene.light->parent_from_node;
-		const RenderResult frame = render_volumes(fixture, scene);
+		const MaskResult frame = render_volumes(fixture, scene);
 		const HardDifference difference = HardTruth(scene).compare(frame);
 		CHECK(difference.receiver_count > 3000);
 		CHECK(difference.unexplained_count == 0);
@@ -143,11 +143,11 @@ TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
 }
 
 TEST_CASE("[GPU][ShadowVolume] an instance scaled to a line has no volume, and the plan says so") {
-	RenderFixture fixture;
+	MaskFixture fixture;
 	SmallScene scene;
 	MeshInstance3D &flat =
 			add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.3f)), { 1, 0.5, 0 });
 	flat.parent_from_node = glm::scale(flat.parent_from_node, glm::dvec3(1, 0, 0));
-	const RenderResult frame = render_volumes(fixture, scene);
+	const MaskResult frame = render_volumes(fixture, scene);
 	CHECK(frame.plan.to_text().find("a scale of theirs is 0") != std::string::npos);
 }

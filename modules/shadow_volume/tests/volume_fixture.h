@@ -2,7 +2,7 @@
 
 #include "modules/core/text.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
-#include "modules/renderer/tests/hard_truth.h"
+#include "modules/shadows/tests/hard_truth.h"
 
 #include <doctest/doctest.h>
 
@@ -14,22 +14,21 @@ inline const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, 
 
 using VolumeWishes = std::map<std::string, PropertyValue>;
 
-inline RenderResult render_volumes(RenderFixture &r_fixture, SmallScene &r_scene,
+inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 		const VolumeWishes &p_wishes = {}, const std::string &p_id = "shadow_volume",
 		glm::uvec2 p_size_px = glm::uvec2(128), bool p_may_leave_out = true) {
 	const auto before = r_scene.light->properties;
 	for (const auto &[name, value] : p_wishes) {
 		r_scene.light->properties[p_id + "_" + name] = value;
 	}
-	RenderRequest request;
+	MaskRequest request;
 	request.scene = r_scene.snap();
 	request.size_px = p_size_px;
 	request.technique_override = p_id;
-	request.mask_light = r_scene.light->name;
-	request.wants_mask = true;
+	request.light = r_scene.light->name;
 	request.wants_surfaces = true;
 	request.may_leave_out = p_may_leave_out;
-	RenderResult result = r_fixture.renderer->render(request);
+	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	r_scene.light->properties = before;
 	return result;
@@ -79,7 +78,7 @@ inline MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
 
 /// p_most_wrong: of so many receivers one may be wrong, at the shadow's border.
 inline void check_against_rays(
-		const SmallScene &p_scene, const RenderResult &p_frame, size_t p_most_wrong = 1000) {
+		const SmallScene &p_scene, const MaskResult &p_frame, size_t p_most_wrong = 1000) {
 	const HardDifference difference = HardTruth(p_scene).compare(p_frame);
 	CHECK(difference.receiver_count > 3000);
 	CHECK(difference.hidden_count > 50);

@@ -1,0 +1,45 @@
+#include "modules/shadows/camera_view.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px) {
+	const double tangent = std::tan(0.5 * p_camera.vertical_fov_rad);
+	const double aspect = double(p_size_px.x) / p_size_px.y;
+	LightView view;
+	const glm::dmat3 &axes = p_camera.world_from_camera;
+	const glm::dmat3 rotation = glm::transpose(glm::dmat3(axes[0], -axes[1], -axes[2]));
+	view.view_from_world = glm::dmat4(rotation);
+	view.view_from_world[3] = glm::dvec4(-(rotation * p_camera.position_world), 1.0);
+	view.half_extent = glm::vec2(tangent * aspect, tangent);
+	view.near_m = p_camera.near_m;
+	view.size_px = p_size_px;
+	return view;
+}
+
+shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
+	const CameraSnapshot &camera = p_scene.camera;
+	const LightView view = make_camera_view(camera, p_size_px);
+	shader::FrameConstants frame = {};
+	frame.clip_from_camera_relative = glm::mat4(view.compute_clip_from_view() *
+			glm::dmat4(glm::dmat3(view.view_from_world))); // the camera is the origin
+	const glm::dmat3 &axes = camera.world_from_camera;
+	frame.right_tangent = glm::vec4(glm::vec3(axes[0]) * view.half_extent.x, 0.0f);
+	frame.up_tangent = glm::vec4(glm::vec3(axes[1]) * view.half_extent.y, 0.0f);
+	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f);
+	frame.size_px = p_size_px;
+	frame.near_m = camera.near_m;
+	frame.scene_size_m = static_cast<float>(p_scene.scene_size_m);
+	return frame;
+}
+
+glm::vec3 compute_position(const shader::FrameConstants &p_frame, glm::uvec2 p_size_px,
+		glm::uvec2 p_pixel, float p_depth) {
+	const glm::vec2 uv = (glm::vec2(p_pixel) + 0.5f) / glm::vec2(p_size_px);
+	return p_frame.near_m / p_depth *
+			(glm::vec3(p_frame.forward) + (2.0f * uv.x - 1.0f) * glm::vec3(p_frame.right_tangent) +
+					(1.0f - 2.0f * uv.y) * glm::vec3(p_frame.up_tangent));
+}
+
+} // namespace gnomon

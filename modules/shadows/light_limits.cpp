@@ -1,0 +1,146 @@
+#include "modules/shadows/light_limits.h"
+
+#include "modules/core/files.h"
+#include "modules/core/text.h"
+#include "modules/mesh_tools/triangle_distance.h"
+
+#include "shared/light_shared.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+const double MOST_SIZE_PER_CASTERS = 200; // receivers then move by a hundredth of the casters
+const double MOST_CASTERS_PER_SIZE = 5e3;
+
+const char *const WHERE_TO_READ = "; doc/stability.md tells the limits of each technique.";
+
+/// True when all of the box lies behind the light by more than its radius: what a spot does not
+/// shine at.
+bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
+	const glm::dvec3 direction = p_light.get_direction_world();
+	const glm::dvec3 farthest = glm::mix(
+			p_bounds.minimum, p_bounds.maximum, glm::greaterThan(direction, glm::dvec3(0.0)));
+	return glm::dot(farthest - p_light.position_world, direction) < -double(p_light.light_size_m);
+}
+
+} // namespace
+
+const InstanceSnapshot *LightLimits::find_near_caster(
+		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
+	std::vector<Search> now;
+	const InstanceSnapshot *found = nullptr;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const Bounds &bounds = instance.bounds_world;
+		if (!instance.casts_shadow || bounds.is_empty() ||
+				bounds.compute_distance(p_light.position_world) >= p_distance_m ||
+				(p_light.type == LightType::SPOT && is_behind(bounds, p_light))) {
+			continue;
+		}
+		uint64_t hash = compute_value_hash(instance.mesh->id, 1);
+		hash = compute_value_hash(instance.world_from_node, hash);
+		hash = compute_value_hash(p_light.position_world, hash);
+		hash = compute_value_hash(p_distance_m, hash);
+		const auto before = std::find_if(searches.begin(), searches.end(),
+				[&](const Search &p_search) { return p_search.hash == hash; });
+		Search search = { hash, false };
+		if (before != searches.end()) {
+			search = *before;
+		} else {
+			++search_count;
+			search.is_near = has_triangle_within(
+					*instance.mesh, instance.world_from_node, p_light.position_world, p_distance_m);
+		}
+		now.push_back(search);
+		if (search.is_near) {
+			found = &instance;
+			break;
+		}
+	}
+	searches = std::move(now);
+	return found;
+}
+
+const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_scene,
+		const LightSnapshot &p_light, const std::string &p_technique_id,
+		const ShadowLimits &p_limits) {
+	broken.clear();
+	const std::string light = text("Light \"", p_light.name, "\": ");
+	const std::string key = p_light.name + "/" + p_technique_id;
+	if (p_light.type != LightType::DIRECTIONAL && p_light.light_size_m > 0) {
+		const double radii = p_limits.least_caster_distance_radii;
+		if (const InstanceSnapshot *caster =
+						find_near_caster(p_scene, p_light, radii * p_light.light_size_m)) {
+			broken.push_back({ key + "/near_caster",
+					text(light, "caster \"", caster->node_name,
+							"\" comes nearer to its centre than ", radii,
+							" x light_size = ", format_number(radii * p_light.light_size_m),
+							" m, where the shadow of ", p_technique_id,
+							" is wrong. Lower light_size, move the light or the caster, or set "
+							"another shadow_technique",
+							WHERE_TO_READ) });
+		}
+	}
+	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
+	const char *size_property = is_directional ? "light_angular_distance" : "light_size";
+	const float derived_m = static_cast<float>(
+			p_light.get_disc_radius() * (is_directional ? p_scene.scene_size_m : 1.0));
+	const auto check_width = [&](const char *p_property, double p_width_m, double p_most_sizes) {
+		const double most_m = p_most_sizes * p_scene.scene_size_m;
+		if (p_width_m > most_m) {
+			const bool is_derived = float(p_width_m) == derived_m;
+			broken.push_back({ key + "/" + p_property,
+					text(light, p_property, is_derived ? ", derived from " : "",
+							is_derived ? size_property : "", is_derived ? "," : "", " is ",
+							format_number(p_width_m), " m, and ", p_technique_id,
+							" is wrong above ", format_number(most_m), " m (", p_most_sizes,
+							" of the scene's size). Lower ", is_derived ? size_property : "it",
+							", or set another shadow_technique", WHERE_TO_READ) });
+		}
+	};
+	check_width("penumbra_outer_width", p_light.penumbra_outer_width_m,
+			p_limits.most_outer_width_sizes);
+	check_width("penumbra_inner_width", p_light.penumbra_inner_width_m,
+			p_limits.most_inner_width_sizes);
+	return broken;
+}
+
+std::string describe_unfit_size(const SceneSnapshot &p_scene) {
+	const InstanceSnapshot *largest = nullptr;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (instance.casts_shadow &&
+				(largest == nullptr ||
+						instance.bounds_world.get_diagonal() >
+								largest->bounds_world.get_diagonal())) {
+			largest = &instance;
+		}
+	}
+	Bounds rest;
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (instance.casts_shadow && &instance != largest) {
+			rest.add(instance.bounds_world);
+		}
+	}
+	const double size_m = p_scene.scene_size_m;
+	const double rest_m = rest.get_diagonal();
+	if (rest_m > 0 && size_m > MOST_SIZE_PER_CASTERS * rest_m) {
+		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
+				largest->node_name, "\" lie within ", format_number(rest_m),
+				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
+				" m away from them. Set scene_size, in the scene's extras, to about ",
+				format_number(rest_m), ".");
+	}
+	const double all_m = p_scene.compute_caster_bounds().get_diagonal();
+	if (all_m > MOST_CASTERS_PER_SIZE * size_m) {
+		return text("The scene's size is ", format_number(size_m),
+				" m, and its casters reach over ", format_number(all_m),
+				" m: rounding shows as false shadows. Set scene_size, in the "
+				"scene's extras, to at least ",
+				format_number(all_m / MOST_CASTERS_PER_SIZE), ".");
+	}
+	return {};
+}
+
+} // namespace gnomon

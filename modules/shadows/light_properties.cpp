@@ -1,0 +1,131 @@
+#include "modules/shadows/light_properties.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/shadows/mask_filter.h"
+#include "modules/shadows/shadow_registry.h"
+
+#include <set>
+
+namespace gnomon {
+
+namespace {
+
+const char TECHNIQUE[] = "shadow_technique";
+
+/// The techniques to choose from, the default first.
+PropertyInfo make_choice(const PropertyInfo &p_info) {
+	PropertyInfo info = p_info;
+	if (ShadowRegistry::get_all().empty()) {
+		return info; // nothing to choose from
+	}
+	info.type = PropertyType::ENUM;
+	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
+	info.choice_tooltips = { text(
+			"The default", chosen != nullptr ? ": " + chosen->name : std::string()) };
+	for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_all()) {
+		info.hint += "," + technique.id;
+		info.choice_tooltips.push_back(technique.name + "\n" + technique.source);
+	}
+	return info;
+}
+
+std::vector<const PropertyList *> get_added_lists() {
+	std::vector<const PropertyList *> lists;
+	for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_all()) {
+		lists.push_back(&ShadowRegistry::get_light_properties(technique.id));
+	}
+	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_all()) {
+		lists.push_back(&MaskFilterRegistry::get_light_properties(filter.id));
+	}
+	return lists;
+}
+
+} // namespace
+
+void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
+	const Light3D *light = dynamic_cast<const Light3D *>(&p_node);
+	if (light == nullptr) {
+		return;
+	}
+	if (const PropertyInfo *info = r_list.find(TECHNIQUE)) {
+		r_list.replace(make_choice(*info));
+	}
+	LightSnapshot chosen; // of which the id alone is asked for: the light's place may be singular
+	chosen.name = light->name;
+	const auto stored = light->properties.find(TECHNIQUE);
+	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {
+		chosen.technique_id = std::get<std::string>(stored->second);
+	}
+	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, {}).info) {
+		for (const PropertyInfo &info :
+				ShadowRegistry::get_light_properties(technique->id).get_properties()) {
+			r_list.add(info);
+		}
+	}
+	for (const MaskFilterInfo &filter : MaskFilterRegistry::get_all()) {
+		for (const PropertyInfo &info :
+				MaskFilterRegistry::get_light_properties(filter.id).get_properties()) {
+			r_list.add(info);
+		}
+	}
+}
+
+const PropertyInfo *find_added_light_property(std::string_view p_name) {
+	for (const PropertyList *list : get_added_lists()) {
+		if (const PropertyInfo *info = list->find(p_name)) {
+			return info;
+		}
+	}
+	return nullptr;
+}
+
+std::vector<std::string> list_added_light_properties() {
+	std::vector<std::string> names;
+	for (const PropertyList *list : get_added_lists()) {
+		for (const PropertyInfo &info : list->get_properties()) {
+			names.push_back(info.name);
+		}
+	}
+	return names;
+}
+
+PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list) {
+	static std::set<std::string> reported;
+	PropertyValues values;
+	for (const PropertyInfo &info : p_list.get_properties()) {
+		values[info.name] = info.default_value;
+		const auto stored = p_light.properties.find(info.name);
+		if (stored == p_light.properties.end()) {
+			continue;
+		}
+		const std::string refusal = check_property(info, stored->second);
+		if (refusal.empty()) {
+			values[info.name] = convert_property(info, stored->second);
+		} else if (const std::string line = text("Light \"", p_light.name, "\" (",
+						   p_light.file_path, "): ", info.name, " ", refusal, ". The default, ",
+						   format_property(info.default_value), ", is used.");
+				   reported.insert(line).second) {
+			log_error(line);
+		}
+	}
+	for (const RemovedProperty &removed : p_list.get_removed()) {
+		if (const std::string line = text("Light \"", p_light.name, "\" (", p_light.file_path,
+					"): ", removed.name, " is not used any more. ", removed.advice,
+					" Remove it from the light's extras.");
+				p_light.properties.contains(removed.name) && reported.insert(line).second) {
+			log_warning(line);
+		}
+	}
+	return values;
+}
+
+void check_own_properties(const std::string &p_id, const PropertyList &p_list) {
+	for (const PropertyInfo &property : p_list.get_properties()) {
+		GNOMON_ASSERT(property.name.rfind(p_id + "_", 0) == 0, "property ", property.name,
+				" must begin with ", p_id, "_");
+		GNOMON_ASSERT(!property.tooltip.empty(), "property ", property.name, " has no tooltip");
+	}
+}
+
+} // namespace gnomon

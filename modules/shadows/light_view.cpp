@@ -1,0 +1,236 @@
+#include "modules/shadows/light_view.h"
+
+#include "modules/core/error.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+// One perspective map spreads its texels badly beyond this: 60 degrees has 4 times the texel size
+// at its corner that it has in the middle. Six views of 90 degrees are better from there on.
+constexpr float MAX_SINGLE_VIEW_RAD = 1.0471975512f;
+// Casters nearer than this part of S to the light are clamped to the near plane, or cut there, not
+// lost. A reversed depth of floats has the digits: from far : near = 10 to 1e7 no error grows
+// (doc/stability.md); 1e-4 cost edge_count all shadows of casters nearer than that.
+constexpr double NEAR_PER_SCENE_SIZE = 1e-8;
+// Keeps the view's extent finite for a cone of zero degrees.
+constexpr float MIN_TANGENT = 1e-4f;
+
+/// Rows are right, down and forward: world axes to view axes.
+glm::dmat4 make_view(const glm::dvec3 &p_right, const glm::dvec3 &p_down,
+		const glm::dvec3 &p_forward, const glm::dvec3 &p_origin_world) {
+	const glm::dmat3 rotation = glm::transpose(glm::dmat3(p_right, p_down, p_forward));
+	glm::dmat4 view(rotation);
+	view[3] = glm::dvec4(-(rotation * p_origin_world), 1.0);
+	return view;
+}
+
+float widen_for_border(uint32_t p_map_size_px, uint32_t p_border_px) {
+	GNOMON_ASSERT(
+			p_map_size_px > 2 * p_border_px, "map of ", p_map_size_px, " px, border ", p_border_px);
+	return static_cast<float>(p_map_size_px) / static_cast<float>(p_map_size_px - 2 * p_border_px);
+}
+
+template <typename Function> void for_each_corner(const Bounds &p_bounds, Function p_function) {
+	for (int corner = 0; corner < 8; ++corner) {
+		p_function(p_bounds.get_corner(corner));
+	}
+}
+
+LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
+	LightView view;
+	view.is_orthographic = true;
+	view.size_px = glm::uvec2(p_map_size_px);
+	const glm::dmat3 &axes = p_light.world_from_light;
+	Bounds bounds = p_scene.compute_caster_bounds();
+	if (bounds.is_empty()) {
+		bounds.add(p_scene.camera.position_world);
+	}
+	const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
+	view.view_from_world = make_view(axes[0], -axes[1], -axes[2], centre);
+	Bounds seen;
+	for_each_corner(bounds, [&](const glm::dvec3 &p_corner) {
+		seen.add(glm::dvec3(view.view_from_world * glm::dvec4(p_corner, 1.0)));
+	});
+	const double margin_m = 1e-3 * p_scene.scene_size_m + p_caster_margin_m;
+	// Origin on the near plane: depths are then positive and as small as can be.
+	view.view_from_world[3].z += margin_m - seen.minimum.z;
+	view.near_m = 0.0f;
+	view.far_m = static_cast<float>(seen.maximum.z - seen.minimum.z + 2 * margin_m);
+	const glm::dvec2 half_extent =
+			glm::max(glm::abs(glm::dvec2(seen.minimum)), glm::abs(glm::dvec2(seen.maximum)));
+	view.half_extent =
+			glm::vec2(half_extent + margin_m) * widen_for_border(p_map_size_px, p_border_px);
+	view.caster_margin_m = p_caster_margin_m;
+	return view;
+}
+
+} // namespace
+
+glm::dmat4 LightView::compute_clip_from_view() const {
+	glm::dmat4 clip(0.0);
+	clip[0][0] = 1.0 / half_extent.x;
+	clip[1][1] = 1.0 / half_extent.y;
+	if (is_orthographic) {
+		const double range_m = double(far_m) - near_m;
+		clip[2][2] = -1.0 / range_m; // (far - z) / (far - near)
+		clip[3][2] = far_m / range_m;
+		clip[3][3] = 1.0;
+	} else {
+		clip[3][2] = near_m; // depth = near / z
+		clip[2][3] = 1.0;
+	}
+	return clip;
+}
+
+glm::mat4 LightView::compute_clip_from_node(const glm::dmat4 &p_world_from_node) const {
+	return glm::mat4(compute_clip_from_view() * (view_from_world * p_world_from_node));
+}
+
+glm::mat4 LightView::compute_view_from_camera_relative(const CameraSnapshot &p_camera) const {
+	return glm::mat4(view_from_world * glm::translate(glm::dmat4(1.0), p_camera.position_world));
+}
+
+shader::LightViewConstants LightView::compute_constants(
+		const CameraSnapshot &p_camera, uint32_t p_layer) const {
+	shader::LightViewConstants constants = {};
+	constants.view_from_camera_relative = compute_view_from_camera_relative(p_camera);
+	constants.half_extent = half_extent;
+	constants.depth_scale = is_orthographic ? 1.0f / (far_m - near_m) : near_m;
+	constants.far_m = far_m;
+	constants.size_px = size_px;
+	constants.is_orthographic = is_orthographic ? 1u : 0u;
+	constants.layer = p_layer;
+	return constants;
+}
+
+bool LightView::may_see_box(
+		const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const {
+	// All corners further than the margin beyond one plane: outside. Planes: the four sides and
+	// z > 0 (perspective).
+	const glm::dvec2 slope = is_orthographic ? glm::dvec2(0.0) : glm::dvec2(half_extent);
+	const glm::dvec2 margin = p_margin_m * glm::sqrt(1.0 + slope * slope);
+	int outside_counts[5] = {};
+	for_each_corner(p_box, [&](const glm::dvec3 &p_corner) {
+		const glm::dvec3 p = glm::dvec3(p_view_from_box * glm::dvec4(p_corner, 1.0));
+		const glm::dvec2 limit = glm::dvec2(half_extent) * (is_orthographic ? 1.0 : p.z) + margin;
+		outside_counts[0] += p.x > limit.x;
+		outside_counts[1] += p.x < -limit.x;
+		outside_counts[2] += p.y > limit.y;
+		outside_counts[3] += p.y < -limit.y;
+		outside_counts[4] += !is_orthographic && p.z < -p_margin_m;
+	});
+	return std::none_of(std::begin(outside_counts), std::end(outside_counts),
+			[](int p_count) { return p_count == 8; });
+}
+
+bool LightView::may_see(const Bounds &p_bounds_world) const {
+	return !p_bounds_world.is_empty() &&
+			may_see_box(p_bounds_world, view_from_world, caster_margin_m);
+}
+
+bool LightView::may_see(const InstanceSnapshot &p_instance) const {
+	return may_see(p_instance.bounds_world) &&
+			may_see_box(p_instance.mesh->bounds_node, view_from_world * p_instance.world_from_node,
+					caster_margin_m);
+}
+
+namespace {
+
+glm::dvec2 compute_range_m(const Bounds &p_box, const glm::dmat4 &p_view_from_box) {
+	glm::dvec2 range(p_view_from_box[3].z); // the third row tells which corners
+	for (int axis = 0; axis < 3; ++axis) {
+		const double low = p_view_from_box[axis].z * p_box.minimum[axis];
+		const double high = p_view_from_box[axis].z * p_box.maximum[axis];
+		range += glm::dvec2(std::min(low, high), std::max(low, high));
+	}
+	return range;
+}
+
+} // namespace
+
+glm::dvec2 LightView::compute_distance_range_m(const Bounds &p_bounds_world) const {
+	return compute_range_m(p_bounds_world, view_from_world);
+}
+
+glm::dvec2 LightView::compute_distance_range_m(const InstanceSnapshot &p_instance) const {
+	return compute_range_m(
+			p_instance.mesh->bounds_node, view_from_world * p_instance.world_from_node);
+}
+
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
+	if (p_light.type == LightType::DIRECTIONAL) {
+		return { build_directional_view(
+				p_light, p_scene, p_map_size_px, p_border_px, p_caster_margin_m) };
+	}
+	const glm::dmat3 &axes = p_light.world_from_light;
+	LightView view;
+	view.size_px = glm::uvec2(p_map_size_px);
+	view.caster_margin_m = p_caster_margin_m;
+	view.near_m = static_cast<float>(NEAR_PER_SCENE_SIZE * p_scene.scene_size_m);
+	const float widening = widen_for_border(p_map_size_px, p_border_px);
+	if (p_light.type == LightType::SPOT && p_light.outer_cone_rad <= MAX_SINGLE_VIEW_RAD) {
+		view.view_from_world = make_view(axes[0], -axes[1], -axes[2], p_light.position_world);
+		const float tangent = std::max(std::tan(p_light.outer_cone_rad), MIN_TANGENT);
+		view.half_extent = glm::vec2(tangent * widening);
+		return { view };
+	}
+	std::vector<LightView> views;
+	view.half_extent = glm::vec2(widening);
+	for (int face = 0; face < 6; ++face) {
+		const int axis = face / 2;
+		const glm::dvec3 forward = axes[axis] * (face % 2 == 0 ? 1.0 : -1.0);
+		const glm::dvec3 right = axes[(axis + 1) % 3];
+		view.view_from_world =
+				make_view(right, glm::cross(forward, right), forward, p_light.position_world);
+		views.push_back(view);
+	}
+	return views;
+}
+
+shader::LightConstants compute_light_constants(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera) {
+	shader::LightConstants constants = {};
+	const glm::dvec3 position = p_light.type == LightType::DIRECTIONAL
+			? glm::dvec3(0.0)
+			: p_light.position_world - p_camera.position_world;
+	constants.position_radius = glm::vec4(glm::vec3(position), p_light.get_disc_radius());
+	constants.direction = glm::vec4(glm::vec3(p_light.get_direction_world()), 0.0f);
+	constants.intensity = glm::vec4(p_light.color * p_light.intensity, 0.0f);
+	constants.range_m = p_light.range_m;
+	constants.cos_outer = std::cos(p_light.outer_cone_rad);
+	constants.cos_inner = std::cos(p_light.inner_cone_rad);
+	constants.type = p_light.type == LightType::OMNI ? LIGHT_TYPE_OMNI
+			: p_light.type == LightType::SPOT		 ? LIGHT_TYPE_SPOT
+													 : LIGHT_TYPE_DIRECTIONAL;
+	return constants;
+}
+
+glm::mat4 compute_light_from_camera_relative(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera) {
+	const glm::dmat3 light_from_world = glm::transpose(p_light.world_from_light);
+	glm::dmat4 result(light_from_world);
+	result[3] =
+			glm::dvec4(light_from_world * (p_camera.position_world - p_light.position_world), 1.0);
+	return glm::mat4(result);
+}
+
+shader::LightViewsConstants compute_light_views_constants(const LightSnapshot &p_light,
+		const CameraSnapshot &p_camera, const std::vector<LightView> &p_views) {
+	GNOMON_ASSERT(p_views.size() <= MAX_LIGHT_VIEWS, p_views.size(), " views");
+	shader::LightViewsConstants constants = {};
+	for (uint32_t index = 0; index < p_views.size(); ++index) {
+		constants.views[index] = p_views[index].compute_constants(p_camera, index);
+	}
+	constants.light_from_camera_relative = compute_light_from_camera_relative(p_light, p_camera);
+	constants.view_count = static_cast<uint32_t>(p_views.size());
+	return constants;
+}
+
+} // namespace gnomon

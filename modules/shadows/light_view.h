@@ -1,0 +1,68 @@
+#pragma once
+
+#include "modules/scene/scene_snapshot.h"
+
+#include "shared/light_shared.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace gnomon {
+
+/// A camera placed at the light. View space: x right, y down, z along the view, metres, origin at
+/// the light (directional: at a point before the casters). See LightViewConstants for map space.
+struct LightView {
+	glm::dmat4 view_from_world = glm::dmat4(1.0);
+	bool is_orthographic = false;
+	glm::vec2 half_extent = glm::vec2(1.0f); // tangents, or metres when orthographic
+	float near_m = 0.001f;
+	float far_m = 1.0f; // orthographic only; a perspective view reaches to infinity
+	glm::uvec2 size_px = glm::uvec2(1024);
+	/// Casters up to this far beyond the view's sides are listed too: what a technique adds to them
+	/// may reach into it.
+	float caster_margin_m = 0.0f;
+
+	/// Vulkan clip space with reversed depth: 1 near .. 0 far.
+	glm::dmat4 compute_clip_from_view() const;
+	/// Composed in double, so that a scene far from the origin keeps its precision.
+	glm::mat4 compute_clip_from_node(const glm::dmat4 &p_world_from_node) const;
+	glm::mat4 compute_view_from_camera_relative(const CameraSnapshot &p_camera) const;
+	shader::LightViewConstants compute_constants(
+			const CameraSnapshot &p_camera, uint32_t p_layer) const;
+	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
+	/// behind it.
+	bool may_see(const Bounds &p_bounds_world) const;
+	/// As above, also of the instance's own box, which fits closer where it is turned.
+	bool may_see(const InstanceSnapshot &p_instance) const;
+	/// Least and greatest distance of the box along the view, metres; negative behind the view. Of
+	/// the whole box, wherever it lies.
+	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
+	glm::dvec2 compute_distance_range_m(const InstanceSnapshot &p_instance) const;
+	bool operator==(const LightView &) const = default;
+
+private:
+	/// Of a box in any space, grown by a margin to all sides.
+	bool may_see_box(
+			const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const;
+};
+
+/// Views that together hold everything the light reaches: 1 for a spot up to 60 degrees and for a
+/// directional light (fitted to the casters), 6 for omni and wider spots (those that the cone
+/// misses included, so that a view's index is its axis). A perspective view has border_px texels
+/// beyond the light's field on each side, so that a filter of that radius never leaves the map.
+/// p_caster_margin_m: how far a technique widens the casters; a directional view holds that too.
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m = 0.0f);
+
+/// The light in camera-relative space, as the shaders read it.
+shader::LightConstants compute_light_constants(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
+/// The light's own axes from camera-relative space, for find_view in light_view_inc.glsl.
+glm::mat4 compute_light_from_camera_relative(
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
+/// All views of one light as the shaders read them.
+shader::LightViewsConstants compute_light_views_constants(const LightSnapshot &p_light,
+		const CameraSnapshot &p_camera, const std::vector<LightView> &p_views);
+
+} // namespace gnomon

@@ -1,0 +1,57 @@
+#include "modules/shadows/mesh_store.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+
+namespace gnomon {
+
+const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
+	const auto found = meshes.find(p_mesh->id);
+	if (found != meshes.end()) {
+		return found->second;
+	}
+	GNOMON_ASSERT(!p_mesh->indices.empty(), "mesh ", p_mesh->name, " has no triangles");
+	GpuMesh mesh;
+	const auto upload = [&](const char *p_what, BufferUsage p_usage, auto p_values) {
+		const std::span<const uint8_t> bytes = bytes_of(p_values);
+		BufferDesc desc{ text(p_mesh->name, " ", p_what), bytes.size(),
+			p_usage | BufferUsage::COPY_TARGET };
+		return OwnedBuffer(device, device.create_buffer_with_data(desc, bytes));
+	};
+	mesh.positions = upload("positions", BufferUsage::VERTEX | BufferUsage::STORAGE,
+			std::span<const glm::vec3>(p_mesh->positions_node));
+	mesh.normals = upload(
+			"normals", BufferUsage::VERTEX, std::span<const glm::vec3>(p_mesh->normals_node));
+	mesh.indices = upload("indices", BufferUsage::INDEX | BufferUsage::STORAGE,
+			std::span<const uint32_t>(p_mesh->indices));
+	mesh.index_count = static_cast<uint32_t>(p_mesh->indices.size());
+	mesh.mesh = p_mesh;
+	return meshes.emplace(p_mesh->id, std::move(mesh)).first->second;
+}
+
+const GpuTopology &MeshStore::get_topology(const std::shared_ptr<const Mesh> &p_mesh) {
+	const auto found = topologies.find(p_mesh->id);
+	if (found != topologies.end()) {
+		return found->second;
+	}
+	return topologies.emplace(p_mesh->id, build_gpu_topology(device, p_mesh)).first->second;
+}
+
+void MeshStore::collect_garbage() {
+	const auto is_gone = [](const auto &p_entry) { return p_entry.second.mesh.expired(); };
+	const size_t gone_count = std::erase_if(meshes, is_gone) + std::erase_if(topologies, is_gone) +
+			std::erase_if(derived, is_gone);
+	if (gone_count > 0) {
+		drop_unused_topologies();
+	}
+}
+
+std::vector<VertexAttribute> get_position_attributes() {
+	return { { 0, 0, Format::R32_SFLOAT, 3, 0 } };
+}
+
+std::vector<VertexAttribute> get_position_normal_attributes() {
+	return { { 0, 0, Format::R32_SFLOAT, 3, 0 }, { 1, 1, Format::R32_SFLOAT, 3, 0 } };
+}
+
+} // namespace gnomon

@@ -1,0 +1,366 @@
+#include "modules/shadows/shadow_frame.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/light_properties.h"
+#include "modules/shadows/mask.h"
+#include "modules/shadows/nearest_caster.h"
+#include "modules/shadows/translucent_casters.h"
+#include "modules/shadows/view_fit.h"
+
+#include "shadows/shadows_shared.h"
+
+namespace gnomon {
+
+namespace {
+
+CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, bool p_may_cull) {
+	CasterList casters;
+	// Field by field: the struct has padding.
+	uint64_t hash = compute_value_hash(p_view.view_from_world, 1);
+	hash = compute_value_hash(p_view.half_extent, hash);
+	hash = compute_value_hash(p_view.size_px, hash);
+	hash = compute_value_hash(p_view.near_m, hash);
+	hash = compute_value_hash(p_view.far_m, hash);
+	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
+		const InstanceSnapshot &instance = p_scene.instances[index];
+		if (!instance.casts_shadow || (p_may_cull && !p_view.may_see(instance))) {
+			continue;
+		}
+		casters.instances.push_back(index);
+		hash = compute_value_hash(instance.mesh->id, hash);
+		hash = compute_value_hash(instance.world_from_node, hash);
+	}
+	casters.content_hash = hash;
+	return casters;
+}
+
+std::string describe_forced(const LightSnapshot &p_light, const TranslucentCasters &p_casters) {
+	if (p_casters.forced_count == 0) {
+		return {};
+	}
+	return text("Light \"", p_light.name, "\": ", p_casters.forced_count,
+			" translucent casters share the colour of others, as it can tell ",
+			TranslucentCasters::MAX_GROUP_COUNT,
+			" groups apart. Give casters of one colour the same transmission, or fewer colours.");
+}
+
+void check_surface(const RenderGraph &p_graph, RGTexture p_texture, const char *p_what,
+		Format p_format, glm::uvec2 p_size_px) {
+	if (!p_texture) {
+		return;
+	}
+	const TextureDesc desc = p_graph.get_desc(p_texture);
+	GNOMON_ASSERT(desc.format == p_format && desc.size_px == p_size_px, p_what, " is ",
+			desc.size_px.x, "x", desc.size_px.y, " ", get_format_name(desc.format), ", must be ",
+			p_size_px.x, "x", p_size_px.y, " ", get_format_name(p_format));
+}
+
+} // namespace
+
+void TechniquePlan::leave_out_light_view(uint32_t p_view_index, const std::string &p_reason) {
+	if (left_out_views.insert(p_view_index).second) {
+		leave_out(text("light view ", p_view_index), p_reason);
+	}
+}
+
+struct ShadowFrame::Work {
+	const LightSnapshot &light;
+	const ShadowTechniqueInfo &info;
+	const PropertyValues &properties;
+	const VisibleReceivers &lit_receivers;
+	LightShadow &shadow;
+	bool wants_debug_views;
+};
+
+ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan &r_plan,
+		std::shared_ptr<const SceneSnapshot> p_scene, glm::uvec2 p_size_px,
+		ShadowFrameOptions p_options) :
+		system(r_system),
+		graph(r_graph), plan(r_plan), scene(std::move(p_scene)), size_px(p_size_px),
+		options(std::move(p_options)) {
+	GNOMON_ASSERT(scene, "a frame needs a scene");
+	if (!options.technique_override.empty()) {
+		ShadowRegistry::get(options.technique_override);
+	}
+	system.begin_frame(*scene);
+	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px));
+	receivers = find_visible_receivers(*scene, make_camera_view(scene->camera, size_px));
+}
+
+ShadowFrame::~ShadowFrame() {
+	if (!has_ended) {
+		system.forget_kept();
+	}
+}
+
+void ShadowFrame::end() {
+	has_ended = true;
+	system.meshes->collect_garbage();
+}
+
+void ShadowFrame::set_surfaces(const HostSurfaces &p_surfaces) {
+	GNOMON_ASSERT(p_surfaces.depth, "a host draws depth");
+	check_surface(graph, p_surfaces.depth, "depth", Format::D32_SFLOAT, size_px);
+	check_surface(
+			graph, p_surfaces.geometric_normal, "geometric_normal", Format::R32_UINT, size_px);
+	check_surface(graph, p_surfaces.material, "material", Format::RGBA16_SFLOAT, size_px);
+	surfaces = p_surfaces;
+	if (!surfaces.geometric_normal) {
+		surfaces.geometric_normal = add_normals_pass();
+		plan.run("normals from depth");
+	}
+}
+
+RGTexture ShadowFrame::add_normals_pass() {
+	const RGTexture normals = graph.create_texture({ "geometric normal", Format::R32_UINT, size_px,
+			1, TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	add_compute_pass(graph, "normals from depth",
+			system.device.get_compute_pipeline(
+					{ "normals from depth", "shadows/normals_from_depth.comp", {} }),
+			{
+					PassBinding::constants(SURFACE_BINDING_FRAME, constants),
+					PassBinding::read(SURFACE_BINDING_DEPTH, surfaces.depth),
+					PassBinding::write(SURFACE_BINDING_RESULT, normals),
+			},
+			glm::uvec3(size_px, 1u));
+	return normals;
+}
+
+RGTexture ShadowFrame::add_receivers_pass(RGBuffer p_light_constants) {
+	const RGTexture result = graph.create_texture({ "receivers", Format::R8_UNORM, size_px, 1,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	add_compute_pass(graph, "receivers",
+			system.device.get_compute_pipeline({ "receivers", "shadows/receivers.comp", {} }),
+			{
+					PassBinding::constants(SURFACE_BINDING_FRAME, constants),
+					PassBinding::constants(SURFACE_BINDING_LIGHT, p_light_constants),
+					PassBinding::read(SURFACE_BINDING_DEPTH, surfaces.depth),
+					PassBinding::read(SURFACE_BINDING_NORMAL, surfaces.geometric_normal),
+					PassBinding::write(SURFACE_BINDING_RESULT, result),
+			},
+			glm::uvec3(size_px, 1u));
+	return result;
+}
+
+std::string ShadowFrame::describe_unlit(const LightSnapshot &p_light) const {
+	if (!find_lit_receivers(p_light, receivers).list.empty()) {
+		return {};
+	}
+	return text("the camera sees no surface",
+			p_light.type == LightType::SPOT			  ? " in its cone and range"
+					: p_light.type == LightType::OMNI ? " in its range"
+													  : "");
+}
+
+LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_debug_views) {
+	GNOMON_ASSERT(surfaces.depth, "set_surfaces comes before add_light");
+	graph.set_pass_prefix(p_light.name + ": ");
+	plan.set_light(p_light.name);
+	LightShadow shadow;
+	shadow.light_constants = graph.upload_constants(
+			"light constants", compute_light_constants(p_light, scene->camera));
+	shadow.receivers = add_receivers_pass(shadow.light_constants);
+	plan.run("receivers");
+	const VisibleReceivers lit = find_lit_receivers(p_light, receivers);
+	if (!p_light.casts_shadow) {
+		plan.leave_out("shadow", "shadow_enabled is false");
+		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
+	} else if (options.may_leave_out && lit.list.empty() && !p_wants_debug_views) {
+		plan.leave_out("shadow", describe_unlit(p_light));
+		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
+	} else {
+		shadow.mask = add_shadow(p_light, lit, shadow, p_wants_debug_views);
+	}
+	return shadow;
+}
+
+std::vector<LightShadow> ShadowFrame::add_all_lights() {
+	std::vector<LightShadow> shadows;
+	for (const LightSnapshot &light : scene->lights) {
+		shadows.push_back(add_light(light));
+	}
+	graph.set_pass_prefix("");
+	plan.set_light("");
+	return shadows;
+}
+
+void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer) {
+	const TextureDesc desc = graph.get_desc(p_array);
+	GNOMON_ASSERT(desc.size_px == size_px && p_layer < desc.layer_count, "layer ", p_layer, " of ",
+			desc.layer_count, ", ", desc.size_px.x, "x", desc.size_px.y);
+	const bool has_color = desc.format == Format::RGBA16_SFLOAT;
+	GNOMON_ASSERT(has_color || desc.format == Format::R16_SFLOAT, "masks are held as ",
+			get_format_name(desc.format));
+	shader::HoldPush push = {};
+	push.layer = p_layer;
+	add_compute_pass(graph, "hold mask",
+			system.device.get_compute_pipeline(
+					{ "hold mask", has_color ? "shadows/hold_color.comp" : "shadows/hold_gray.comp",
+							make_mask_constants(graph, p_shadow.mask) }),
+			{
+					PassBinding::read(HOLD_BINDING_MASK, p_shadow.mask),
+					PassBinding::read(HOLD_BINDING_RECEIVERS, p_shadow.receivers),
+					PassBinding::write(HOLD_BINDING_RESULT, p_array, PassBuilder::Content::UPDATE),
+			},
+			size_px, push);
+}
+
+ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work, const SceneSnapshot &p_scene,
+		std::span<const LightView> p_views, std::span<const CasterList> p_casters,
+		bool p_wants_debug_views) const {
+	return {
+		.device = system.device,
+		.meshes = *system.meshes,
+		.scene = p_scene,
+		.light = p_work.light,
+		.properties = p_work.properties,
+		.views = p_views,
+		.casters = p_casters,
+		.size_px = size_px,
+		.depth = surfaces.depth,
+		.geometric_normal = surfaces.geometric_normal,
+		.material = surfaces.material,
+		.receivers = p_work.shadow.receivers,
+		.frame = constants,
+		.light_constants = p_work.shadow.light_constants,
+		.may_leave_out = options.may_leave_out,
+		.may_keep = options.may_keep,
+		.wants_debug_views = p_wants_debug_views,
+		.lit_receivers = p_work.lit_receivers.list,
+	};
+}
+
+RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
+	const ShadowTechnique::Inputs inputs =
+			make_inputs(p_work, *scene, {}, {}, p_work.wants_debug_views);
+	TechniquePlan filter_plan(plan);
+	for (size_t index = 0; index < system.filters.size(); ++index) {
+		const MaskFilterInfo &info = MaskFilterRegistry::get_all()[index];
+		if (p_work.info.is_reference && info.spread) {
+			continue; // a reference has done already what filters approximate
+		}
+		const PropertyValues properties = resolve_light_properties(
+				p_work.light, MaskFilterRegistry::get_light_properties(info.id));
+		if (system.filters[index]->plan(inputs, properties, filter_plan)) {
+			p_mask = system.filters[index]->apply(graph, inputs, properties, p_mask);
+		}
+	}
+	return p_mask;
+}
+
+RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_technique,
+		const SceneSnapshot &p_scene, const std::string &p_run) {
+	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
+	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
+	std::vector<LightView> views;
+	r_technique.get_light_views(p_work.light, p_scene, p_work.properties, views);
+	std::vector<CasterList> casters;
+	for (LightView &view : views) {
+		if (r_technique.asks_receivers_alone()) {
+			fit_to_receivers(
+					view, p_work.lit_receivers, compute_fit_reach_m(view, p_work.light, p_scene));
+		}
+		casters.push_back(cull_casters(p_scene, view, options.may_leave_out));
+		// What is shown itself is seen, receivers or not.
+		casters.back().has_receivers =
+				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
+	}
+	const ShadowTechnique::Inputs inputs =
+			make_inputs(p_work, p_scene, views, casters, wants_debug_views);
+	r_technique.plan(inputs, technique_plan);
+	for (uint32_t index = 0; index < views.size(); ++index) {
+		if (technique_plan.is_light_view_left_out(index)) {
+			continue;
+		}
+		technique_plan.run(text("light view ", index));
+		r_technique.before_light_view(graph, inputs, index);
+		r_technique.at_light_view(graph, inputs, index);
+		r_technique.after_light_view(graph, inputs, index);
+	}
+	technique_plan.run("resolve");
+	const RGTexture mask = r_technique.resolve(graph, inputs);
+	if (wants_debug_views) {
+		r_technique.get_debug_views(p_work.shadow.debug_views);
+		for (ShadowTechnique::DebugView &view : p_work.shadow.debug_views) {
+			view.shown_range =
+					view.is_light_depth ? compute_shown_depths(inputs) : view.shown_range;
+		}
+	}
+	return mask;
+}
+
+RGTexture ShadowFrame::add_translucent_casters(
+		const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque) {
+	RGTexture mask = p_opaque;
+	for (size_t index = 0; index < p_casters.groups.size(); ++index) {
+		const TranslucentGroup &group = p_casters.groups[index];
+		const std::string name = text("translucent ", index + 1);
+		graph.set_pass_prefix(text(p_work.light.name, ": ", name, ": "));
+		ShadowSystem::Slot &slot = system.get_slot({ p_work.light.name, index + 1 }, p_work.info);
+		slot.scene = make_opaque_scene(*scene, p_casters, &group);
+		const RGTexture both = add_technique(p_work, *slot.technique, *slot.scene, name);
+		const RGTexture tinted = create_mask(graph, size_px, Format::RGBA16_SFLOAT);
+		add_compute_pass(graph, "tint",
+				system.device.get_compute_pipeline(
+						{ "tint", "shadows/tint.comp", make_mask_constants(graph, mask) }),
+				{
+						PassBinding::read(TINT_BINDING_OPAQUE, p_opaque),
+						PassBinding::read(TINT_BINDING_BOTH, both),
+						PassBinding::read(TINT_BINDING_BEFORE, mask),
+						PassBinding::write(TINT_BINDING_RESULT, tinted),
+				},
+				size_px, shader::TintPush{ glm::vec4(group.transmittance, 0.0f) });
+		mask = tinted;
+	}
+	graph.set_pass_prefix(p_work.light.name + ": ");
+	return mask;
+}
+
+RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleReceivers &p_lit,
+		LightShadow &r_shadow, bool p_wants_debug_views) {
+	const TechniqueChoice choice = choose_technique(p_light, options.technique_override);
+	system.warn_once(choice.warning);
+	if (!choice.info) {
+		plan.leave_out("shadow", "no technique is enabled");
+		return add_constant_mask(graph, size_px, 1.0f);
+	}
+	if (!choice.warning.empty()) {
+		plan.leave_out(p_light.technique_id, "not enabled; " + choice.info->id + " runs instead");
+	}
+	const PropertyValues properties = resolve_light_properties(
+			p_light, ShadowRegistry::get_light_properties(choice.info->id));
+	const Work work = { p_light, *choice.info, properties, p_lit, r_shadow, p_wants_debug_views };
+	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
+	slot.scene.reset();
+	for (const BrokenLimit &limit : slot.limits.find_broken(
+				 *scene, p_light, choice.info->id, slot.technique->get_limits(properties))) {
+		system.warn_once(limit.key, limit.warning);
+	}
+	RGTexture mask;
+	TranslucentCasters translucent;
+	if (!slot.technique->sees_translucent_casters()) {
+		translucent = find_translucent_casters(*scene, p_light);
+	}
+	std::erase_if(system.slots, [&](const auto &p_slot) { // of groups that there are no more
+		return p_slot.first.first == p_light.name &&
+				p_slot.first.second > translucent.groups.size();
+	});
+	if (translucent.is_empty()) {
+		mask = add_technique(work, *slot.technique, *scene, "");
+	} else {
+		system.warn_once(describe_forced(p_light, translucent));
+		slot.scene = make_opaque_scene(*scene, translucent, nullptr);
+		mask = add_technique(work, *slot.technique, *slot.scene, "");
+		mask = add_translucent_casters(work, translucent, mask);
+	}
+	mask = add_filters(work, mask);
+	if (p_wants_debug_views) {
+		r_shadow.debug_views.push_back({ "mask", mask });
+		r_shadow.debug_views.back().is_color = is_colored_mask(graph, mask);
+	}
+	return mask;
+}
+
+} // namespace gnomon

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "modules/shadows/registry.h"
+#include "modules/shadows/shadow_technique.h"
+#include "modules/shadows/truth_source.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+/// What a module says of a technique when it registers it.
+struct ShadowTechniqueInfo {
+	std::string id; // stored in scene files; never changes
+	std::string name;
+	std::string source; // paper, book, section
+	std::string color;	// "#rrggbb", its own: it is drawn so in every plot
+	std::function<std::unique_ptr<ShadowTechnique>()> make;
+	/// The highest rank is what a light without shadow_technique gets; 0 = never by default.
+	int default_rank = 0;
+	/// Takes over for lights whose technique is missing.
+	bool is_fallback = false;
+	/// Exact within its sampling error: what the others are measured against.
+	bool is_reference = false;
+	/// Of a reference: the same mask without a device, for whoever cannot wait for a frame. Empty:
+	/// there is no such way.
+	std::function<std::unique_ptr<TruthSource>(TruthQuestion)> make_truth_source = {};
+	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
+	bool is_example = false;
+};
+
+/// All techniques there are.
+class ShadowRegistry : public Registry<ShadowTechniqueInfo> {
+public:
+	/// As find; absent: an Error that lists the ids there are.
+	static const ShadowTechniqueInfo &get(std::string_view p_id);
+	/// Null where no candidate is registered.
+	static const ShadowTechniqueInfo *find_default();
+	static const ShadowTechniqueInfo *find_fallback();
+	static const ShadowTechniqueInfo *find_reference();
+};
+
+/// Which technique a light gets, and why another than it asks for.
+struct TechniqueChoice {
+	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
+	std::string warning;					   // empty when the light gets what it asks for
+};
+/// p_override: an id that replaces every light's own; must exist when not empty.
+TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string &p_override);
+
+} // namespace gnomon

@@ -1,0 +1,47 @@
+// What tests ask of each registered technique, without naming one.
+
+#pragma once
+
+#include "modules/shadows/tests/mask_fixture.h"
+
+#include <doctest/doctest.h>
+
+namespace gnomon {
+
+inline constexpr LightType ALL_TYPES[] = { LightType::SPOT, LightType::OMNI,
+	LightType::DIRECTIONAL };
+
+template <typename Function> void for_each_technique(Function p_function) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
+		CAPTURE(info.id);
+		p_function(info);
+	}
+}
+
+template <typename Function> void for_each_technique_and_type(Function p_function) {
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		for (LightType type : ALL_TYPES) {
+			CAPTURE(get_light_type_name(type));
+			p_function(p_info, type);
+		}
+	});
+}
+
+/// Few reference rays and small maps, where tests ask for rules and not for precision: cheap
+/// settings for properties that make a technique slow; by name's ending, not by technique.
+inline void make_cheap(Light3D &r_light) {
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
+		for (const PropertyInfo &property :
+				ShadowRegistry::get_light_properties(info.id).get_properties()) {
+			if (property.name.ends_with("_samples")) {
+				r_light.properties[property.name] = int64_t(64);
+			} else if (property.name.ends_with("_count")) {
+				r_light.properties[property.name] = int64_t(4);
+			} else if (property.name.ends_with("_map_size")) {
+				r_light.properties[property.name] = int64_t(256);
+			}
+		}
+	}
+}
+
+} // namespace gnomon

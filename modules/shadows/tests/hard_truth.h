@@ -1,0 +1,101 @@
+#pragma once
+
+#include "modules/mesh_tools/ray_tree.h"
+#include "modules/shadows/tests/mask_fixture.h"
+
+#include <functional>
+
+// What a hard shadow is compared with.
+
+namespace gnomon {
+
+/// How a mask differs from what rays to the light's centre say, over receivers.
+struct HardDifference {
+	size_t receiver_count = 0;
+	size_t hidden_count = 0;
+	size_t wrong_count = 0;
+	/// Of the wrong ones: no place within two offsets of what a 64th of the pixel covers would make
+	/// them right.
+	size_t unexplained_count = 0;
+};
+
+/// Rays to the light's centre, in double. Pictures are square.
+class HardTruth {
+public:
+	explicit HardTruth(const SmallScene &p_scene) : scene(p_scene.snap()) {
+		for (const InstanceSnapshot &instance : scene->instances) {
+			if (instance.casts_shadow) {
+				trees.push_back({ RayTree(instance.mesh), glm::inverse(instance.world_from_node) });
+			}
+		}
+	}
+
+	/// p_counts: of a surface relative to the camera, does it count? Empty: every receiver does.
+	HardDifference compare(const MaskResult &p_frame,
+			const std::function<bool(const SurfacePoint &)> &p_counts = {}) const {
+		HardDifference difference;
+		const double offset_m = 5e-5 * scene->scene_size_m;
+		for (size_t index = 0; index < p_frame.visibility.size(); ++index) {
+			if (p_frame.receiver[index] <= 0) {
+				continue;
+			}
+			const SurfacePoint &surface = p_frame.surfaces[index];
+			if (p_counts && !p_counts(surface)) {
+				continue;
+			}
+			const glm::dvec3 normal = glm::normalize(glm::dvec3(surface.geometric_normal));
+			const glm::dvec3 place_world =
+					scene->camera.position_world + glm::dvec3(surface.position) + normal * offset_m;
+			const bool is_hidden = find_hidden(place_world);
+			const bool is_dark = p_frame.visibility[index] < 0.5f;
+			++difference.receiver_count;
+			difference.hidden_count += is_hidden ? 1 : 0;
+			if (is_hidden == is_dark) {
+				continue;
+			}
+			++difference.wrong_count;
+			// The surface's places that lie within a 64th of the pixel, and a little off each.
+			const double pixel_m = 2 * std::tan(0.5 * scene->camera.vertical_fov_rad) *
+					glm::length(surface.position) / std::sqrt(double(p_frame.visibility.size()));
+			const glm::dvec3 view = glm::normalize(glm::dvec3(surface.position));
+			const double reach_m =
+					std::min(pixel_m / 64 / std::max(-glm::dot(view, normal), 1e-6), 10 * pixel_m);
+			bool is_explained = false;
+			for (int place = 0; place < 81; ++place) {
+				const glm::dvec3 step(place % 3 - 1, place / 3 % 3 - 1, place / 9 % 3 - 1);
+				const glm::dvec3 along = view * (reach_m * (place / 27 - 1));
+				is_explained = is_explained ||
+						find_hidden(place_world + along + step * (2 * offset_m)) == is_dark;
+			}
+			difference.unexplained_count += is_explained ? 0 : 1;
+		}
+		return difference;
+	}
+
+private:
+	struct Tree {
+		RayTree rays;
+		glm::dmat4 node_from_world;
+	};
+
+	bool find_hidden(const glm::dvec3 &p_place_world) const {
+		const LightSnapshot &light = scene->lights[0];
+		const bool is_point = light.type != LightType::DIRECTIONAL;
+		const glm::dvec3 ray =
+				is_point ? light.position_world - p_place_world : -light.get_direction_world();
+		for (const Tree &tree : trees) {
+			const auto hit = tree.rays.find_nearest(
+					glm::dvec3(tree.node_from_world * glm::dvec4(p_place_world, 1.0)),
+					glm::dvec3(tree.node_from_world * glm::dvec4(ray, 0.0)));
+			if (hit && (!is_point || *hit < 1.0)) {
+				return true;
+			}
+		}
+		return false;
+	}
+
+	std::shared_ptr<const SceneSnapshot> scene;
+	std::vector<Tree> trees;
+};
+
+} // namespace gnomon

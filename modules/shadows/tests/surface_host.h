@@ -1,0 +1,76 @@
+#pragma once
+
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/shadow_frame.h"
+
+// The smallest host that shadows can have: it draws depth, normals and materials, and no light.
+
+namespace gnomon {
+
+/// Adds the pass that draws what the camera sees.
+inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shadows,
+		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame) {
+	const auto create = [&](const char *p_name, Format p_format, TextureUsage p_usage) {
+		return r_graph.create_texture({ p_name, p_format, p_size_px, 1,
+				p_usage | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	};
+	const HostSurfaces surfaces = {
+		create("depth", Format::D32_SFLOAT, TextureUsage::DEPTH_ATTACHMENT),
+		create("normal", Format::R32_UINT, TextureUsage::COLOR_ATTACHMENT),
+		create("material", Format::RGBA16_SFLOAT, TextureUsage::COLOR_ATTACHMENT),
+	};
+	RasterPipelineDesc desc;
+	desc.name = "surfaces";
+	desc.vertex_shader = "tests/surfaces.vert";
+	desc.fragment_shader = "tests/surfaces.frag";
+	desc.attributes = get_position_attributes();
+	desc.vertex_strides_bytes = { sizeof(glm::vec3) };
+	desc.color_formats = { Format::R32_UINT, Format::RGBA16_SFLOAT };
+	desc.depth_compare = CompareOp::GREATER;
+	const PipelineRID pipeline = r_shadows.get_device().get_raster_pipeline(desc);
+	struct Push {
+		glm::mat4 camera_relative_from_node;
+		glm::vec4 material;
+	};
+	struct Draw {
+		const GpuMesh *mesh;
+		Push push;
+		bool is_double_sided;
+		bool is_mirrored;
+	};
+	std::vector<Draw> draws;
+	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		if (camera_view.may_see(instance)) {
+			draws.push_back({ &r_shadows.get_meshes().get(instance.mesh),
+					{ p_scene.get_camera_relative_from_node(instance),
+							{ instance.material->scatter, instance.material->scatter_distance_m, 0,
+									0 } },
+					instance.material->is_double_sided, instance.is_mirrored() });
+		}
+	}
+	r_graph.add_pass("surfaces")
+			.reads(p_frame, Access::UNIFORM_READ)
+			.color(surfaces.geometric_normal)
+			.color(surfaces.material)
+			.depth(surfaces.depth, LoadOp::CLEAR, 0.0f)
+			.execute([=, draws = std::move(draws)](PassContext &p_context) {
+				CommandList &commands = p_context.commands;
+				commands.bind_pipeline(pipeline);
+				for (const Draw &draw : draws) {
+					const BufferRID vertices[] = { draw.mesh->positions.get() };
+					commands.bind_resources({ { 0, p_context.get(p_frame) },
+							{ 1, draw.mesh->positions.get() }, { 2, draw.mesh->indices.get() } });
+					commands.push_constants(draw.push);
+					commands.set_cull_mode(draw.is_double_sided ? CullMode::NONE : CullMode::BACK);
+					commands.set_winding(draw.is_mirrored ? CommandList::Winding::MIRRORED
+														  : CommandList::Winding::NORMAL);
+					commands.bind_vertex_buffers(vertices);
+					commands.bind_index_buffer(draw.mesh->indices.get());
+					commands.draw_indexed(draw.mesh->index_count);
+				}
+			});
+	return surfaces;
+}
+
+} // namespace gnomon

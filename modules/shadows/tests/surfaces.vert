@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared/frame_shared.h"
+
+// The host of the tests of shadows: what its camera sees, see surface_host.h.
+layout(set = 0, binding = 0) uniform Frame {
+	FrameConstants frame;
+};
+layout(push_constant) uniform Push {
+	mat4 camera_relative_from_node;
+	vec4 material;
+};
+
+layout(location = 0) in vec3 in_position_node;
+
+void main() {
+	gl_Position = frame.clip_from_camera_relative * (camera_relative_from_node * vec4(in_position_node, 1.0));
+}

@@ -1,0 +1,319 @@
+// What every technique must do, asked of each one that is registered; none is named here.
+
+#include "modules/core/embedded_shaders.h"
+#include "modules/core/error.h"
+#include "modules/shadows/tests/each_technique.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <set>
+
+using namespace gnomon;
+
+TEST_CASE("[GPU][Techniques] masks are finite, in 0..1, and hold light and shadow") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		const MaskResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(is_valid_mask(result));
+		size_t lit_count = 0;
+		size_t dark_count = 0;
+		for (size_t index = 0; index < result.visibility.size(); ++index) {
+			lit_count += result.receiver[index] > 0 && result.visibility[index] > 0.95f;
+			dark_count += result.receiver[index] > 0 && result.visibility[index] < 0.05f;
+		}
+		CHECK(lit_count > 500);
+		CHECK(dark_count > 30);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] without casters every receiver sees all of the light, exactly") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.ground->casts_shadow = false;
+		scene.box->casts_shadow = false;
+		const MaskResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(count_receivers(result) > 1000);
+		CHECK(result.visibility == result.receiver);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is lit") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.box->is_planar_receiver = true; // as the ground
+		// Wide and near the light; below it are all other receivers.
+		add_mesh(
+				scene.scene, "Plate", make_box_mesh("plate", { 9.0f, 0.02f, 9.0f }), { 0, 3.7, 0 });
+		const MaskResult result = fixture.render_mask(scene, p_info.id);
+		CHECK(count_receivers(result) > 0);
+		for (size_t index = 0; index < result.visibility.size(); ++index) {
+			// Less than a step of 8 bits: counted points beside an outline are rounded.
+			CHECK_MESSAGE(result.visibility[index] < 1.0f / 255.0f, "pixel ", index);
+			if (result.visibility[index] >= 1.0f / 255.0f) {
+				break;
+			}
+		}
+	});
+}
+
+TEST_CASE("[GPU][Techniques] what is left out does not change one bit of the mask") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.ground->casts_shadow = false; // leaves views without casters
+		const MaskResult all = fixture.render_mask(scene, p_info.id, glm::uvec2(64), false);
+		const MaskResult first = fixture.render_mask(scene, p_info.id);
+		const MaskResult second = fixture.render_mask(scene, p_info.id); // may keep
+		CHECK(all.visibility == first.visibility);
+		CHECK(all.visibility == second.visibility);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] scenes of any size and far from the origin have the same mask") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		const MaskResult result = fixture.render_mask(scene, p_info.id);
+		for (double scale : { 1e-3, 1e3 }) {
+			SmallScene scaled(p_type, scale);
+			make_cheap(*scaled.light);
+			CAPTURE(scale);
+			CHECK(compute_mask_difference(result, fixture.render_mask(scaled, p_info.id)) < 5e-3);
+		}
+		SmallScene moved(p_type, 1.0, { 1e5, -3e4, 7e4 });
+		make_cheap(*moved.light);
+		CHECK(compute_mask_difference(result, fixture.render_mask(moved, p_info.id)) < 5e-3);
+	});
+}
+
+namespace {
+
+/// One thing that is wrong with a scene, or extreme.
+struct HostileCase {
+	const char *name;
+	void (*change)(SmallScene &r_scene);
+};
+
+const HostileCase HOSTILE_CASES[] = {
+	{ "a light without size",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["light_size"] = 0.0;
+				r_scene.light->properties["light_angular_distance"] = 0.0;
+			} },
+	{ "a light larger than the scene",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["light_size"] = 10.0;
+				r_scene.light->properties["light_angular_distance"] = 90.0;
+				r_scene.light->properties["penumbra_outer_width"] = 10.0;
+			} },
+	{ "the light inside the box",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0, 1.0, 0 }, { 0, 0, 0.01 });
+			} },
+	{ "the light on the ground",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 1, 0, 0 }, { 0, 0, 0 });
+			} },
+	{ "the light below everything",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0, -5, 0 }, { 0, -8, 0.1 });
+			} },
+	{ "a caster across the light's near plane",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
+						{ 1.2, 3.0, 0.8 });
+			} },
+	{ "a caster a million times as far as the near plane",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Far", make_box_mesh("far", { 200.0f, 1.0f, 200.0f }),
+						{ 0, -400, 0 });
+			} },
+	{ "silhouette edges seen end-on",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node =
+						glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
+								glm::dvec4(0, 1, 0, 0), glm::dvec4(0.5, 4, 0.4, 1));
+			} },
+	{ "widths larger than the casters",
+			[](SmallScene &r_scene) {
+				r_scene.light->properties["penumbra_outer_width"] = 30.0;
+				r_scene.light->properties["penumbra_inner_width"] = 1e4;
+			} },
+	{ "the light at a corner of the box",
+			[](SmallScene &r_scene) {
+				r_scene.light->parent_from_node = look_at({ 0.5, 1.3, 0.4 }, { 0, 0, 0 });
+			} },
+	{ "more casters behind each other than layers",
+			[](SmallScene &r_scene) {
+				for (int sheet = 0; sheet < 12; ++sheet) {
+					add_mesh(r_scene.scene, text("Sheet ", sheet),
+							make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }),
+							{ 0, 1.4 + 0.1 * sheet, 0 });
+				}
+			} },
+	{ "slivers, duplicates, zero area and zero normals",
+			[](SmallScene &r_scene) {
+				std::vector<glm::vec3> positions = { { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 },
+					{ 0.5f, 2, 1e-7f }, { 0, 2, 0 }, { 0, 2, 1 } };
+				add_mesh(r_scene.scene, "Odd",
+						make_mesh("odd", positions, std::vector<glm::vec3>(6, glm::vec3(0.0f)),
+								{ 0, 1, 2, 0, 1, 3, 0, 0, 0, 0, 4, 5, 0, 1, 5, 0, 1, 5, 5, 1, 0 }),
+						{ 0, 0, 0 });
+			} },
+	{ "coincident receivers and casters",
+			[](SmallScene &r_scene) {
+				add_mesh(r_scene.scene, "Twin", make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f)),
+						{ 0, 1.0, 0 });
+			} },
+	{ "a narrow cone", [](SmallScene &r_scene) { r_scene.light->outer_cone_rad = 1e-3f; } },
+	{ "a cone of half a sphere",
+			[](SmallScene &r_scene) { r_scene.light->outer_cone_rad = 1.5707963f; } },
+};
+
+} // namespace
+
+TEST_CASE("[GPU][Techniques] hostile lights and meshes give masks in 0..1") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		for (const HostileCase &hostile : HOSTILE_CASES) {
+			CAPTURE(hostile.name);
+			SmallScene scene(p_type);
+			make_cheap(*scene.light);
+			hostile.change(scene);
+			CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, glm::uvec2(32))));
+		}
+	});
+}
+
+TEST_CASE("[GPU][Techniques] where nothing receives the mask is 0") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		scene.camera->parent_from_node = look_at({ 0, 9, 0 }, { 0, 20, 0.1 }); // the sky
+		const MaskResult result = fixture.render_mask(scene, p_info.id, glm::uvec2(16));
+		CHECK(count_receivers(result) == 0);
+		CHECK(is_valid_mask(result));
+	});
+}
+
+TEST_CASE("[GPU][Techniques] sixty-four lights are drawn in one frame") {
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		const PropertyValues properties = scene.light->properties;
+		for (int index = 1; index < 64; ++index) {
+			const double angle_rad = 0.1 * index;
+			scene.add_light(text("Light ", index), ALL_TYPES[index % 3],
+						 { 2 * std::cos(angle_rad), 3.5, 2 * std::sin(angle_rad) }, { 0, 0, 0 })
+					.properties = properties;
+		}
+		MaskRequest request;
+		request.scene = scene.snap();
+		request.size_px = glm::uvec2(16);
+		request.technique_override = p_info.id;
+		CHECK(fixture.render(request).masks.size() == 64);
+		// One of them answers as it does alone.
+		request.light = "Light 40";
+		const MaskResult among = fixture.render(request);
+		CHECK(is_valid_mask(among));
+		MaskFixture alone;
+		CHECK(alone.render(request).visibility == among.visibility);
+	});
+}
+
+TEST_CASE(
+		"[GPU][Techniques] a caster pressed flat casts the shadow of one of hardly any thickness") {
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		const glm::dmat4 place =
+				glm::rotate(scene.box->parent_from_node, 0.4, glm::normalize(glm::dvec3(1, 2, 3)));
+		std::vector<float> masks[2];
+		for (const int thickness : { 0, 1 }) {
+			scene.box->parent_from_node = glm::scale(place, glm::dvec3(1.3, 1e-6 * thickness, 0.8));
+			const MaskResult result = fixture.render_mask(scene, p_info.id);
+			CHECK(is_valid_mask(result));
+			masks[thickness] = result.visibility;
+		}
+		double difference = 0;
+		double hidden = 0;
+		for (size_t index = 0; index < masks[0].size(); ++index) {
+			difference += std::abs(double(masks[0][index]) - masks[1][index]);
+			hidden += 1.0 - masks[1][index];
+		}
+		CHECK(difference < 0.01 * hidden);
+	});
+}
+
+TEST_CASE("[GPU][Techniques] masks of one pixel and of odd sizes are whole") {
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		SmallScene scene;
+		make_cheap(*scene.light);
+		CHECK(fixture.render_mask(scene, p_info.id, { 1, 1 }).visibility.size() == 1);
+		CHECK(is_valid_mask(fixture.render_mask(scene, p_info.id, { 67, 13 })));
+	});
+}
+
+TEST_CASE("[Techniques] every shader file exists, every property has a tooltip and a range") {
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		for (const std::string &file : p_info.make()->get_shader_files()) {
+			CHECK_FALSE(find_embedded_shader(file).empty());
+		}
+		for (const PropertyInfo &property :
+				ShadowRegistry::get_light_properties(p_info.id).get_properties()) {
+			CHECK_MESSAGE(property.tooltip.size() > 10, property.name);
+			CHECK_MESSAGE(
+					(property.type == PropertyType::BOOL || property.type == PropertyType::STRING ||
+							property.hint.find(',') != std::string::npos),
+					property.name);
+		}
+		CHECK_FALSE(p_info.name.empty());
+		CHECK_FALSE(p_info.source.empty());
+	});
+}
+
+TEST_CASE("[Techniques] quality settings name properties that exist, with values in range") {
+	LightSnapshot light;
+	light.light_size_m = 0.4f;
+	light.penumbra_outer_width_m = 0.4f;
+	light.penumbra_inner_width_m = 0.4f;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		std::vector<QualitySetting> settings;
+		p_info.make()->get_quality_settings(light, settings);
+		std::set<std::string> names;
+		for (const QualitySetting &setting : settings) {
+			CAPTURE(setting.name);
+			CHECK(names.insert(setting.name).second);
+			for (const auto &[name, value] : setting.properties) {
+				const PropertyInfo *property =
+						ShadowRegistry::get_light_properties(p_info.id).find(name);
+				property = property ? property : Light3D::get_property_list().find(name);
+				REQUIRE_MESSAGE(property, name);
+				CHECK(check_property(*property, value) == "");
+			}
+		}
+	});
+}
+
+TEST_CASE("[Techniques] each has a colour of its own") {
+	std::set<std::string> colors;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		CHECK(p_info.color.size() == 7);
+		CHECK(p_info.color.find_first_not_of("0123456789abcdef", 1) == std::string::npos);
+		CHECK(p_info.color[0] == '#');
+		CHECK(colors.insert(p_info.color).second);
+	});
+}

@@ -1,0 +1,121 @@
+#include "modules/shadows/light_view.h"
+#include "modules/shadows/tests/mask_fixture.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+TEST_CASE("[LightView] depth is 1 at the near plane, falls with distance and stays above 0") {
+	SmallScene scene;
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	const LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1).at(0);
+	const glm::dmat4 clip = view.compute_clip_from_view();
+	const auto depth_at = [&](double p_z) {
+		const glm::dvec4 p = clip * glm::dvec4(0, 0, p_z, 1);
+		return p.z / p.w;
+	};
+	CHECK(depth_at(view.near_m) == doctest::Approx(1.0));
+	CHECK(depth_at(1.0) > depth_at(2.0));
+	CHECK(depth_at(1e6) > 0.0);
+}
+
+TEST_CASE("[LightView] the six views of an omni light see every direction") {
+	SmallScene scene(LightType::OMNI);
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	const std::vector<LightView> views = build_light_views(snapshot->lights[0], *snapshot, 512, 2);
+	REQUIRE(views.size() == 6);
+	for (int index = 0; index < 500; ++index) {
+		const double z = 1 - 2 * (index + 0.5) / 500;
+		const double angle = 2.4 * index;
+		const glm::dvec3 direction(
+				std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+		Bounds point;
+		point.add(snapshot->lights[0].position_world + direction);
+		int seen_count = 0;
+		for (const LightView &view : views) {
+			seen_count += view.may_see(point);
+		}
+		CHECK(seen_count >= 1);
+	}
+}
+
+TEST_CASE("[LightView] a directional view holds every caster") {
+	SmallScene scene(LightType::DIRECTIONAL);
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	const LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1).at(0);
+	for (const InstanceSnapshot &instance : snapshot->instances) {
+		for (const glm::vec3 &position : instance.mesh->positions_node) {
+			const glm::dvec4 clip = view.compute_clip_from_view() * view.view_from_world *
+					instance.world_from_node * glm::dvec4(position, 1.0);
+			CHECK(std::abs(clip.x) <= 1.0);
+			CHECK(std::abs(clip.y) <= 1.0);
+			CHECK(clip.z >= 0.0);
+			CHECK(clip.z <= 1.0);
+		}
+	}
+}
+
+TEST_CASE("[LightView] a box beside or behind a view is not seen by it") {
+	LightView view;
+	view.half_extent = glm::vec2(0.5f);
+	const auto may_see = [&](const glm::dvec3 &p_centre) {
+		Bounds bounds;
+		bounds.add(p_centre - 0.1);
+		bounds.add(p_centre + 0.1);
+		return view.may_see(bounds);
+	};
+	CHECK(may_see({ 0, 0, 2 }));
+	CHECK(may_see({ 1.05, 0, 2 }));
+	CHECK_FALSE(may_see({ 1.5, 0, 2 }));
+	CHECK_FALSE(may_see({ 0, 0, -2 }));
+	CHECK_FALSE(view.may_see(Bounds()));
+}
+
+TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box around it") {
+	SmallScene scene;
+	// A long rod along the view's side, outside of it; the box around it reaches into the view.
+	MeshInstance3D &rod = add_mesh(
+			scene.scene, "Rod", make_box_mesh("rod", { 2.0f, 0.01f, 0.01f }), { 1.3, 0, 2 });
+	rod.parent_from_node =
+			glm::rotate(rod.parent_from_node, -std::atan(2.0), glm::dvec3(0, 1, 0)); // x to z
+	const auto snapshot = scene.snap();
+	const InstanceSnapshot &instance = snapshot->instances.back();
+	LightView view;
+	view.half_extent = glm::vec2(0.5f);
+	CHECK(view.may_see(instance.bounds_world));
+	CHECK_FALSE(view.may_see(instance));
+	view.caster_margin_m = 1.0f; // now it is near enough
+	CHECK(view.may_see(instance));
+	view.caster_margin_m = 0.0f;
+	rod.parent_from_node[3] = glm::dvec4(0, 0, 2, 1);
+	CHECK(view.may_see(scene.snap()->instances.back()));
+	// Along the view.
+	rod.parent_from_node = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 3)),
+			glm::radians(45.0), glm::dvec3(0, 1, 0));
+	const auto turned = scene.snap();
+	const glm::dvec2 range_m = view.compute_distance_range_m(turned->instances.back());
+	CHECK(range_m.x == doctest::Approx(3 - (2.0 + 0.01) * std::sqrt(0.5)));
+	CHECK(range_m.y == doctest::Approx(3 + (2.0 + 0.01) * std::sqrt(0.5)));
+}
+
+TEST_CASE("[LightView] a margin lists casters beside the view, and a directional view holds it") {
+	SmallScene scene;
+	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+	LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1, 0.5f).at(0);
+	CHECK(view.caster_margin_m == 0.5f);
+	// Just beyond the right side, 2 m away.
+	const glm::dmat4 world_from_view = glm::inverse(view.view_from_world);
+	const double side_m = 2 * double(view.half_extent.x);
+	Bounds box;
+	box.add(glm::dvec3(world_from_view * glm::dvec4(side_m + 0.2, 0, 2, 1)));
+	CHECK(view.may_see(box));
+	view.caster_margin_m = 0.05f;
+	CHECK_FALSE(view.may_see(box));
+
+	SmallScene sunny(LightType::DIRECTIONAL);
+	const std::shared_ptr<const SceneSnapshot> day = sunny.snap();
+	const LightView narrow = build_light_views(day->lights[0], *day, 512, 1).at(0);
+	const LightView wide = build_light_views(day->lights[0], *day, 512, 1, 0.5f).at(0);
+	CHECK(wide.half_extent.x >= narrow.half_extent.x + 0.5f);
+	CHECK(wide.far_m - wide.near_m == doctest::Approx(narrow.far_m - narrow.near_m + 1.0f));
+}

@@ -1,0 +1,96 @@
+#include "modules/shadows/tests/mask_fixture.h"
+#include "modules/shadows/view_fit.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+/// What a directional view over a ground of 200 m sees of a box about the place.
+struct FittedScene {
+	SmallScene scene = SmallScene(LightType::DIRECTIONAL);
+	std::shared_ptr<const SceneSnapshot> snapshot;
+	LightView whole;
+
+	FittedScene() {
+		add_mesh(scene.scene, "Far", make_box_mesh("far", { 100.0f, 0.1f, 100.0f }), { 0, -1, 0 });
+		snapshot = scene.snap();
+		whole = build_light_views(snapshot->lights[0], *snapshot, 256, 1)[0];
+	}
+	VisibleReceivers make_receivers(const glm::dvec3 &p_place, double p_half_size_m) const {
+		VisibleReceivers receivers;
+		VisibleReceiver receiver;
+		receiver.bounds_world.add(p_place - p_half_size_m);
+		receiver.bounds_world.add(p_place + p_half_size_m);
+		receivers.add(receiver);
+		return receivers;
+	}
+	LightView fit(const glm::dvec3 &p_place, double p_half_size_m, double p_reach_m = 0.5) const {
+		LightView view = whole;
+		fit_to_receivers(view, make_receivers(p_place, p_half_size_m), p_reach_m);
+		return view;
+	}
+};
+
+} // namespace
+
+TEST_CASE("[LightView] a directional view is narrowed to the receivers and what reaches them") {
+	const FittedScene scene;
+	for (const glm::dvec3 &place :
+			{ glm::dvec3(0.0), glm::dvec3(31.0, 0.0, -17.0), glm::dvec3(-90.0, 0.0, 80.0) }) {
+		CAPTURE(place.x);
+		const LightView view = scene.fit(place, 2.0);
+		CHECK(view.half_extent.x < 0.1f * scene.whole.half_extent.x);
+		CHECK(view.near_m == scene.whole.near_m);
+		CHECK(view.far_m == scene.whole.far_m);
+		for (int corner = 0; corner < 8; ++corner) {
+			Bounds box;
+			box.add(place - 2.0);
+			box.add(place + 2.0);
+			const glm::dvec3 seen(view.view_from_world * glm::dvec4(box.get_corner(corner), 1.0));
+			CHECK(std::abs(seen.x) + 0.5 <= view.half_extent.x);
+			CHECK(std::abs(seen.y) + 0.5 <= view.half_extent.y);
+		}
+	}
+}
+
+TEST_CASE("[LightView] a narrowed view stays while what is seen moves a little") {
+	const FittedScene scene;
+	int change_count = 0;
+	LightView last = scene.fit(glm::dvec3(0.0), 2.0);
+	for (int step = 1; step <= 100; ++step) {
+		const LightView view = scene.fit(glm::dvec3(0.01 * step, 0.0, 0.0), 2.0);
+		change_count += view == last ? 0 : 1;
+		last = view;
+	}
+	CHECK(change_count <= 2);
+}
+
+TEST_CASE("[LightView] a view of which most is seen, or nothing, and a spot's stay as they are") {
+	const FittedScene scene;
+	CHECK(scene.fit(glm::dvec3(0.0), 90.0) == scene.whole);
+	CHECK(scene.fit(glm::dvec3(0.0), 2.0, 1000.0) == scene.whole);
+	CHECK(scene.fit(glm::dvec3(10000.0), 2.0) == scene.whole);
+	LightView view = scene.whole;
+	fit_to_receivers(view, {}, 0.5);
+	CHECK(view == scene.whole);
+	SmallScene spot(LightType::SPOT);
+	const auto snapshot = spot.snap();
+	const LightView before = build_light_views(snapshot->lights[0], *snapshot, 256, 1)[0];
+	view = before;
+	fit_to_receivers(view, scene.make_receivers(glm::dvec3(0.0), 0.1), 0.01);
+	CHECK(view == before);
+}
+
+TEST_CASE("[LightView] a view reaches as far beside receivers as the light and its widths do") {
+	const FittedScene scene;
+	LightSnapshot light = scene.snapshot->lights[0];
+	light.light_angular_distance_deg = 2.0f;
+	light.penumbra_outer_width_m = light.penumbra_inner_width_m = 0.0f;
+	const double depth_m = scene.whole.far_m - scene.whole.near_m;
+	const double narrow_m = compute_fit_reach_m(scene.whole, light, *scene.snapshot);
+	CHECK(narrow_m >= depth_m * std::tan(glm::radians(1.0)));
+	light.penumbra_outer_width_m = 1.0f;
+	CHECK(compute_fit_reach_m(scene.whole, light, *scene.snapshot) > narrow_m);
+}

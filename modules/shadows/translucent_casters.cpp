@@ -1,0 +1,125 @@
+#include "modules/shadows/translucent_casters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// What the light sees of a caster: a cone from its centre, or a cylinder along its direction.
+struct Shade {
+	glm::dvec3 place = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
+	double radius_m = 0;				// of the caster
+	double cosine = 1;					// of the cone's half angle
+	double sine = 0;
+	bool is_everywhere = false; // the cone is wider than a right angle, or the light inside
+};
+
+Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
+	Shade shade;
+	const glm::dvec3 centre = 0.5 * (p_bounds.minimum + p_bounds.maximum);
+	shade.radius_m = 0.5 * p_bounds.get_diagonal();
+	if (p_light.type == LightType::DIRECTIONAL) {
+		shade.place = centre;
+		return shade;
+	}
+	const double disc_radius = p_light.get_disc_radius();
+	const glm::dvec3 to_caster = centre - p_light.position_world;
+	const double distance = glm::length(to_caster);
+	shade.is_everywhere = !(shade.radius_m + disc_radius < distance);
+	if (!shade.is_everywhere) {
+		shade.place = to_caster / distance;
+		// From the disc's edge a caster is seen past the centre's cone by as much again.
+		const double half_rad = std::asin((shade.radius_m + disc_radius) / distance) +
+				std::asin(std::min(1.0, disc_radius / (distance - shade.radius_m)));
+		shade.is_everywhere = half_rad >= 1.57;
+		shade.cosine = std::cos(half_rad);
+		shade.sine = std::sin(half_rad);
+	}
+	return shade;
+}
+
+/// May a ray of the light meet both? False only where it is certain.
+bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade &p_right) {
+	if (p_left.is_everywhere || p_right.is_everywhere) {
+		return true;
+	}
+	if (p_light.type == LightType::DIRECTIONAL) {
+		const glm::dvec3 way = p_left.place - p_right.place;
+		const double along = glm::dot(way, p_light.get_direction_world());
+		const double across2 = std::max(glm::dot(way, way) - along * along, 0.0);
+		// Rays lean by half the light's angle at most between the two.
+		const double radii_m = p_left.radius_m + p_right.radius_m;
+		const double reach_m = radii_m + p_light.get_disc_radius() * (std::abs(along) + radii_m);
+		return across2 <= reach_m * reach_m;
+	}
+	// The angle between them is at most the sum of their half angles, which is below pi.
+	return glm::dot(p_left.place, p_right.place) >=
+			p_left.cosine * p_right.cosine - p_left.sine * p_right.sine;
+}
+
+} // namespace
+
+TranslucentCasters find_translucent_casters(
+		const SceneSnapshot &p_scene, const LightSnapshot &p_light) {
+	TranslucentCasters casters;
+	std::vector<std::vector<Shade>> shades; // of each group's casters
+	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
+		const InstanceSnapshot &instance = p_scene.instances[index];
+		const glm::vec3 transmittance = instance.compute_transmittance();
+		if (!instance.casts_shadow || transmittance == glm::vec3(0.0f)) {
+			continue;
+		}
+		casters.is_translucent.resize(p_scene.instances.size());
+		casters.is_translucent[index] = 1;
+		if (transmittance == glm::vec3(1.0f) || instance.bounds_world.is_empty()) {
+			continue;
+		}
+		const Shade shade = find_shade(p_light, instance.bounds_world);
+		size_t chosen = casters.groups.size();
+		for (size_t group = 0; group < casters.groups.size() && chosen == casters.groups.size();
+				++group) {
+			if (casters.groups[group].transmittance == transmittance &&
+					std::none_of(
+							shades[group].begin(), shades[group].end(), [&](const Shade &p_other) {
+								return may_overlap(p_light, shade, p_other);
+							})) {
+				chosen = group;
+			}
+		}
+		if (chosen == TranslucentCasters::MAX_GROUP_COUNT) {
+			const auto nearest = std::min_element(casters.groups.begin(), casters.groups.end(),
+					[&](const TranslucentGroup &p_left, const TranslucentGroup &p_right) {
+						return glm::distance(p_left.transmittance, transmittance) <
+								glm::distance(p_right.transmittance, transmittance);
+					});
+			chosen = static_cast<size_t>(nearest - casters.groups.begin());
+			++casters.forced_count;
+		} else if (chosen == casters.groups.size()) {
+			casters.groups.push_back({ {}, transmittance });
+			shades.emplace_back();
+		}
+		casters.groups[chosen].instances.push_back(index);
+		shades[chosen].push_back(shade);
+	}
+	return casters;
+}
+
+std::shared_ptr<const SceneSnapshot> make_opaque_scene(const SceneSnapshot &p_scene,
+		const TranslucentCasters &p_casters, const TranslucentGroup *p_group) {
+	auto scene = std::make_shared<SceneSnapshot>(p_scene);
+	for (size_t index = 0; index < p_casters.is_translucent.size(); ++index) {
+		if (p_casters.is_translucent[index] != 0) {
+			scene->instances[index].casts_shadow = false;
+		}
+	}
+	if (p_group != nullptr) {
+		for (const uint32_t index : p_group->instances) {
+			scene->instances[index].casts_shadow = true;
+		}
+	}
+	return scene;
+}
+
+} // namespace gnomon

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/shadows_shared.h"
+
+layout(push_constant) uniform Push {
+	DepthPush push;
+};
+
+layout(location = 0) in vec3 in_position_node;
+
+void main() {
+	// Every pass that draws casters from a light uses this one expression: equal bits, equal depth.
+	precise vec4 position_clip = push.clip_from_node * vec4(in_position_node, 1.0);
+	gl_Position = position_clip;
+}

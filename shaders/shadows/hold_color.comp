@@ -1,0 +1,15 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/hold_inc.glsl"
+
+layout(set = 0, binding = HOLD_BINDING_RESULT, rgba16f) uniform writeonly image2DArray result_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, imageSize(result_image).xy))) {
+		return;
+	}
+	const vec3 visibility = load_visibility(pixel);
+	imageStore(result_image, ivec3(pixel, push.layer), vec4(visibility, 1.0));
+}

@@ -1,0 +1,22 @@
+// Copies a mask into a layer of an array that outlives the frame; 0 where there is no receiver.
+#ifndef HOLD_INC_GLSL
+#define HOLD_INC_GLSL
+
+#include "common/mask_inc.glsl"
+#include "shadows/shadows_shared.h"
+
+layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
+layout(set = 0, binding = HOLD_BINDING_MASK) uniform texture2D mask_texture;
+layout(set = 0, binding = HOLD_BINDING_RECEIVERS) uniform texture2D receivers_texture;
+layout(constant_id = MASK_CONSTANT_IS_COLORED) const uint IS_COLORED = 0u;
+layout(push_constant) uniform Push {
+	HoldPush push;
+};
+
+vec3 load_visibility(ivec2 p_pixel) {
+	const vec4 mask = texelFetch(mask_texture, p_pixel, 0);
+	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;
+	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(0.0);
+}
+
+#endif

@@ -1,0 +1,33 @@
+#version 460
+#extension GL_EXT_samplerless_texture_functions : require
+#extension GL_GOOGLE_include_directive : require
+#include "common/depth_inc.glsl"
+#include "common/light_inc.glsl"
+#include "common/normal_inc.glsl"
+#include "shadows/shadows_shared.h"
+
+// Marks the pixels that the light can reach at all; every technique answers for these alone.
+layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
+layout(set = 0, binding = SURFACE_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(set = 0, binding = SURFACE_BINDING_LIGHT) uniform Light {
+	LightConstants light;
+};
+layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;
+layout(set = 0, binding = SURFACE_BINDING_NORMAL) uniform utexture2D normal_texture;
+layout(set = 0, binding = SURFACE_BINDING_RESULT, r8) uniform writeonly image2D receivers_image;
+
+void main() {
+	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(pixel, ivec2(frame.size_px)))) {
+		return;
+	}
+	const float depth = texelFetch(depth_texture, pixel, 0).r;
+	bool receives = false;
+	if (depth > 0.0) {
+		const vec3 normal = unpack_normal(texelFetch(normal_texture, pixel, 0).r);
+		receives = is_receiver(light, position_from_depth(frame, pixel, depth), normal);
+	}
+	imageStore(receivers_image, pixel, vec4(receives ? 1.0 : 0.0));
+}

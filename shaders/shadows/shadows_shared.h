@@ -1,0 +1,46 @@
+#ifndef SHADOWS_SHARED_H
+#define SHADOWS_SHARED_H
+#include "shared/shared_begin.h"
+
+// Bindings of receivers.comp and normals_from_depth.comp.
+#define SURFACE_BINDING_FRAME 0
+#define SURFACE_BINDING_LIGHT 1
+#define SURFACE_BINDING_DEPTH 2
+#define SURFACE_BINDING_NORMAL 3
+#define SURFACE_BINDING_RESULT 4
+#define SURFACE_GROUP_SIZE 8
+
+// Bindings of tint.comp.
+#define TINT_BINDING_OPAQUE 0 // the mask of the opaque casters
+#define TINT_BINDING_BOTH 1	  // of them and the group
+#define TINT_BINDING_BEFORE 2 // as coloured so far
+#define TINT_BINDING_RESULT 3
+
+// Bindings of hold_gray.comp and hold_color.comp.
+#define HOLD_BINDING_MASK 0
+#define HOLD_BINDING_RECEIVERS 1
+#define HOLD_BINDING_RESULT 2
+
+/// Push constants of depth.vert.
+struct SHARED_ALIGN DepthPush {
+	mat4 clip_from_node;
+};
+SHARED_SIZE(DepthPush, 64);
+
+/// Push constants of tint.comp.
+struct SHARED_ALIGN TintPush {
+	vec4 transmittance; // rgb
+};
+SHARED_SIZE(TintPush, 16);
+
+/// Push constants of hold_gray.comp and hold_color.comp.
+struct SHARED_ALIGN HoldPush {
+	uint layer; // of the array
+	uint padding0;
+	uint padding1;
+	uint padding2;
+};
+SHARED_SIZE(HoldPush, 16);
+
+#include "shared/shared_end.h"
+#endif
