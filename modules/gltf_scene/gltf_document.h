@@ -13,23 +13,6 @@
 
 namespace gnomon {
 
-/// What a light of the scene says, without its place.
-struct GltfLightState {
-	LightType type = LightType::OMNI;
-	glm::vec3 color = glm::vec3(1.0f);
-	float intensity = 1.0f;
-	float range_m = 0.0f;
-	float inner_cone_rad = 0.0f;
-	float outer_cone_rad = 0.785398163f;
-	PropertyValues properties;
-
-	explicit GltfLightState(const Light3D &p_light) :
-			type(p_light.type), color(p_light.color), intensity(p_light.intensity),
-			range_m(p_light.range_m), inner_cone_rad(p_light.inner_cone_rad),
-			outer_cone_rad(p_light.outer_cone_rad), properties(p_light.properties) {}
-	bool operator==(const GltfLightState &) const = default;
-};
-
 /// A node as it was loaded. What still equals it is not written.
 struct GltfNodeState {
 	bool is_loaded = false; // false: in no scene, or in another one
@@ -53,7 +36,7 @@ public:
 	std::vector<GltfNodeState> nodes; // by index in the file
 	/// By index of their node: what the scene named a light or camera that shares its node.
 	std::map<size_t, std::set<std::string>> part_names;
-	std::map<size_t, GltfLightState> lights;		   // by index of their node
+	std::map<size_t, LightSettings> lights;			   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // likewise: field of view, near plane
 	/// Where a light's properties stand besides its node: see find_blender_owner.
 	std::map<size_t, size_t> blender_owners;

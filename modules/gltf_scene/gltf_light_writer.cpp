@@ -30,7 +30,7 @@ void check_light(const Light3D &p_light) {
 	}
 }
 
-void write_punctual(const Light3D &p_light, const GltfLightState *p_before, Json &r_light) {
+void write_punctual(const Light3D &p_light, const LightSettings *p_before, Json &r_light) {
 	if (!p_before || p_light.type != p_before->type) {
 		r_light["type"] = p_light.type == LightType::OMNI ? "point"
 				: p_light.type == LightType::SPOT		  ? "spot"
@@ -110,7 +110,7 @@ Json &require_extras(Json &r_object) {
 	return extras;
 }
 
-void write_light(const Light3D &p_light, const GltfLightState *p_before, Json &r_light,
+void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
 		const std::vector<Json *> &p_nodes, Json *r_area) {
 	check_light(p_light);
 	write_punctual(p_light, p_before, r_light);

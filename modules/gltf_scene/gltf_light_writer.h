@@ -15,7 +15,7 @@ Json &require_extras(Json &r_object);
 /// property that was unset vanishes from p_nodes' extras too, else it would come back from there.
 /// r_area: a disc of EXT_lights_area that gets the light's size, as it outranks the extras; or
 /// null.
-void write_light(const Light3D &p_light, const GltfLightState *p_before, Json &r_light,
+void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
 		const std::vector<Json *> &p_nodes, Json *r_area);
 
 } // namespace gnomon

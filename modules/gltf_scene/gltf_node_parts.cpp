@@ -100,7 +100,7 @@ Json *GltfNodeWriter::own_area_light(Json &r_node) {
 void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
 	light_nodes.insert(p_entry.index);
 	const bool had_light = !p_entry.is_new && document->lights.contains(p_entry.index);
-	const GltfLightState *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
+	const LightSettings *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
 	Json definition = Json::object();
 	std::optional<size_t> old_index;
 	std::vector<Json *> places;

@@ -134,13 +134,7 @@ std::unique_ptr<Node3D> Light3D::copy() const {
 void Light3D::assign(const Node3D &p_other) {
 	Node3D::assign(p_other);
 	const Light3D &other = to<Light3D>(p_other);
-	type = other.type;
-	color = other.color;
-	intensity = other.intensity;
-	range_m = other.range_m;
-	inner_cone_rad = other.inner_cone_rad;
-	outer_cone_rad = other.outer_cone_rad;
-	properties = other.properties;
+	LightSettings::operator=(other);
 	file_path = other.file_path;
 }
 

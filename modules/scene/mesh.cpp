@@ -1,6 +1,7 @@
 #include "modules/scene/mesh.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 
 #include <atomic>
 #include <cmath>
@@ -102,6 +103,11 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 	for (const glm::vec3 &position : mesh->positions_node) {
 		mesh->bounds_node.add(glm::dvec3(position));
 	}
+	mesh->content_hash = compute_hash(bytes_of(std::span<const glm::vec3>(mesh->positions_node)));
+	mesh->content_hash = compute_hash(
+			bytes_of(std::span<const glm::vec3>(mesh->normals_node)), mesh->content_hash);
+	mesh->content_hash =
+			compute_hash(bytes_of(std::span<const uint32_t>(mesh->indices)), mesh->content_hash);
 	mesh->id = next_id++;
 	return mesh;
 }

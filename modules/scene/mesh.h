@@ -46,13 +46,15 @@ struct Mesh {
 	std::vector<glm::vec3> normals_node;   // unit, one per position
 	std::vector<uint32_t> indices;		   // three per triangle, each below the number of positions
 	Bounds bounds_node;
-	uint64_t id = 0; // unique in the process, see make_mesh
+	uint64_t id = 0;		   // unique in the process, see make_mesh
+	uint64_t content_hash = 0; // of positions, normals and indices
 
 	uint32_t get_triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
 };
 
 /// Checks sizes and indices (a mistake is an Error naming the mesh), fills missing or unusable
-/// normals by area-weighted face normals, computes the bounds and gives the mesh its id.
+/// normals by area-weighted face normals, computes the bounds and the hash, and gives the mesh its
+/// id.
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices);
 

@@ -18,29 +18,27 @@ template <typename T> const T &to(const Node3D &p_node) {
 	return static_cast<const T &>(p_node);
 }
 
-template <typename T, bool T::*MEMBER> PropertyValue read_flag(const Node3D &p_node) {
+template <typename T, auto MEMBER> PropertyValue read_flag(const Node3D &p_node) {
 	return to<T>(p_node).*MEMBER;
 }
 
-template <typename T, bool T::*MEMBER>
-void write_flag(Node3D &r_node, const PropertyValue &p_value) {
+template <typename T, auto MEMBER> void write_flag(Node3D &r_node, const PropertyValue &p_value) {
 	to<T>(r_node).*MEMBER = std::get<bool>(p_value);
 }
 
-template <typename T, float T::*MEMBER> PropertyValue read_number(const Node3D &p_node) {
+template <typename T, auto MEMBER> PropertyValue read_number(const Node3D &p_node) {
 	return double(to<T>(p_node).*MEMBER);
 }
 
-template <typename T, float T::*MEMBER>
-void write_number(Node3D &r_node, const PropertyValue &p_value) {
+template <typename T, auto MEMBER> void write_number(Node3D &r_node, const PropertyValue &p_value) {
 	to<T>(r_node).*MEMBER = float(std::get<double>(p_value));
 }
 
-template <typename T, float T::*MEMBER> PropertyValue read_degrees(const Node3D &p_node) {
+template <typename T, auto MEMBER> PropertyValue read_degrees(const Node3D &p_node) {
 	return DEGREES * double(to<T>(p_node).*MEMBER);
 }
 
-template <typename T, float T::*MEMBER>
+template <typename T, auto MEMBER>
 void write_degrees(Node3D &r_node, const PropertyValue &p_value) {
 	to<T>(r_node).*MEMBER = float(std::get<double>(p_value) / DEGREES);
 }

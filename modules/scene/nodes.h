@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/core/property.h"
+#include "modules/scene/light_settings.h"
 #include "modules/scene/material.h"
 #include "modules/scene/mesh.h"
 
@@ -87,22 +88,9 @@ public:
 	void assign(const Node3D &p_other) override;
 };
 
-enum class LightType { OMNI, SPOT, DIRECTIONAL };
-/// "omni", "spot", "directional".
-const char *get_light_type_name(LightType p_type);
-
 /// A light of KHR_lights_punctual, which shines along -Z of its node, and its shadow.
-class Light3D : public Node3D {
+class Light3D : public Node3D, public LightSettings {
 public:
-	LightType type = LightType::OMNI;
-	glm::vec3 color = glm::vec3(1.0f); // linear
-	float intensity = 1.0f;			   // cd (omni, spot) or lx (directional)
-	float range_m = 0.0f;			   // 0 = unlimited
-	float inner_cone_rad = 0.0f;	   // half angles, 0 <= inner < outer <= pi/2
-	float outer_cone_rad = 0.785398163f;
-	/// Only what was set, whether declared by get_property_list, by a technique, or by nobody in
-	/// this build: unknown properties survive a save untouched.
-	PropertyValues properties;
 	/// Where the properties stand in the file, for errors and for saving: "lights[0]". Empty =
 	/// none.
 	std::string file_path;

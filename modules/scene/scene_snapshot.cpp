@@ -1,6 +1,7 @@
 #include "modules/scene/scene_snapshot.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 
 #include <cmath>
 
@@ -54,7 +55,7 @@ glm::dmat3 compute_orientation(
 
 /// A property as every technique must read it. Values come checked from files and the inspector;
 /// code may set anything.
-PropertyValue read_property(const Light3D &p_light, std::string_view p_name) {
+PropertyValue read_property(const LightSnapshot &p_light, std::string_view p_name) {
 	const PropertyList &list = Light3D::get_property_list();
 	const PropertyInfo &info = *list.find(p_name);
 	const PropertyValue &value = get_property(list, p_light.properties, p_name);
@@ -66,7 +67,7 @@ PropertyValue read_property(const Light3D &p_light, std::string_view p_name) {
 	return convert_property(info, value);
 }
 
-float read_float(const Light3D &p_light, std::string_view p_name) {
+float read_float(const LightSnapshot &p_light, std::string_view p_name) {
 	return static_cast<float>(std::get<double>(read_property(p_light, p_name)));
 }
 
@@ -82,33 +83,13 @@ CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
 	return snapshot;
 }
 
-LightSnapshot build_light_snapshot_at(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
+LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
 	check_transform(p_light, p_world_from_node);
 	LightSnapshot snapshot;
+	static_cast<LightSettings &>(snapshot) = p_light;
 	snapshot.name = p_light.name;
-	snapshot.type = p_light.type;
 	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
 	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
-	snapshot.color = p_light.color;
-	snapshot.intensity = p_light.intensity;
-	snapshot.range_m = p_light.range_m;
-	snapshot.inner_cone_rad = p_light.inner_cone_rad;
-	snapshot.outer_cone_rad = p_light.outer_cone_rad;
-	snapshot.light_size_m = read_float(p_light, "light_size");
-	snapshot.light_angular_distance_deg = read_float(p_light, "light_angular_distance");
-	snapshot.casts_shadow = std::get<bool>(read_property(p_light, "shadow_enabled"));
-	snapshot.technique_id = std::get<std::string>(read_property(p_light, "shadow_technique"));
-	const float outer_width_m = read_float(p_light, "penumbra_outer_width");
-	const float inner_width_m = read_float(p_light, "penumbra_inner_width");
-	// -1 stays for a directional light, whose widths derive from S, see build_snapshot.
-	const float derived_m = snapshot.type == LightType::DIRECTIONAL ? -1.0f : snapshot.light_size_m;
-	snapshot.penumbra_outer_width_m = outer_width_m < 0 ? derived_m : outer_width_m;
-	snapshot.penumbra_inner_width_m = inner_width_m < 0 ? derived_m : inner_width_m;
-	for (const auto &[name, value] : p_light.properties) {
-		if (!Light3D::get_property_list().find(name)) {
-			snapshot.properties.emplace(name, value);
-		}
-	}
 	snapshot.file_path = p_light.file_path;
 	return snapshot;
 }
@@ -157,7 +138,7 @@ struct TreeReader {
 		const glm::dmat4 world_from_node = p_world_from_parent * p_node.parent_from_node;
 		check_transform(p_node, world_from_node);
 		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
-			snapshot.lights.push_back(build_light_snapshot_at(*light, world_from_node));
+			snapshot.lights.push_back(build_light_snapshot(*light, world_from_node));
 		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
 			read_surfaces(*instance, world_from_node);
 		}
@@ -166,32 +147,79 @@ struct TreeReader {
 		}
 	}
 
-	void read_surfaces(const MeshInstance3D &p_node, glm::dmat4 p_world_from_node) {
-		thicken_if_flat(p_world_from_node);
-		// A mesh without a material is still seen: it gets the plain one.
-		static const auto default_material = std::make_shared<const Material>();
+	void read_surfaces(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
 		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
 			if (!surface.mesh || surface.mesh->indices.empty()) {
 				continue;
 			}
-			InstanceSnapshot instance;
-			instance.mesh = surface.mesh;
-			instance.node_name = p_node.name;
-			instance.material = surface.material ? surface.material : default_material;
-			instance.world_from_node = p_world_from_node;
-			instance.bounds_world = transform_bounds(surface.mesh->bounds_node, p_world_from_node);
-			if (!std::isfinite(instance.bounds_world.get_diagonal())) {
-				fail("Node \"", p_node.name, "\": its vertices are not finite in the world. Make ",
-						"its scale smaller.");
-			}
-			instance.casts_shadow = p_node.casts_shadow;
-			instance.is_planar_receiver = p_node.is_planar_receiver;
-			snapshot.instances.push_back(std::move(instance));
+			snapshot.instances.push_back(
+					make_instance(surface.mesh, surface.material, p_world_from_node, p_node.name));
+			snapshot.instances.back().casts_shadow = p_node.casts_shadow;
+			snapshot.instances.back().is_planar_receiver = p_node.is_planar_receiver;
 		}
 	}
 };
 
 } // namespace
+
+InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
+		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,
+		const std::string &p_node_name) {
+	// A mesh without a material is still seen: it gets the plain one.
+	static const auto default_material = std::make_shared<const Material>();
+	InstanceSnapshot instance;
+	instance.mesh = std::move(p_mesh);
+	instance.material = p_material ? std::move(p_material) : default_material;
+	instance.node_name = p_node_name;
+	instance.world_from_node = p_world_from_node;
+	thicken_if_flat(instance.world_from_node);
+	instance.bounds_world = transform_bounds(instance.mesh->bounds_node, instance.world_from_node);
+	if (!std::isfinite(instance.bounds_world.get_diagonal())) {
+		fail("Node \"", p_node_name, "\": its vertices are not finite in the world. Make ",
+				"its scale smaller.");
+	}
+	return instance;
+}
+
+uint64_t CameraSnapshot::compute_hash(uint64_t p_seed) const {
+	uint64_t hash = compute_value_hash(position_world, p_seed);
+	hash = compute_value_hash(world_from_camera, hash);
+	hash = compute_value_hash(vertical_fov_rad, hash);
+	return compute_value_hash(near_m, hash);
+}
+
+void LightSnapshot::decide_settings(double p_scene_size_m) {
+	light_size_m = read_float(*this, "light_size");
+	light_angular_distance_deg = read_float(*this, "light_angular_distance");
+	casts_shadow = std::get<bool>(read_property(*this, "shadow_enabled"));
+	technique_id = std::get<std::string>(read_property(*this, "shadow_technique"));
+	const float derived_m = type == LightType::DIRECTIONAL
+			? std::min(get_disc_radius() * static_cast<float>(p_scene_size_m), MAX_WIDTH_M)
+			: light_size_m;
+	const auto decide_width = [&](const char *p_property, float &r_width_m, bool &r_is_derived) {
+		r_width_m = read_float(*this, p_property);
+		r_is_derived = r_width_m < 0;
+		r_width_m = r_is_derived ? derived_m : r_width_m;
+	};
+	decide_width("penumbra_outer_width", penumbra_outer_width_m, is_outer_width_derived);
+	decide_width("penumbra_inner_width", penumbra_inner_width_m, is_inner_width_derived);
+}
+
+uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
+	uint64_t hash = compute_value_hash(type, p_seed);
+	hash = compute_value_hash(position_world, hash);
+	hash = compute_value_hash(world_from_light, hash);
+	hash = compute_value_hash(range_m, hash);
+	hash = compute_value_hash(outer_cone_rad, hash);
+	return compute_value_hash(get_disc_radius(), hash);
+}
+
+uint64_t InstanceSnapshot::compute_hash(uint64_t p_seed) const {
+	uint64_t hash = compute_value_hash(mesh->content_hash, p_seed);
+	hash = compute_value_hash(world_from_node, hash);
+	hash = compute_value_hash(casts_shadow, hash);
+	return compute_value_hash(compute_transmittance(), hash);
+}
 
 float LightSnapshot::get_disc_radius() const {
 	if (type == LightType::DIRECTIONAL) {
@@ -234,10 +262,6 @@ Bounds SceneSnapshot::compute_caster_bounds() const {
 	return bounds;
 }
 
-LightSnapshot build_light_snapshot(const Light3D &p_light) {
-	return build_light_snapshot_at(p_light, p_light.compute_world_from_node());
-}
-
 std::shared_ptr<const SceneSnapshot> build_snapshot(
 		const Scene &p_scene, const Camera3D &p_camera) {
 	auto snapshot = std::make_shared<SceneSnapshot>();
@@ -248,11 +272,7 @@ std::shared_ptr<const SceneSnapshot> build_snapshot(
 	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M,
 			has_own_size ? p_scene.scene_size_m : snapshot->compute_caster_bounds().get_diagonal());
 	for (LightSnapshot &light : snapshot->lights) {
-		const float derived_m =
-				light.get_disc_radius() * static_cast<float>(snapshot->scene_size_m);
-		for (float *width_m : { &light.penumbra_outer_width_m, &light.penumbra_inner_width_m }) {
-			*width_m = *width_m < 0 ? std::min(derived_m, MAX_WIDTH_M) : *width_m;
-		}
+		light.decide_settings(snapshot->scene_size_m);
 	}
 	return snapshot;
 }

@@ -18,33 +18,37 @@ struct CameraSnapshot {
 	glm::dmat3 world_from_camera = glm::dmat3(1.0); // rotation only; looks along -Z
 	float vertical_fov_rad = 0.785398163f;
 	float near_m = 0.05f;
+
+	uint64_t compute_hash(uint64_t p_seed) const;
 };
 
-struct LightSnapshot {
+/// Its settings, its place, and what the settings decide.
+struct LightSnapshot : LightSettings {
 	std::string name;
-	LightType type = LightType::OMNI;
 	glm::dvec3 position_world = glm::dvec3(0.0);   // the light's centre L; unused for directional
 	glm::dmat3 world_from_light = glm::dmat3(1.0); // orthonormal; the light shines along -Z
-	glm::vec3 color = glm::vec3(1.0f);
-	float intensity = 1.0f;
-	float range_m = 0.0f; // 0 = unlimited
-	float inner_cone_rad = 0.0f;
-	float outer_cone_rad = 0.785398163f;
+	std::string file_path;						   // for messages: "lights[0]"
+
+	// Of the settings' properties, see decide_settings.
 	float light_size_m = 0.0f;				 // R: radius; spot and omni
 	float light_angular_distance_deg = 0.0f; // apparent diameter; directional
 	bool casts_shadow = true;
 	std::string technique_id; // empty = the registry's default
-	/// r and t of Sun et al. 2010, with -1 already replaced: by R for spot and omni; for
-	/// directional, whose R is a tangent, by R times S, so that a scaled scene has a scaled
-	/// penumbra.
+	/// r and t of Sun et al. 2010. Derived where they were not set: R for spot and omni; for
+	/// directional, whose R is a tangent, R times S, so that a scaled scene has a scaled penumbra.
 	float penumbra_outer_width_m = 0.0f;
 	float penumbra_inner_width_m = 0.0f;
-	PropertyValues properties; // the technique's; only what was set
-	std::string file_path;	   // for messages: "lights[0]"
+	bool is_outer_width_derived = true;
+	bool is_inner_width_derived = true;
 
 	glm::dvec3 get_direction_world() const { return -world_from_light[2]; }
 	/// R for spot and omni; the tangent of half the apparent diameter for directional.
 	float get_disc_radius() const;
+	/// Reads the properties that every light has. A value out of range is an Error that names the
+	/// light. p_scene_size_m: S.
+	void decide_settings(double p_scene_size_m);
+	/// Of all that the light's exact shadow depends on: type, place, range, cone and size.
+	uint64_t compute_hash(uint64_t p_seed) const;
 };
 
 struct InstanceSnapshot {
@@ -60,7 +64,16 @@ struct InstanceSnapshot {
 	bool is_mirrored() const;
 	/// What it leaves of the light that meets it, see Material::compute_transmittance.
 	glm::vec3 compute_transmittance() const;
+	/// Of all that its shadow depends on: its mesh's content, its place, and what it leaves of
+	/// light.
+	uint64_t compute_hash(uint64_t p_seed) const;
 };
+/// One that casts a shadow, as build_snapshot makes it. A transform that presses the mesh flat gets
+/// a least thickness. Vertices that are not finite in the world are an Error that names the node.
+/// p_material: null = the plain one. The mesh must have triangles.
+InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
+		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,
+		const std::string &p_node_name);
 
 /// Everything one frame needs of the scene, by value; never changes once built.
 struct SceneSnapshot {
@@ -84,7 +97,5 @@ struct SceneSnapshot {
 /// Reads the tree. The camera is p_camera. Nodes with a transform that is not finite are an Error
 /// that names them; singular transforms are allowed (they draw nothing).
 std::shared_ptr<const SceneSnapshot> build_snapshot(const Scene &p_scene, const Camera3D &p_camera);
-/// One light as build_snapshot reads it; only derived widths of a directional light stay -1.
-LightSnapshot build_light_snapshot(const Light3D &p_light);
 
 } // namespace gnomon

@@ -29,9 +29,7 @@ uint64_t compute_key(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_instances) {
 	uint64_t key = compute_value_hash(uint64_t(p_instances.size()), 1);
 	for (const uint32_t index : p_instances) {
-		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-		key = compute_value_hash(instance.mesh->id, key);
-		key = compute_value_hash(instance.world_from_node, key);
+		key = p_inputs.scene.instances[index].compute_hash(key);
 	}
 	for (const CasterList &casters : p_inputs.casters) {
 		key = compute_value_hash(casters.content_hash, key);

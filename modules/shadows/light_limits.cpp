@@ -30,6 +30,7 @@ bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 
 const InstanceSnapshot *LightLimits::find_near_caster(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, double p_distance_m) {
+	const uint64_t light_hash = p_light.compute_hash(compute_value_hash(p_distance_m, 1));
 	std::vector<Search> now;
 	const InstanceSnapshot *found = nullptr;
 	for (const InstanceSnapshot &instance : p_scene.instances) {
@@ -39,10 +40,7 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 				(p_light.type == LightType::SPOT && is_behind(bounds, p_light))) {
 			continue;
 		}
-		uint64_t hash = compute_value_hash(instance.mesh->id, 1);
-		hash = compute_value_hash(instance.world_from_node, hash);
-		hash = compute_value_hash(p_light.position_world, hash);
-		hash = compute_value_hash(p_distance_m, hash);
+		const uint64_t hash = instance.compute_hash(light_hash);
 		const auto before = std::find_if(searches.begin(), searches.end(),
 				[&](const Search &p_search) { return p_search.hash == hash; });
 		Search search = { hash, false };
@@ -85,25 +83,23 @@ const std::vector<BrokenLimit> &LightLimits::find_broken(const SceneSnapshot &p_
 	}
 	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
 	const char *size_property = is_directional ? "light_angular_distance" : "light_size";
-	const float derived_m = static_cast<float>(
-			p_light.get_disc_radius() * (is_directional ? p_scene.scene_size_m : 1.0));
-	const auto check_width = [&](const char *p_property, double p_width_m, double p_most_sizes) {
+	const auto check_width = [&](const char *p_property, double p_width_m, bool p_is_derived,
+									 double p_most_sizes) {
 		const double most_m = p_most_sizes * p_scene.scene_size_m;
 		if (p_width_m > most_m) {
-			const bool is_derived = float(p_width_m) == derived_m;
 			broken.push_back({ key + "/" + p_property,
-					text(light, p_property, is_derived ? ", derived from " : "",
-							is_derived ? size_property : "", is_derived ? "," : "", " is ",
+					text(light, p_property, p_is_derived ? ", derived from " : "",
+							p_is_derived ? size_property : "", p_is_derived ? "," : "", " is ",
 							format_number(p_width_m), " m, and ", p_technique_id,
 							" is wrong above ", format_number(most_m), " m (", p_most_sizes,
-							" of the scene's size). Lower ", is_derived ? size_property : "it",
+							" of the scene's size). Lower ", p_is_derived ? size_property : "it",
 							", or set another shadow_technique", WHERE_TO_READ) });
 		}
 	};
 	check_width("penumbra_outer_width", p_light.penumbra_outer_width_m,
-			p_limits.most_outer_width_sizes);
+			p_light.is_outer_width_derived, p_limits.most_outer_width_sizes);
 	check_width("penumbra_inner_width", p_light.penumbra_inner_width_m,
-			p_limits.most_inner_width_sizes);
+			p_light.is_inner_width_derived, p_limits.most_inner_width_sizes);
 	return broken;
 }
 

@@ -29,8 +29,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, b
 			continue;
 		}
 		casters.instances.push_back(index);
-		hash = compute_value_hash(instance.mesh->id, hash);
-		hash = compute_value_hash(instance.world_from_node, hash);
+		hash = instance.compute_hash(hash);
 	}
 	casters.content_hash = hash;
 	return casters;

@@ -67,13 +67,15 @@ auto get_state(const SmallScene &p_small) {
 
 TEST_CASE("[ErrorReport] a light of its own type gets the size and stays as it is otherwise") {
 	SmallScene small;
-	const LightSnapshot before = build_light_snapshot(*small.light);
+	const LightSnapshot before = build_snapshot(small.scene, *small.camera)->lights[0];
 	const LightSnapshot light = small.build(LightType::SPOT, 0.4);
 	CHECK(light.light_size_m == 0.4f);
 	CHECK(light.position_world == before.position_world);
 	CHECK(light.world_from_light == before.world_from_light);
 	CHECK(light.outer_cone_rad == 0.2f);
-	CHECK(light.properties == PropertyValues{ { "soft_taps", int64_t(8) } });
+	PropertyValues expected = before.properties;
+	expected["light_size"] = 0.4;
+	CHECK(light.properties == expected);
 }
 
 TEST_CASE("[ErrorReport] a directional light subtends what a disc of that radius does at 1.5 S") {
@@ -83,13 +85,15 @@ TEST_CASE("[ErrorReport] a directional light subtends what a disc of that radius
 	const double angle_deg = glm::degrees(2 * std::atan(0.4 / (1.5 * 4)));
 	CHECK(light.light_angular_distance_deg == doctest::Approx(angle_deg));
 	CHECK(light.get_disc_radius() == doctest::Approx(0.4 / 6));
-	CHECK(light.world_from_light == build_light_snapshot(*small.light).world_from_light);
+	CHECK(light.world_from_light ==
+			build_snapshot(small.scene, *small.camera)->lights[0].world_from_light);
 }
 
 TEST_CASE("[ErrorReport] a light of another type stays in place and looks at the casters' middle") {
 	for (const LightType type : { LightType::OMNI, LightType::DIRECTIONAL }) {
 		SmallScene small;
-		const glm::dvec3 position = build_light_snapshot(*small.light).position_world;
+		const glm::dvec3 position =
+				build_snapshot(small.scene, *small.camera)->lights[0].position_world;
 		const LightSnapshot light = small.build(type, 0.4);
 		CHECK(light.type == type);
 		CHECK(glm::length(light.position_world - position) < EXACT);
@@ -121,7 +125,8 @@ TEST_CASE("[ErrorReport] a light that was directional stands 1.5 S from the cast
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene small;
 		small.light->type = LightType::DIRECTIONAL;
-		const glm::dvec3 direction = build_light_snapshot(*small.light).get_direction_world();
+		const glm::dvec3 direction =
+				build_snapshot(small.scene, *small.camera)->lights[0].get_direction_world();
 		const LightSnapshot light = small.build(type, 0.4);
 		CHECK(glm::length(light.position_world - (MIDDLE - 6.0 * direction)) < EXACT);
 		CHECK(glm::length(light.get_direction_world() - direction) < EXACT);
@@ -140,7 +145,10 @@ TEST_CASE("[ErrorReport] properties that are given replace the light's own, size
 	SmallScene small;
 	const LightSnapshot light = small.build(LightType::SPOT, 0.4,
 			{ { "soft_taps", int64_t(64) }, { "penumbra_outer_width", -1.0 }, { "extra", true } });
-	CHECK(light.properties == PropertyValues{ { "extra", true }, { "soft_taps", int64_t(64) } });
+	CHECK(light.properties ==
+			PropertyValues{ { "extra", true }, { "light_angular_distance", 0.5 },
+					{ "light_size", 0.4 }, { "penumbra_outer_width", -1.0 },
+					{ "soft_taps", int64_t(64) } });
 	CHECK(light.penumbra_outer_width_m == 0.4f); // derived from the new size
 	CHECK(small.build(LightType::SPOT, 0.4, { { "light_size", 0.7 } }).light_size_m == 0.7f);
 }

@@ -37,20 +37,21 @@ TEST_CASE("[SceneSnapshot] r and t of -1 become the light's size, others stay") 
 	SmallScene small;
 	small.light->properties = { { "light_size", 0.4 }, { "penumbra_inner_width", 0.25 },
 		{ "x_taps", int64_t(8) } };
-	const LightSnapshot light = build_light_snapshot(*small.light);
+	const LightSnapshot light = small.build()->lights[0];
 	CHECK(light.penumbra_outer_width_m == 0.4f);
 	CHECK(light.penumbra_inner_width_m == 0.25f);
 	CHECK(light.get_disc_radius() == 0.4f);
 	CHECK(light.casts_shadow);
-	CHECK(light.properties == PropertyValues{ { "x_taps", int64_t(8) } });
+	CHECK(light.properties == small.light->properties);
+	CHECK(light.is_outer_width_derived);
+	CHECK_FALSE(light.is_inner_width_derived);
 }
 
 TEST_CASE("[SceneSnapshot] a directional light's disc is the tangent of half its diameter") {
 	SmallScene small;
 	small.light->type = LightType::DIRECTIONAL;
 	small.light->properties = { { "light_angular_distance", 90.0 } };
-	CHECK(build_light_snapshot(*small.light).get_disc_radius() ==
-			doctest::Approx(std::tan(M_PI / 4)));
+	CHECK(small.build()->lights[0].get_disc_radius() == doctest::Approx(std::tan(M_PI / 4)));
 }
 
 TEST_CASE("[SceneSnapshot] derived widths of a directional light grow with the scene, not R") {
@@ -81,7 +82,7 @@ TEST_CASE("[SceneSnapshot] a light's orientation ignores scale and mirroring") {
 	const glm::dmat4 turned =
 			glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
 	small.light->parent_from_node = turned * glm::scale(glm::dmat4(1.0), glm::dvec3(-2, 3, 1e-5));
-	const LightSnapshot light = build_light_snapshot(*small.light);
+	const LightSnapshot light = small.build()->lights[0];
 	const glm::dmat3 identity = glm::transpose(light.world_from_light) * light.world_from_light;
 	for (int axis = 0; axis < 3; ++axis) {
 		CHECK(glm::length(identity[axis] - glm::dmat3(1.0)[axis]) < 1e-12);
