@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine command_line demo stability removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
+PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
@@ -13,8 +13,8 @@ Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
                times, all stability sweeps
   --jobs N     build jobs (default: one a core)
-  --only PART  this part only; may be repeated. Parts: layers scenes build docs engine command_line
-               demo stability removal template sanitized fuzz_replay; with --full also sanitized_all
+  --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
+               command_line demo stability removal template sanitized fuzz_replay; with --full also sanitized_all
                threads tables editor_repeats large_meshes fuzz soak kills extremes; only when named:
                blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
@@ -207,6 +207,9 @@ fi
 if is_wanted engine; then
     run_part "engine slices" python3 tests/run_unittest.py tests/canaries/test_engine_slices.py
     run_part engine python3 tests/run_engine.py bin/gnomon_tests --processes "$jobs"
+fi
+if is_wanted embed; then
+    run_part embed python3 tests/run_unittest.py tests/embed/test_embed.py
 fi
 if is_wanted command_line; then
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \

@@ -32,6 +32,7 @@ struct VisibilityOptions {
 	std::string technique;
 	std::string out;
 	std::string png;
+	std::string surfaces;
 	std::string light;
 	std::string camera;
 	std::optional<std::string> size;
@@ -42,6 +43,7 @@ struct VisibilityOptions {
 	std::string time;
 	bool prints_plan = false;
 	bool leaves_out_nothing = false;
+	bool has_depth_alone = false;
 	bool is_still = false;
 };
 
@@ -64,6 +66,9 @@ void move_light(Light3D &r_light, const glm::dvec3 &p_offset_world) {
 void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_common) {
 	const glm::uvec2 size_px = choose_size(p_options.size, p_options.scene);
 	check_writable(p_options.out);
+	if (!p_options.surfaces.empty()) {
+		check_writable(fs::path(p_options.surfaces) / "depth.f32");
+	}
 	for (const std::string &path : { p_options.png, p_options.time }) {
 		if (!path.empty()) {
 			check_writable(path);
@@ -83,6 +88,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	request.mask_light = light.name;
 	request.wants_mask = true;
 	request.may_leave_out = !p_options.leaves_out_nothing;
+	request.has_depth_alone = p_options.has_depth_alone;
+	request.wants_surfaces = !p_options.surfaces.empty();
 
 	const bool moves = !p_options.motion.empty();
 	for (uint32_t index = 0; index < p_options.frame_count; ++index) {
@@ -107,6 +114,11 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		if (!p_options.png.empty()) {
 			save_mask_png(
 					moves ? number_path(p_options.png, index) : fs::path(p_options.png), mask);
+		}
+		if (!p_options.surfaces.empty()) {
+			const fs::path folder = p_options.surfaces;
+			save_file_atomically(folder / "depth.f32", result.depth_texels);
+			save_file_atomically(folder / "normal.u32", result.normal_texels);
 		}
 		if (p_options.prints_plan) {
 			std::printf("%s", result.plan.to_text().c_str());
@@ -154,6 +166,11 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "--time measures frames in which nothing moves, so that what is kept is used")
 			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
+	command->add_option("--surfaces", options.surfaces,
+			"A folder: also writes what shadows are asked about, depth.f32 and normal.u32 (see "
+			"doc/embedding.md)");
+	command->add_flag("--depth-alone", options.has_depth_alone,
+			"Makes geometric normals from the depth, as for a host that draws none");
 	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
 			"Runs also what the image does not need (for comparison)");
 	command->add_option("--device", r_common.device, "Index or part of the name");

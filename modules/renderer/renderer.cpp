@@ -41,9 +41,7 @@ struct Renderer::Frame {
 	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is asked for
 	bool has_asked_for_debug_view = false;
 	MaskReadback mask;
-	std::vector<uint8_t> depth_bytes;
-	std::vector<uint8_t> normal_bytes;
-	std::vector<uint8_t> material_bytes;
+	std::vector<uint8_t> material_texels;
 
 	Frame(Renderer &r_renderer, const RenderRequest &p_request, RenderResult &r_result) :
 			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
@@ -101,10 +99,11 @@ void Renderer::add_mask_only(Frame &r_frame) {
 		if (request.wants_mask) {
 			r_frame.mask.add(r_frame.graph, shadow.mask, shadow.receivers);
 			if (request.wants_surfaces) {
-				const GBuffer &gbuffer = r_frame.image.gbuffer;
-				add_readback(r_frame.graph, gbuffer.depth, r_frame.depth_bytes);
-				add_readback(r_frame.graph, gbuffer.geometric_normal, r_frame.normal_bytes);
-				add_readback(r_frame.graph, gbuffer.material, r_frame.material_bytes);
+				const HostSurfaces &surfaces = r_frame.shadows.get_surfaces();
+				add_readback(r_frame.graph, surfaces.depth, r_frame.result.depth_texels);
+				add_readback(
+						r_frame.graph, surfaces.geometric_normal, r_frame.result.normal_texels);
+				add_readback(r_frame.graph, surfaces.material, r_frame.material_texels);
 			}
 		} else {
 			r_frame.graph.add_pass("mask").reads(shadow.mask, Access::SHADER_READ_COMPUTE).keep();
@@ -223,7 +222,8 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
 				"outside the camera's view");
 	}
-	frame.shadows.set_surfaces({ gbuffer.depth, gbuffer.geometric_normal, gbuffer.material });
+	frame.shadows.set_surfaces({ gbuffer.depth,
+			p_request.has_depth_alone ? RGTexture() : gbuffer.geometric_normal, gbuffer.material });
 	if (p_request.mask_light.empty()) {
 		add_picture(frame);
 	} else {
@@ -244,11 +244,11 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	result.dot = frame.graph.to_dot();
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();
 	result.aliased_bytes = frame.graph.get_aliased_bytes();
-	if (!frame.depth_bytes.empty()) {
+	if (!result.depth_texels.empty()) {
 		result.surfaces =
 				read_surfaces(compute_frame_constants(scene, p_request.size_px), p_request.size_px,
-						{ frame.depth_bytes.data(), frame.normal_bytes.data(),
-								frame.material_bytes.data() });
+						{ result.depth_texels.data(), result.normal_texels.data(),
+								frame.material_texels.data() });
 	}
 	if (p_request.wants_mask && !p_request.mask_light.empty()) {
 		result.standard_error = shadows.get_standard_error(p_request.mask_light);

@@ -45,7 +45,7 @@ struct RenderRequest {
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
 	std::string mask_light;
 	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver
-	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces
+	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces and their texels
 	/// Gets the window's next image to show the picture in; see RenderGraph::import_window_image.
 	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
@@ -54,6 +54,8 @@ struct RenderRequest {
 	bool may_leave_out = true;
 	/// False: techniques use nothing that they kept of earlier frames, as if everything had moved.
 	bool may_keep = true;
+	/// True: shadows make geometric normals from the depth, as for a host that draws none.
+	bool has_depth_alone = false;
 };
 
 /// The mask's values are there when they were asked for.
@@ -66,9 +68,11 @@ struct RenderResult : MaskValues {
 	std::vector<std::string> debug_views; // that there are, when one was asked for
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
-	CommandCounts commands;				  // draws and dispatches of the frame
-	std::string dot;					  // the frame's graph for Graphviz
-	uint64_t unaliased_bytes = 0;		  // of transient textures, as if none shared memory
+	std::vector<uint8_t> depth_texels;	  // as HostSurfaces has them, with the surfaces
+	std::vector<uint8_t> normal_texels;
+	CommandCounts commands;		  // draws and dispatches of the frame
+	std::string dot;			  // the frame's graph for Graphviz
+	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 
 	/// The passes of one light, named without it.

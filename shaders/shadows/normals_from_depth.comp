@@ -5,9 +5,9 @@
 #include "common/normal_inc.glsl"
 #include "shadows/shadows_shared.h"
 
-// Geometric normals for a host that draws none: on each axis from the neighbour that lies on the same
-// surface. Stored depth, near / z, is linear in pixels on a plane, so that is the side on which two
-// steps on are twice one step.
+// Geometric normals for a host that draws none: on each axis from the neighbours that lie on the same
+// surface. Stored depth, near / z, is linear in pixels on a plane: of the three pixels ahead, around and
+// behind, those are taken whose depths lie closest to a line; where none do, the side with the smaller step.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(set = 0, binding = SURFACE_BINDING_FRAME) uniform Frame {
 	FrameConstants frame;
@@ -15,7 +15,8 @@ layout(set = 0, binding = SURFACE_BINDING_FRAME) uniform Frame {
 layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;
 layout(set = 0, binding = SURFACE_BINDING_RESULT, r32ui) uniform writeonly uimage2D result_image;
 
-const float NOWHERE = 1e30; // larger than every error
+const float NOWHERE = 1e30; // larger than every bend and step
+const float MOST_BEND = 0.25; // of the smaller step: three pixels that bend more are on no surface together
 
 float load_depth(ivec2 p_pixel) {
 	const bool is_inside = all(greaterThanEqual(p_pixel, ivec2(0))) &&
@@ -23,27 +24,41 @@ float load_depth(ivec2 p_pixel) {
 	return is_inside ? texelFetch(depth_texture, p_pixel, 0).r : 0.0;
 }
 
-/// How far the depths on that side are from a line, and from each other where that does not tell.
-float compute_error(float p_depth, ivec2 p_pixel, ivec2 p_step) {
-	const float near_depth = load_depth(p_pixel + p_step);
-	const float far_depth = load_depth(p_pixel + 2 * p_step);
-	if (near_depth <= 0.0) {
-		return NOWHERE;
-	}
-	return far_depth > 0.0 ? abs(far_depth - near_depth - (near_depth - p_depth))
-						   : abs(near_depth - p_depth);
+/// How far three depths in a row are from a line; NOWHERE where one is background.
+float compute_bend(vec3 p_depths) {
+	const bool is_there = min(min(p_depths.x, p_depths.y), p_depths.z) > 0.0;
+	return is_there ? abs(p_depths.x - 2.0 * p_depths.y + p_depths.z) : NOWHERE;
 }
 
-/// Along the surface by one pixel; zero where no neighbour tells.
-vec3 compute_tangent(vec3 p_position, float p_depth, ivec2 p_pixel, ivec2 p_step) {
-	const float ahead = compute_error(p_depth, p_pixel, p_step);
-	const float behind = compute_error(p_depth, p_pixel, -p_step);
-	if (min(ahead, behind) >= NOWHERE) {
-		return vec3(0.0);
+/// To a single neighbour; NOWHERE where it is background.
+float compute_step(float p_depth, float p_other) {
+	return p_other > 0.0 ? abs(p_other - p_depth) : NOWHERE;
+}
+
+vec3 position_at(ivec2 p_pixel, float p_depth) {
+	return position_from_depth(frame, p_pixel, p_depth);
+}
+
+/// Along the surface, of any length; zero where no neighbour tells.
+vec3 compute_tangent(ivec2 p_pixel, float p_depth, ivec2 p_step) {
+	const float ahead = load_depth(p_pixel + p_step);
+	const float behind = load_depth(p_pixel - p_step);
+	const float ahead_bend = compute_bend(vec3(p_depth, ahead, load_depth(p_pixel + 2 * p_step)));
+	const float behind_bend = compute_bend(vec3(p_depth, behind, load_depth(p_pixel - 2 * p_step)));
+	const float middle_bend = compute_bend(vec3(behind, p_depth, ahead));
+	const float least = min(min(ahead_bend, behind_bend), middle_bend);
+	bool uses_ahead = middle_bend == least || ahead_bend == least;
+	bool uses_behind = middle_bend == least || !uses_ahead;
+	const float ahead_step = compute_step(p_depth, ahead);
+	const float behind_step = compute_step(p_depth, behind);
+	if (least > MOST_BEND * min(ahead_step, behind_step)) { // the nearer neighbour, if there is one
+		uses_ahead = ahead_step < NOWHERE && ahead_step <= behind_step;
+		uses_behind = behind_step < NOWHERE && !uses_ahead;
 	}
-	const float side = ahead <= behind ? 1.0 : -1.0;
-	const ivec2 other = p_pixel + (ahead <= behind ? p_step : -p_step);
-	return side * (position_from_depth(frame, other, load_depth(other)) - p_position);
+	const vec3 here = position_at(p_pixel, p_depth);
+	const vec3 from = uses_behind ? position_at(p_pixel - p_step, behind) : here;
+	const vec3 to = uses_ahead ? position_at(p_pixel + p_step, ahead) : here;
+	return to - from;
 }
 
 void main() {
@@ -55,8 +70,8 @@ void main() {
 	uint packed = 0u;
 	if (depth > 0.0) {
 		const vec3 position = position_from_depth(frame, pixel, depth);
-		const vec3 along_x = compute_tangent(position, depth, pixel, ivec2(1, 0));
-		const vec3 along_y = compute_tangent(position, depth, pixel, ivec2(0, 1));
+		const vec3 along_x = compute_tangent(pixel, depth, ivec2(1, 0));
+		const vec3 along_y = compute_tangent(pixel, depth, ivec2(0, 1));
 		vec3 normal = cross(along_x, along_y);
 		const float length2 = dot(normal, normal);
 		normal = length2 > 0.0 ? normal * inversesqrt(length2) : -normalize(position);

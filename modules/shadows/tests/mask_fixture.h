@@ -99,6 +99,9 @@ struct MaskRequest {
 	bool wants_surfaces = false;
 	bool may_leave_out = true;
 	bool may_keep = true;
+	/// What the host does not give.
+	bool has_normals = true;
+	bool has_materials = true;
 };
 
 struct MaskResult : MaskValues {
@@ -136,9 +139,12 @@ struct MaskFixture {
 		RenderGraph graph(*device, *transients);
 		ShadowFrame frame(*shadows, graph, result.plan, p_request.scene, p_request.size_px,
 				{ p_request.technique_override, p_request.may_leave_out, p_request.may_keep });
-		const HostSurfaces surfaces = add_surface_pass(
+		const HostSurfaces drawn = add_surface_pass(
 				graph, *shadows, *p_request.scene, p_request.size_px, frame.get_constants());
-		frame.set_surfaces(surfaces);
+		frame.set_surfaces(
+				{ drawn.depth, p_request.has_normals ? drawn.geometric_normal : RGTexture(),
+						p_request.has_materials ? drawn.material : RGTexture() });
+		const HostSurfaces &surfaces = frame.get_surfaces();
 		std::map<std::string, MaskReadback> readbacks;
 		std::vector<uint8_t> debug_texels;
 		for (const LightSnapshot &light : p_request.scene->lights) {
@@ -152,7 +158,7 @@ struct MaskFixture {
 		if (p_request.wants_surfaces) {
 			add_readback(graph, surfaces.depth, texels[0]);
 			add_readback(graph, surfaces.geometric_normal, texels[1]);
-			add_readback(graph, surfaces.material, texels[2]);
+			add_readback(graph, drawn.material, texels[2]);
 		}
 		graph.execute(RenderGraph::Mode::WAIT);
 		frame.end();

@@ -1,0 +1,230 @@
+// What a host gets of shadows, and what it may leave to them.
+
+#include "modules/shadows/tests/each_technique.h"
+
+#include <algorithm>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr glm::uvec2 SIZE_PX(128);
+
+MaskRequest make_request(const SmallScene &p_scene) {
+	MaskRequest request;
+	request.scene = p_scene.snap();
+	request.size_px = SIZE_PX;
+	request.technique_override = ShadowRegistry::find_default()->id;
+	return request;
+}
+
+/// An array that outlives a frame, with a layer for each light of the scene.
+struct HeldMasks {
+	OwnedTexture texture;
+	HeldMasks(RenderingDevice &p_device, Format p_format, uint32_t p_count) :
+			texture(p_device,
+					p_device.create_texture({ "held masks", p_format, SIZE_PX, p_count,
+							TextureUsage::STORAGE | TextureUsage::SAMPLED |
+									TextureUsage::COPY_SOURCE })) {}
+};
+
+/// Draws all lights of the scene into the layers, then reads them back; 4 or 1 halves a texel.
+std::vector<std::vector<float>> hold_masks(
+		MaskFixture &r_fixture, const SmallScene &p_scene, Format p_format) {
+	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
+	const uint32_t count = static_cast<uint32_t>(scene->lights.size());
+	HeldMasks held(*r_fixture.device, p_format, count);
+	std::vector<std::vector<uint8_t>> texels(count);
+	RenderGraph graph(*r_fixture.device, *r_fixture.transients);
+	FramePlan plan;
+	ShadowFrame frame(*r_fixture.shadows, graph, plan, scene, SIZE_PX,
+			{ ShadowRegistry::find_default()->id });
+	frame.set_surfaces(
+			add_surface_pass(graph, *r_fixture.shadows, *scene, SIZE_PX, frame.get_constants()));
+	const RGTexture array =
+			graph.import_texture(held.texture.get(), RenderGraph::ImportedContent::NONE);
+	const std::vector<LightShadow> shadows = frame.add_all_lights();
+	for (uint32_t index = 0; index < count; ++index) {
+		frame.hold(shadows[index], array, index);
+	}
+	for (uint32_t index = 0; index < count; ++index) {
+		add_readback(graph, array, texels[index], index);
+	}
+	graph.execute(RenderGraph::Mode::WAIT);
+	frame.end();
+	std::vector<std::vector<float>> values(count);
+	for (uint32_t index = 0; index < count; ++index) {
+		for (size_t byte = 0; byte < texels[index].size(); byte += 2) {
+			uint16_t half = 0;
+			std::memcpy(&half, &texels[index][byte], sizeof(half));
+			values[index].push_back(glm::unpackHalf1x16(half));
+		}
+	}
+	return values;
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Shadows] normals made from depth are those of the faces, but for single pixels") {
+	MaskFixture fixture;
+	for (const LightType type : ALL_TYPES) {
+		CAPTURE(get_light_type_name(type));
+		MaskRequest request = make_request(SmallScene(type));
+		request.wants_surfaces = true;
+		const MaskResult drawn = fixture.render(request);
+		request.has_normals = false;
+		const MaskResult made = fixture.render(request);
+		CHECK_FALSE(made.plan.is_left_out("", "normals from depth"));
+		CHECK(is_valid_mask(made));
+		size_t count = 0;
+		size_t other_normal_count = 0;
+		size_t other_mask_count = 0;
+		for (size_t index = 0; index < drawn.surfaces.size(); ++index) {
+			const SurfacePoint &before = drawn.surfaces[index];
+			if (!before.is_there) {
+				continue;
+			}
+			++count;
+			other_normal_count += glm::distance(before.geometric_normal,
+										  made.surfaces[index].geometric_normal) > 2e-3f;
+			other_mask_count += drawn.receiver[index] != made.receiver[index] ||
+					std::abs(drawn.visibility[index] - made.visibility[index]) > 1.0f / 255;
+		}
+		CHECK(count > 5000);
+		CHECK(other_normal_count <= count / 200);
+		CHECK(other_mask_count <= count / 200);
+	}
+}
+
+TEST_CASE("[GPU][Shadows] normals made from depth are finite and towards the viewer at any size") {
+	MaskFixture fixture;
+	SmallScene scene;
+	for (const glm::uvec2 size_px :
+			{ glm::uvec2(1, 1), glm::uvec2(1, 40), glm::uvec2(40, 1), glm::uvec2(2, 3) }) {
+		CAPTURE(size_px.x);
+		MaskRequest request = make_request(scene);
+		request.size_px = size_px;
+		request.has_normals = false;
+		request.wants_surfaces = true;
+		const MaskResult made = fixture.render(request);
+		for (const SurfacePoint &surface : made.surfaces) {
+			CHECK((!surface.is_there ||
+					(glm::length(surface.geometric_normal) > 0.99f &&
+							glm::dot(surface.geometric_normal, surface.position) <= 0.0f)));
+		}
+		CHECK(std::all_of(made.visibility.begin(), made.visibility.end(),
+				[](float p_value) { return p_value >= 0.0f && p_value <= 1.0f; }));
+	}
+}
+
+TEST_CASE("[GPU][Shadows] masks of all lights are held in the layers of an array") {
+	MaskFixture fixture;
+	SmallScene scene;
+	scene.add_light("Second", LightType::OMNI, { -2, 3, 1 }, { 0, 0, 0 });
+	scene.add_light("Third", LightType::DIRECTIONAL, { 1, 3, 1 }, { 0, 0, 0 });
+	const MaskResult masks = fixture.render(make_request(scene));
+	const std::vector<std::vector<float>> gray = hold_masks(fixture, scene, Format::R16_SFLOAT);
+	const std::vector<std::vector<float>> color = hold_masks(fixture, scene, Format::RGBA16_SFLOAT);
+	REQUIRE(gray.size() == 3);
+	const char *const names[] = { "Light", "Second", "Third" };
+	for (size_t light = 0; light < 3; ++light) {
+		CAPTURE(names[light]);
+		const std::vector<float> &expected = masks.masks.at(names[light]).visibility;
+		CHECK(gray[light] == expected);
+		REQUIRE(color[light].size() == 4 * expected.size());
+		bool is_same = true;
+		for (size_t index = 0; index < expected.size(); ++index) {
+			for (size_t channel = 0; channel < 3; ++channel) {
+				is_same = is_same && color[light][4 * index + channel] == expected[index];
+			}
+		}
+		CHECK(is_same);
+	}
+}
+
+TEST_CASE("[GPU][Shadows] a coloured mask is held in colours, or as its luminance") {
+	MaskFixture fixture;
+	SmallScene scene;
+	auto glass = std::make_shared<Material>();
+	glass->base_color = glm::vec3(0.9f, 0.25f, 0.125f);
+	glass->transmission = 1.0f;
+	scene.box->surfaces[0].material = glass;
+	const MaskResult mask = fixture.render(make_request(scene));
+	REQUIRE_FALSE(mask.colors.empty());
+	const std::vector<float> gray = hold_masks(fixture, scene, Format::R16_SFLOAT)[0];
+	const std::vector<float> color = hold_masks(fixture, scene, Format::RGBA16_SFLOAT)[0];
+	for (size_t index = 0; index < mask.colors.size(); ++index) {
+		const glm::vec3 held(color[4 * index], color[4 * index + 1], color[4 * index + 2]);
+		CHECK(held == mask.colors[index]);
+		CHECK(std::abs(gray[index] - mask.visibility[index]) <= 1.0f / 2048);
+	}
+}
+
+TEST_CASE("[GPU][Shadows] a host without materials gets masks in which nothing scatters") {
+	MaskFixture fixture;
+	SmallScene scene;
+	const std::vector<float> plain = fixture.render(make_request(scene)).visibility;
+	auto wax = std::make_shared<Material>();
+	wax->scatter = 1.0f;
+	wax->scatter_distance_m = 0.5f;
+	scene.ground->surfaces[0].material = wax;
+	for (const ShadowTechniqueInfo *technique :
+			{ ShadowRegistry::find_default(), ShadowRegistry::find_reference() }) {
+		if (technique == nullptr) {
+			continue;
+		}
+		CAPTURE(technique->id);
+		MaskRequest request = make_request(scene);
+		request.technique_override = technique->id;
+		request.has_materials = false;
+		CHECK(is_valid_mask(fixture.render(request)));
+		if (technique == ShadowRegistry::find_default()) {
+			CHECK(fixture.render(request).visibility == plain);
+		}
+	}
+}
+
+TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is kept") {
+	MaskFixture fixture;
+	SmallScene scene;
+	const std::vector<float> expected = fixture.render(make_request(scene)).visibility;
+	{ // recorded, but never run
+		RenderGraph graph(*fixture.device, *fixture.transients);
+		FramePlan plan;
+		const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
+		ShadowFrame frame(*fixture.shadows, graph, plan, snapshot, SIZE_PX);
+		frame.set_surfaces(add_surface_pass(
+				graph, *fixture.shadows, *snapshot, SIZE_PX, frame.get_constants()));
+		frame.add_all_lights();
+	}
+	CHECK(fixture.render(make_request(scene)).visibility == expected);
+}
+
+TEST_CASE("[GPU][Shadows] two cameras draw in turn with meshes that they share") {
+	MaskFixture fixture;
+	SmallScene scene;
+	const std::vector<float> first = fixture.render(make_request(scene)).visibility;
+	const glm::dmat4 pose = scene.camera->parent_from_node;
+	scene.camera->parent_from_node = look_at({ 2.4, 3.0, -3.4 }, { 0, 0.3, 0 });
+	const std::vector<float> second = fixture.render(make_request(scene)).visibility;
+	const size_t mesh_count = fixture.shadows->get_meshes().get_mesh_count();
+	auto meshes = std::make_shared<MeshStore>(*fixture.device);
+	std::unique_ptr<ShadowSystem> systems[2] = {
+		std::make_unique<ShadowSystem>(*fixture.device, meshes),
+		std::make_unique<ShadowSystem>(*fixture.device, meshes),
+	};
+	for (int frame = 0; frame < 4; ++frame) {
+		if (frame % 2 == 0) {
+			std::swap(fixture.shadows, systems[0]);
+			scene.camera->parent_from_node = pose;
+			CHECK(fixture.render(make_request(scene)).visibility == first);
+			std::swap(fixture.shadows, systems[0]);
+		} else {
+			std::swap(fixture.shadows, systems[1]);
+			scene.camera->parent_from_node = look_at({ 2.4, 3.0, -3.4 }, { 0, 0.3, 0 });
+			CHECK(fixture.render(make_request(scene)).visibility == second);
+			std::swap(fixture.shadows, systems[1]);
+		}
+	}
+	CHECK(meshes->get_mesh_count() == mesh_count);
+}
