@@ -35,11 +35,11 @@ struct ValidationListener : doctest::IReporter {
 	void test_run_end(const doctest::TestRunStats &) override {}
 	void test_case_start(const doctest::TestCaseData &p_case) override {
 		current = &p_case;
-		messages_before = gnomon::RenderingDevice::get_validation_message_count();
+		messages_before = gnomon::get_validation_message_count();
 	}
 	void test_case_reenter(const doctest::TestCaseData &) override {}
 	void test_case_end(const doctest::CurrentTestCaseStats &p_stats) override {
-		const unsigned messages = gnomon::RenderingDevice::get_validation_message_count();
+		const unsigned messages = gnomon::get_validation_message_count();
 		const bool has_messages = messages != messages_before;
 		++case_count;
 		if (has_messages) {

@@ -1,9 +1,9 @@
 def get_dependencies():
-    return ["core", "rendering_device"]
+    return ["core", "rendering_device", "rendering_device_vulkan"]
 
 
 def get_layer():
-    return 2
+    return 3
 
 
 def get_description():

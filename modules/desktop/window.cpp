@@ -1,7 +1,9 @@
 #include "modules/desktop/window.h"
 
 #include "modules/core/error.h"
-#include "modules/rendering_device/vulkan_handles.h" // before GLFW: turns on its Vulkan functions
+// Before GLFW: Vulkan's handles turn on its Vulkan functions.
+#include "modules/rendering_device_vulkan/vulkan_handles.h"
+#include "modules/rendering_device_vulkan/window_swapchain.h"
 
 #include <GLFW/glfw3.h>
 
@@ -50,8 +52,8 @@ std::vector<std::string> Window::get_instance_extensions() {
 	return std::vector<std::string>(names, names + count);
 }
 
-Swapchain::CreateSurface Window::get_create_surface() {
-	return [this](VkInstance p_instance) {
+std::unique_ptr<Swapchain> Window::create_swapchain(RenderingDevice &r_device) {
+	return create_window_swapchain(r_device, [this](VkInstance p_instance) {
 		VkSurfaceKHR surface = VK_NULL_HANDLE;
 		const VkResult result = glfwCreateWindowSurface(p_instance, window, nullptr, &surface);
 		if (result != VK_SUCCESS) {
@@ -59,7 +61,7 @@ Swapchain::CreateSurface Window::get_create_surface() {
 					"). Check the driver.");
 		}
 		return surface;
-	};
+	});
 }
 
 bool Window::poll() {

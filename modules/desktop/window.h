@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device/swapchain.h"
 
 #include <glm/glm.hpp>
@@ -21,9 +22,11 @@ public:
 	Window(const Window &) = delete;
 	Window &operator=(const Window &) = delete;
 
-	/// What Vulkan needs to draw in windows of this desktop.
+	/// What a device needs to draw in windows of this desktop: DeviceOptions::instance_extensions.
 	static std::vector<std::string> get_instance_extensions();
-	Swapchain::CreateSurface get_create_surface();
+	/// The images of this window, for a device that was created with needs_surface; they end before
+	/// the window and the device.
+	std::unique_ptr<Swapchain> create_swapchain(RenderingDevice &r_device);
 
 	/// Reads events. False once the user closed the window.
 	bool poll();

@@ -39,8 +39,8 @@ public:
 			options(p_options),
 			settings(r_settings), document(p_path),
 			window("Gnomon", r_settings.window_size_px, "The editor needs one: set DISPLAY."),
-			device(RenderingDevice::create(make_device_options())),
-			swapchain(*device, window.get_create_surface()), renderer(*device), transients(*device),
+			device(create_rendering_device(make_device_options())),
+			swapchain(window.create_swapchain(*device)), renderer(*device), transients(*device),
 			ui_context(window), ui(*device), pictures(*device, renderer),
 			error_meter(*device, renderer),
 			shaders(*device, p_options.shaders), context{ document, device->get_info() },
@@ -186,7 +186,7 @@ private:
 		});
 		ui.add_pass(graph, target, *ImGui::GetDrawData());
 		const RGTexture shown =
-				graph.import_window_image([&] { return swapchain.acquire(size_px); });
+				graph.import_window_image([&] { return swapchain->acquire(size_px); });
 		graph.add_pass("present")
 				.reads(target, Access::COPY_READ)
 				.writes(shown, Access::COPY_WRITE)
@@ -234,7 +234,7 @@ private:
 	EditorDocument document;
 	Window window;
 	std::unique_ptr<RenderingDevice> device;
-	Swapchain swapchain;
+	std::unique_ptr<Swapchain> swapchain;
 	Renderer renderer;
 	TransientPool transients;
 	UiContext ui_context;

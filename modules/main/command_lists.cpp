@@ -102,7 +102,7 @@ void list_modules(bool p_as_json) {
 }
 
 void print_info(bool p_as_json, const CommonOptions &p_common) {
-	const std::vector<DeviceInfo> devices = RenderingDevice::list_devices();
+	const std::vector<DeviceInfo> devices = find_rendering_devices();
 	// Creating it says which one a command would take, and why none can be.
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
 	const uint32_t chosen = device->get_info().index;

@@ -143,7 +143,7 @@ std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common) {
 	DeviceOptions options;
 	options.device = p_common.device;
 	options.validation = p_common.validation;
-	return RenderingDevice::create(options);
+	return create_rendering_device(options);
 }
 
 void check_writable(const fs::path &p_path) {

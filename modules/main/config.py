@@ -1,5 +1,5 @@
 def get_dependencies():
-    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "shadows", "gltf_scene"]
+    return ["core", "rendering_device", "rendering_device_vulkan", "scene", "mesh_tools", "render_graph", "renderer", "shadows", "gltf_scene"]
 
 
 def get_optional_dependencies():

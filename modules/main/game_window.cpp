@@ -130,8 +130,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	device_options.validation = p_common.validation;
 	device_options.needs_surface = true;
 	device_options.instance_extensions = Window::get_instance_extensions();
-	const std::unique_ptr<RenderingDevice> device = RenderingDevice::create(device_options);
-	Swapchain swapchain(*device, window.get_create_surface());
+	const std::unique_ptr<RenderingDevice> device = create_rendering_device(device_options);
+	const std::unique_ptr<Swapchain> swapchain = window.create_swapchain(*device);
 	Renderer renderer(*device);
 
 	Camera3D camera;
@@ -164,7 +164,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		const bool is_last = p_options.frame_count > 0 && drawn_count + 1 >= p_options.frame_count;
 		request.scene = build_snapshot(r_scene, camera);
 		request.size_px = size_px;
-		request.acquire_window_image = [&] { return swapchain.acquire(size_px); };
+		request.acquire_window_image = [&] { return swapchain->acquire(size_px); };
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;
 		// A view that never was is refused; one that T or a light has taken away gives way.
 		request.needs_debug_view = drawn_count == 0;

@@ -72,8 +72,8 @@ int run_program(int p_argument_count, char **p_arguments) {
 				" `gnomon --help` and `gnomon COMMAND --help` list what there is.");
 		return 2;
 	}
-	if (common.validation && RenderingDevice::get_validation_message_count() > 0) {
-		log_error(RenderingDevice::get_validation_message_count(), " validation messages.");
+	if (common.validation && get_validation_message_count() > 0) {
+		log_error(get_validation_message_count(), " validation messages.");
 		return 1;
 	}
 	return 0;
@@ -94,7 +94,7 @@ int main(int p_argument_count, char **p_arguments) {
 		log_error(describe_failure(error));
 	}
 	ModuleRegistry::uninitialize();
-	if (RenderingDevice::has_hung()) {
+	if (has_device_hung()) {
 		std::fflush(nullptr);
 		std::_Exit(result); // the driver's own threads would be waited for
 	}

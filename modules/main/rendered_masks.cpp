@@ -146,7 +146,7 @@ private:
 DrawnMasks RenderedMasks::draw(
 		std::span<const MaskQuestion> p_questions, const std::string &p_technique) {
 	DrawnMasks drawn;
-	const unsigned message_count = RenderingDevice::get_validation_message_count();
+	const unsigned message_count = get_validation_message_count();
 	const WarningCollector collector(drawn.warnings);
 	Renderer renderer(device);
 	for (const MaskQuestion &question : p_questions) {
@@ -162,8 +162,7 @@ DrawnMasks RenderedMasks::draw(
 		drawn.frames.push_back(
 				{ question.size_px, std::move(result.visibility), std::move(result.receiver) });
 	}
-	drawn.validation_message_count =
-			RenderingDevice::get_validation_message_count() - message_count;
+	drawn.validation_message_count = get_validation_message_count() - message_count;
 	return drawn;
 }
 

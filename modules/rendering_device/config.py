@@ -7,8 +7,4 @@ def get_layer():
 
 
 def get_description():
-    return "The only code that includes Vulkan: device, memory, pipelines, timers"
-
-
-def configure(env):
-    env.Append(LIBS=["vulkan"])
+    return "What a device does: resources, pipelines, command lists, timers; a backend implements it"

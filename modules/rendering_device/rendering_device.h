@@ -13,7 +13,6 @@
 namespace gnomon {
 
 class CommandList;
-class Swapchain;
 
 /// What the user may choose of the device.
 struct DeviceOptions {
@@ -27,15 +26,6 @@ struct DeviceOptions {
 	std::optional<double> wait_limit_s;
 	bool needs_surface = false;					  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
-	/// For tests: pretend that the device lacks these.
-	struct Without {
-		bool geometry_shader = false;
-		bool depth_clamp = false;
-		bool depth_bounds = false;
-		bool fragment_stores = false;
-		bool conditional_rendering = false;
-		bool subgroup_operations = false;
-	} without;
 };
 
 /// One device as `gnomon info` lists it.
@@ -50,8 +40,8 @@ struct DeviceInfo {
 	std::string refusal; // why it is not: "Vulkan 1.1, 1.3 is needed"
 };
 
-/// What the device can do beyond the minimum that Gnomon requires (Vulkan 1.3 with dynamic
-/// rendering and synchronization2, compute, 128 bytes of push constants).
+/// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
+/// push constants, and 32-bit depth that shaders read.
 struct DeviceFeatures {
 	bool geometry_shader = false;
 	bool depth_clamp = false;
@@ -75,10 +65,6 @@ struct MemoryUse {
 	uint64_t peak_bytes = 0; // highest used_bytes since the device began
 };
 
-/// What tests can let happen to a submission; $GNOMON_INJECT_FAULT does the same to a program, at
-/// an event that does not depend on its speed: "device_lost@pass:resolve", see doc/testing.md.
-enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
-
 /// Commands recorded since the device began; those under a condition count too.
 struct CommandCounts {
 	uint64_t draws = 0;
@@ -94,128 +80,101 @@ struct GpuSpan {
 	double gpu_ms = 0;
 };
 
-/// The Vulkan device and everything that lives on it. One thread uses it. Every failure is an
-/// Error that names the object, the value, the limit and the next step; after a lost device every
-/// call fails with the text of the first report, which names the last pass that had begun. Those
-/// are DeviceLost, and so is a device that makes no progress, see DeviceOptions::wait_limit_s.
+/// A device and everything that lives on it. The backend that the program is linked with implements
+/// it; modules/rendering_device/testing.h has what tests may do to it. One thread uses it. Every
+/// failure is an Error that names the object, the value, the limit and the next step; after a lost
+/// device every call fails with the text of the first report, which names the last pass that had
+/// begun. Those are DeviceLost, and so is a device that makes no progress, see
+/// DeviceOptions::wait_limit_s.
 ///
 /// Resources are handles. free() may be called while the GPU still uses the resource: it is
 /// destroyed when the submission that was recorded last has finished. What is still alive when the
 /// device ends is reported by name, once each, as an error in the log.
 class RenderingDevice {
 public:
-	/// No Vulkan loader or no usable device: an Error with the package to install and the reasons
-	/// per device.
-	static std::unique_ptr<RenderingDevice> create(const DeviceOptions &p_options);
-	/// Never throws: without Vulkan the list is empty.
-	static std::vector<DeviceInfo> list_devices();
-	/// Validation messages (warnings and errors, synchronization included) since the program began.
-	static unsigned get_validation_message_count();
-
-	~RenderingDevice();
+	RenderingDevice() = default;
+	virtual ~RenderingDevice() = default;
 	RenderingDevice(const RenderingDevice &) = delete;
 	RenderingDevice &operator=(const RenderingDevice &) = delete;
 
-	const DeviceInfo &get_info() const;
-	const DeviceFeatures &get_features() const;
-	MemoryUse get_memory_use() const;
-	CommandCounts get_command_counts() const;
-	/// Names of the resources that are alive, "texture 'albedo'", sorted; for the leak tests.
-	std::vector<std::string> get_live_resources() const;
+	virtual const DeviceInfo &get_info() const = 0;
+	virtual const DeviceFeatures &get_features() const = 0;
+	virtual MemoryUse get_memory_use() const = 0;
+	virtual CommandCounts get_command_counts() const = 0;
 
 	// Resources. Above the budget or the device's limits: an Error naming resource, size and limit.
-	BufferRID create_buffer(const BufferDesc &p_desc);
+	virtual BufferRID create_buffer(const BufferDesc &p_desc) = 0;
 	/// Device-local, filled with the bytes before the next submission's commands.
-	BufferRID create_buffer_with_data(BufferDesc p_desc, std::span<const uint8_t> p_bytes);
-	TextureRID create_texture(const TextureDesc &p_desc);
+	virtual BufferRID create_buffer_with_data(
+			BufferDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
+	virtual TextureRID create_texture(const TextureDesc &p_desc) = 0;
 	/// Filled with tightly packed texels (layer 0), ready for SAMPLED use.
-	TextureRID create_texture_with_data(TextureDesc p_desc, std::span<const uint8_t> p_bytes);
-	SamplerRID create_sampler(const SamplerDesc &p_desc);
+	virtual TextureRID create_texture_with_data(
+			TextureDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
+	virtual SamplerRID create_sampler(const SamplerDesc &p_desc) = 0;
 	/// Made from the embedded SPIR-V, or taken from a cache of equal descriptions. Owned by the
 	/// device.
-	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc);
-	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc);
-	uint32_t get_pipeline_count() const;
+	virtual PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) = 0;
+	virtual PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) = 0;
+	virtual uint32_t get_pipeline_count() const = 0;
 	/// Other SPIR-V for these entry points from now on: makes all pipelines anew that use one of
 	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
 	/// wants other bindings or push constants than this build's, are an Error that leaves
 	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is our
 	/// mistake.
-	void replace_shaders(const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name);
-	void free(BufferRID p_buffer);
-	void free(TextureRID p_texture);
-	void free(SamplerRID p_sampler);
-	void free(MemoryRID p_memory);
+	virtual void replace_shaders(
+			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) = 0;
+	virtual void free(BufferRID p_buffer) = 0;
+	virtual void free(TextureRID p_texture) = 0;
+	virtual void free(SamplerRID p_sampler) = 0;
+	virtual void free(MemoryRID p_memory) = 0;
 
-	const BufferDesc &get_desc(BufferRID p_buffer) const;
-	const TextureDesc &get_desc(TextureRID p_texture) const;
+	virtual const BufferDesc &get_desc(BufferRID p_buffer) const = 0;
+	virtual const TextureDesc &get_desc(TextureRID p_texture) const = 0;
 	/// Mapped memory of an UPLOAD or READBACK buffer, valid as long as the buffer.
-	uint8_t *get_mapped(BufferRID p_buffer);
+	virtual uint8_t *get_mapped(BufferRID p_buffer) = 0;
 
 	// Aliased memory, for the render graph: textures placed in one block of memory.
 	struct PlacementNeeds {
 		uint64_t size_bytes = 0;
 		uint64_t alignment_bytes = 1;
 	};
-	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc);
+	virtual PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) = 0;
 	/// Memory that any texture made with a GPU-only usage can be placed in.
-	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes);
-	TextureRID create_placed_texture(
-			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes);
+	virtual MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) = 0;
+	virtual TextureRID create_placed_texture(
+			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) = 0;
 
 	// Frames. begin -> record -> submit; at most two submissions are in flight.
 	/// Starts recording. Waits when two submissions are in flight; collects deferred frees.
-	CommandList &begin_commands();
-	/// Submits what was recorded. p_waits: also waits for the end, so that READBACK memory is
-	/// valid. A swapchain image that the recorded barriers brought to Access::PRESENT is presented.
+	virtual CommandList &begin_commands() = 0;
+	/// Submits what was recorded. WAIT: also waits for the end, so that READBACK memory is valid. A
+	/// swapchain image that the recorded barriers brought to Access::PRESENT is presented.
 	enum class SubmitMode { QUEUE, WAIT };
-	void submit_commands(SubmitMode p_mode);
+	virtual void submit_commands(SubmitMode p_mode) = 0;
 	/// Drops what was recorded since begin_commands, for when an Error ends a frame half-way. An
 	/// acquired swapchain image stays acquired. Does nothing when no commands are being recorded.
-	void abandon_commands();
-	void wait_idle();
+	virtual void abandon_commands() = 0;
+	virtual void wait_idle() = 0;
 	/// Of the submission that is being recorded, or was last; they count up from 1.
-	uint64_t get_submission_number() const;
+	virtual uint64_t get_submission_number() const = 0;
 	/// That submission has ended: what it copied into READBACK memory is valid.
-	bool is_submission_finished(uint64_t p_number);
+	virtual bool is_submission_finished(uint64_t p_number) = 0;
 	/// Spans of the newest finished submission, in recording order.
-	const std::vector<GpuSpan> &get_gpu_spans() const;
-
-	/// Writes pipelines to the cache folder now (also done at the end). A damaged or foreign file
-	/// is ignored with a log line and replaced.
-	void save_pipeline_cache();
-
-	/// Test hook: the next submission fails so, once.
-	void inject_fault(Fault p_fault);
-	/// Test hook: lets the submission go on that an injected Fault::HANG holds.
-	void release_injected_hang();
-	/// A device of this process hangs and could not be ended: what belongs to it stays, and the
-	/// program must be left with std::_Exit, since the driver waits for it too.
-	static bool has_hung();
-
-	struct Impl; // defined in rendering_device_impl.h, which includes Vulkan
-	Impl &get_impl() { return *impl; }
-
-private:
-	RenderingDevice();
-	std::unique_ptr<Impl> impl;
+	virtual const std::vector<GpuSpan> &get_gpu_spans() const = 0;
 };
 
-/// While it lives, validation messages are collected here and neither counted nor logged. Only for
-/// tests that make a mistake on purpose, to see that the layers notice it. The innermost one
-/// collects.
-class ExpectedValidationMessages {
-public:
-	ExpectedValidationMessages();
-	~ExpectedValidationMessages();
-	ExpectedValidationMessages(const ExpectedValidationMessages &) = delete;
-	ExpectedValidationMessages &operator=(const ExpectedValidationMessages &) = delete;
-	std::vector<std::string> get_messages() const;
+// The backend that the program is linked with defines these.
 
-private:
-	std::vector<std::string> messages;
-	std::vector<std::string> *before = nullptr;
-};
+/// No driver or no usable device: an Error with the package to install and the reasons per device.
+std::unique_ptr<RenderingDevice> create_rendering_device(const DeviceOptions &p_options);
+/// Never throws: without a driver the list is empty.
+std::vector<DeviceInfo> find_rendering_devices();
+/// Validation messages (warnings and errors, synchronization included) since the program began.
+unsigned get_validation_message_count();
+/// A device of this process hangs and could not be ended: what belongs to it stays, and the program
+/// must be left with std::_Exit, since the driver waits for it too.
+bool has_device_hung();
 
 /// Frees the resource when it goes out of scope.
 template <typename Handle> class Owned {

@@ -41,6 +41,10 @@ enum class Format {
 };
 uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
+bool is_depth_format(Format p_format);
+bool has_stencil(Format p_format);
+/// Of those that are drawn into; blending does nothing to them.
+bool is_uint_format(Format p_format);
 
 /// What a resource is used for; bits are joined with |.
 enum class TextureUsage : uint32_t {
@@ -70,6 +74,9 @@ template <UsageFlags T> constexpr T operator|(T p_left, T p_right) {
 template <UsageFlags T> constexpr bool has_usage(T p_flags, T p_flag) {
 	return (static_cast<uint32_t>(p_flags) & static_cast<uint32_t>(p_flag)) != 0;
 }
+
+/// "SAMPLED | STORAGE", for errors.
+std::string describe_usage(TextureUsage p_usage);
 
 /// GPU: fastest for the device. UPLOAD: written by the CPU, mapped. READBACK: read by it, mapped.
 enum class MemoryKind { GPU, UPLOAD, READBACK };
@@ -116,7 +123,7 @@ struct Binding {
 };
 
 enum class CompareOp { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS };
-/// What happens to a stencil value, in Vulkan's order. WRAP: 255 + 1 is 0.
+/// What happens to a stencil value, in the order that devices know. WRAP: 255 + 1 is 0.
 enum class StencilOp {
 	KEEP,
 	ZERO,

@@ -29,14 +29,12 @@ public:
 		return Handle{ (uint64_t(slots[index].generation) << 32) | (index + 1u) };
 	}
 
-	Resource &get(Handle p_handle) {
-		Slot &slot = find(p_handle);
-		return *slot.resource;
-	}
+	Resource &get(Handle p_handle) { return *slots[find_index(p_handle)].resource; }
+	const Resource &get(Handle p_handle) const { return *slots[find_index(p_handle)].resource; }
 
 	/// Takes the resource out; the handle names nothing from now on.
 	Resource remove(Handle p_handle) {
-		Slot &slot = find(p_handle);
+		Slot &slot = slots[find_index(p_handle)];
 		Resource resource = std::move(*slot.resource);
 		slot.resource.reset();
 		slot.freed_name = resource.desc.name;
@@ -64,14 +62,15 @@ private:
 
 	static uint32_t get_index(Handle p_handle) { return static_cast<uint32_t>(p_handle.id) - 1u; }
 
-	Slot &find(Handle p_handle) {
+	/// Of a handle that names a resource; any other is an assertion.
+	uint32_t find_index(Handle p_handle) const {
 		GNOMON_ASSERT(p_handle, "An empty ", kind, " handle was used.");
 		GNOMON_ASSERT(get_index(p_handle) < slots.size(), "A ", kind, " handle of another device, ",
 				p_handle.id, ", was used.");
-		Slot &slot = slots[get_index(p_handle)];
+		const Slot &slot = slots[get_index(p_handle)];
 		GNOMON_ASSERT(slot.resource && slot.generation == p_handle.id >> 32, "The ", kind, " '",
 				slot.freed_name, "' was used after it was freed.");
-		return slot;
+		return get_index(p_handle);
 	}
 
 	const char *kind;

@@ -107,7 +107,7 @@ OwnedTexture load_texture(RenderingDevice &r_device, const char *p_path, Format 
 void run(const char *p_out, const char *p_depth, const char *p_normals) {
 	DeviceOptions device_options;
 	device_options.validation = true;
-	const std::unique_ptr<RenderingDevice> device = RenderingDevice::create(device_options);
+	const std::unique_ptr<RenderingDevice> device = create_rendering_device(device_options);
 	TransientPool transients(*device);
 	ShadowSystem shadows(*device); // kept from frame to frame
 	OwnedTexture drawn_depth;
@@ -159,7 +159,7 @@ int main(int p_argument_count, char **p_arguments) {
 		const bool is_drawn = p_argument_count == 4;
 		run(p_arguments[1], is_drawn ? p_arguments[2] : nullptr,
 				is_drawn ? p_arguments[3] : nullptr);
-		result = RenderingDevice::get_validation_message_count() == 0 ? 0 : 1;
+		result = get_validation_message_count() == 0 ? 0 : 1;
 	} catch (const std::exception &error) {
 		log_error(describe_failure(error));
 	}

@@ -1,7 +1,7 @@
-// fuzz: modules=core sources=modules/rendering_device/pipeline_cache_header.cpp
+// fuzz: modules=core sources=modules/rendering_device_vulkan/pipeline_cache_header.cpp
 // Any bytes as a file of the cache, and as the pipelines that a driver left there.
 #include "modules/core/files.h"
-#include "modules/rendering_device/pipeline_cache_header.h"
+#include "modules/rendering_device_vulkan/pipeline_cache_header.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

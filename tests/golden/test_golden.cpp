@@ -109,7 +109,7 @@ Picture amplify_difference(const Picture &p_expected, const Picture &p_actual) {
 
 /// Goldens are made by the software driver, so that they do not depend on whose machine it is.
 std::string find_software_device() {
-	for (const DeviceInfo &info : RenderingDevice::list_devices()) {
+	for (const DeviceInfo &info : find_rendering_devices()) {
 		if (info.is_usable && info.type == "CPU") {
 			return text(info.index);
 		}

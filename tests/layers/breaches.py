@@ -24,20 +24,27 @@ def make_small_tree(root):
     """A tree that keeps every rule; each breach below is added to a copy of it."""
     add_module(root, "core", [], 0)
     add_module(root, "rendering_device", ["core"], 1)
+    add_module(root, "rendering_device_vulkan", ["core", "rendering_device"], 2)
+    add_module(root, "desktop", ["core", "rendering_device", "rendering_device_vulkan"], 3)
     add_module(root, "scene", ["core"], 1)
     add_module(root, "mesh_tools", ["core", "scene"], 2)
     add_module(root, "renderer", ["core", "rendering_device", "scene"], 3)
     add_module(root, "shadow_lamp", ["core", "renderer"], 4)
     add_module(root, "shadow_moon", ["core", "renderer"], 4)
     add_module(root, "editor", ["core"], 5)
-    add_module(root, "main", ["core"], 6)
+    add_module(root, "main", ["core", "rendering_device_vulkan"], 6)
     for name, technique, made in (("lamp", "lamp_fan", "ShadowLamp"), ("moon", "moon", "Sun")):
         text = 'ShadowRegistry::add({ "%s", "x", [] { return std::make_unique<%s>(); } });\n' % (technique, made)
         add_file(root, "modules/shadow_%s/register_types.cpp" % name, text)
     add_file(root, "modules/scene/node.h", '#include "modules/core/register_types.h"\n#include <vector>\n')
-    add_file(root, "modules/rendering_device/device.cpp", "#include <vulkan/vulkan.h>\n")
+    add_file(root, "modules/rendering_device/testing.h", "#pragma once\n")
+    add_file(root, "modules/rendering_device/tests/a.h", '#include "modules/rendering_device/testing.h"\n')
+    backend = '#include <vulkan/vulkan.h>\n#include "modules/rendering_device/testing.h"\n'
+    add_file(root, "modules/rendering_device_vulkan/device.cpp", backend)
+    add_file(root, "modules/desktop/a.cpp", '#include "modules/rendering_device_vulkan/vulkan_handles.h"\n')
+    add_file(root, "tests/a.h", '#include "modules/rendering_device/testing.h"\n')
     add_file(root, "modules/main/window.cpp", "#include <GLFW/glfw3.h>\n")
-    add_file(root, "modules/rendering_device/vulkan_handles.h", "#include <vulkan/vulkan_core.h>\n")
+    add_file(root, "modules/rendering_device_vulkan/vulkan_handles.h", "#include <vulkan/vulkan_core.h>\n")
     add_file(root, "shaders/common/depth_inc.glsl", "// moon, Sun and lamp_fan without quotes are words\n")
     add_file(root, "shaders/shared/shared_begin.h", "#include <cstdint>\n")
     add_file(root, "shaders/shadow_lamp/fan.frag", '#include "common/depth_inc.glsl"\n')
@@ -79,11 +86,23 @@ BREACHES = (
     ("Vulkan in the renderer", "check_vulkan",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <vulkan/vulkan_raii.hpp>\n")),
     ("Vulkan's handles in the renderer", "check_vulkan",
-     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/vulkan_handles.h"\n')),
+     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device_vulkan/vulkan_handles.h"\n')),
     ("Vulkan in main", "check_vulkan",
      lambda root: add_file(root, "modules/main/window.cpp", "#include <vulkan/vulkan_core.h>\n")),
     ("Vulkan in a test", "check_vulkan",
      lambda root: add_file(root, "tests/a.cpp", '#include "vulkan.h"\n')),
+    ("Vulkan in the interface", "check_vulkan",
+     lambda root: add_file(root, "modules/rendering_device/a.h", "#include <vulkan/vulkan_core.h>\n")),
+    ("a backend in a technique", "check_backends",
+     lambda root: add_file(root, "modules/shadow_moon/a.cpp", '#include "modules/rendering_device_vulkan/a.h"\n')),
+    ("a backend in main", "check_backends",
+     lambda root: add_file(root, "modules/main/a.cpp", '#include "modules/rendering_device_vulkan/a.h"\n')),
+    ("a technique that lists a backend", "check_backends",
+     lambda root: break_config(root, "shadow_moon", ["core", "renderer", "rendering_device_vulkan"], 4)),
+    ("the device's testing header in the renderer", "check_testing_headers",
+     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/testing.h"\n')),
+    ("the device's testing header in the interface", "check_testing_headers",
+     lambda root: add_file(root, "modules/rendering_device/a.h", '#include "modules/rendering_device/testing.h"\n')),
     ("GLFW in the renderer", "check_window_library",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <GLFW/glfw3.h>\n")),
     ("mesh_tools on the device", "check_modules_without_device",

@@ -26,6 +26,8 @@ PROJECT_FOLDERS = ("modules/", "shaders/", "tests/", "demo_project/", "doc/")
 TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "tests/embed/", "demo_project/", "doc/")
 WINDOW_OWNERS = ("modules/desktop/", "modules/main/", "modules/editor/")
 WITHOUT_DEVICE = ("scene", "mesh_tools")
+BACKEND = re.compile(r"rendering_device_\w+")
+BACKEND_USERS = ("desktop", "main")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -152,17 +154,44 @@ def check_layers(tree):
 
 
 def check_vulkan(tree):
-    """Vulkan's headers are included by rendering_device alone.
+    """Vulkan's headers are included by rendering_device_vulkan alone.
 
     The owner of a window needs the handle types, so desktop may include vulkan_handles.h.
     """
     pattern = re.compile(r"(^|/)vulkan[^/]*\.hp*$|^vulkan/")
     for path in tree.find_sources(CPP):
         for line, _, name in tree.get_includes(path):
-            if name == "modules/rendering_device/vulkan_handles.h" and path.startswith("modules/desktop/"):
+            if name == "modules/rendering_device_vulkan/vulkan_handles.h" and path.startswith("modules/desktop/"):
                 continue
-            if pattern.search(name) and not path.startswith("modules/rendering_device/"):
-                yield "%s:%d: includes %s; only rendering_device may" % (path, line, name)
+            if pattern.search(name) and not path.startswith("modules/rendering_device_vulkan/"):
+                yield "%s:%d: includes %s; only rendering_device_vulkan may" % (path, line, name)
+
+
+def check_backends(tree):
+    """A backend of rendering_device is chosen by the linker: no other module includes or lists it.
+
+    A window shows images of one backend, so desktop may; main lists it, so that a build without it is refused.
+    """
+    for path in tree.find_sources(CPP, ("modules/",)):
+        module = tree.get_module(path)
+        for line, _, name in tree.get_includes(path):
+            included = tree.get_module(name)
+            if included and BACKEND.fullmatch(included) and module not in (included, "desktop"):
+                yield "%s:%d: includes %s; only desktop may" % (path, line, name)
+    for name, config in tree.configs.items():
+        for dependency in config["dependencies"]:
+            if BACKEND.fullmatch(dependency) and name not in BACKEND_USERS:
+                yield "modules/%s/config.py: lists %s; only %s may" % (name, dependency, " and ".join(BACKEND_USERS))
+
+
+def check_testing_headers(tree):
+    """What tests may do to a device is included by tests, and by the backend that implements it."""
+    for path in tree.find_sources(CPP):
+        if path.startswith("tests/") or "/tests/" in path or BACKEND.fullmatch(tree.get_module(path) or ""):
+            continue
+        for line, _, name in tree.get_includes(path):
+            if name.endswith("/testing.h"):
+                yield "%s:%d: includes %s; only tests may" % (path, line, name)
 
 
 def check_window_library(tree):
@@ -270,6 +299,8 @@ RULES = (
     check_listed_dependencies,
     check_layers,
     check_vulkan,
+    check_backends,
+    check_testing_headers,
     check_window_library,
     check_modules_without_device,
     check_registration_is_readable,

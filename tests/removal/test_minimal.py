@@ -19,7 +19,8 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(ROOT, "doc", "getting_started.md")
 # What a game needs; its one technique is the registry's default.
-ENGINE = ("core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "gltf_scene", "main")
+ENGINE = ("core", "rendering_device", "rendering_device_vulkan", "scene", "mesh_tools", "render_graph")
+ENGINE += ("shadows", "renderer", "gltf_scene", "main")
 ABSENT_COMMANDS = {"edit": "editor", "visibility": "error_report", "compare": "error_report", "report": "error_report"}
 PROGRAM = "bin/gnomon"
 

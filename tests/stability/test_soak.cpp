@@ -92,7 +92,7 @@ public:
 		DeviceOptions options;
 		options.validation = true;
 		options.wait_limit_s = FRAME_LIMIT_S;
-		device = RenderingDevice::create(options);
+		device = create_rendering_device(options);
 		bare = measure();
 		renderer = std::make_unique<Renderer>(*device);
 		closed = close();
@@ -144,7 +144,7 @@ private:
 			}
 			scene->change();
 			draw();
-			CHECK(RenderingDevice::get_validation_message_count() == message_count);
+			CHECK(get_validation_message_count() == message_count);
 			if (tells) {
 				std::printf("frame %u\n", frame); // the runner waits for it
 				std::fflush(stdout);
@@ -160,7 +160,7 @@ private:
 
 	Rest measure() {
 		device->wait_idle();
-		return { device->get_memory_use().used_bytes, device->get_live_resources() };
+		return { device->get_memory_use().used_bytes, list_live_resources(*device) };
 	}
 
 	/// Draws nothing until nothing is left of the scene before, all modules being on.
@@ -200,7 +200,7 @@ private:
 		CAPTURE(request.technique_override);
 		const bool runs_out = random.chance(0.02);
 		if (runs_out) {
-			device->inject_fault(Fault::OUT_OF_MEMORY);
+			inject_fault(*device, Fault::OUT_OF_MEMORY);
 			CHECK_THROWS_AS(renderer->render(request), std::bad_alloc);
 			return;
 		}
@@ -232,7 +232,7 @@ private:
 	std::unique_ptr<RandomScene> scene;
 	Rest bare; // of the device alone
 	Rest closed;
-	const unsigned message_count = RenderingDevice::get_validation_message_count();
+	const unsigned message_count = get_validation_message_count();
 };
 
 } // namespace

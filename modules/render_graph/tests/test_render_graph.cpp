@@ -1,6 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
+#include "modules/rendering_device/testing.h"
 
 #include <doctest/doctest.h>
 
@@ -17,7 +18,7 @@ struct GraphFixture {
 	GraphFixture() {
 		DeviceOptions options;
 		options.validation = true;
-		device = RenderingDevice::create(options);
+		device = create_rendering_device(options);
 		pool = std::make_unique<TransientPool>(*device);
 	}
 };
@@ -204,7 +205,7 @@ TEST_CASE("[GPU][RenderGraph] an error in a pass ends the frame, and the next fr
 
 TEST_CASE("[GPU][RenderGraph] a lost device is reported with the last pass that began") {
 	GraphFixture fixture;
-	fixture.device->inject_fault(Fault::DEVICE_LOST);
+	inject_fault(*fixture.device, Fault::DEVICE_LOST);
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGTexture texture = graph.create_texture(make_desc("texture"));
 	add_fill(graph, texture, 4.0f);

@@ -13,13 +13,11 @@ struct RenderFixture {
 	std::unique_ptr<Renderer> renderer;
 
 	/// p_device: as DeviceOptions::device.
-	explicit RenderFixture(
-			const std::string &p_device = "", const DeviceOptions::Without &p_without = {}) {
+	explicit RenderFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
 		DeviceOptions options;
-		options.without = p_without;
 		options.validation = true;
 		options.device = p_device;
-		device = RenderingDevice::create(options);
+		device = create_limited_rendering_device(options, p_limits);
 		renderer = std::make_unique<Renderer>(*device);
 	}
 

@@ -54,7 +54,7 @@ Used measure_use(RenderingDevice &r_device) {
 	r_device.begin_commands(); // collects what was freed
 	r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
 	return { r_device.get_pipeline_count(), r_device.get_memory_use().used_bytes,
-		r_device.get_live_resources() };
+		list_live_resources(r_device) };
 }
 
 } // namespace
@@ -152,7 +152,7 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 		return measure_use(*fixture.device);
 	}();
 	const auto has_own = [&] {
-		const std::vector<std::string> names = fixture.device->get_live_resources();
+		const std::vector<std::string> names = list_live_resources(*fixture.device);
 		return std::any_of(names.begin(), names.end(), [](const std::string &p_name) {
 			return p_name.find("Second") != std::string::npos;
 		});

@@ -5,7 +5,7 @@
 #include "modules/core/log.h"
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/rendering_device/command_list.h"
-#include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/testing.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -38,9 +38,9 @@ struct DeviceFixture {
 	TemporaryCache cache;
 	std::unique_ptr<RenderingDevice> device;
 
-	explicit DeviceFixture(DeviceOptions p_options = {}) {
+	explicit DeviceFixture(DeviceOptions p_options = {}, const PretendedLimits &p_limits = {}) {
 		p_options.validation = true;
-		device = RenderingDevice::create(p_options);
+		device = create_limited_rendering_device(p_options, p_limits);
 	}
 
 	template <typename T>

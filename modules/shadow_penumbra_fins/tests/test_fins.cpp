@@ -281,12 +281,12 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 			able.find_layers(able.make_frame(sheet_scene, 64), 3, Peeling::PASSES);
 	for (int lacking = 0; lacking < 4; ++lacking) {
 		CAPTURE(lacking);
-		DeviceOptions::Without without;
-		without.geometry_shader = lacking == 0;
-		without.fragment_stores = lacking == 1;
-		without.conditional_rendering = lacking == 2;
-		without.depth_clamp = lacking == 3;
-		FinsFixture lacks("", without);
+		PretendedLimits limits;
+		limits.geometry_shader = lacking == 0;
+		limits.fragment_stores = lacking == 1;
+		limits.conditional_rendering = lacking == 2;
+		limits.depth_clamp = lacking == 3;
+		FinsFixture lacks("", limits);
 		const auto maps = lacks.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 		CHECK(maps.color == expected.color);
 		CHECK(maps.depth == expected.depth);
@@ -298,8 +298,7 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 		wish.map_size_px = 128;
 		wish.peeling = Peeling::ONE_PASS;
 		lacks.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
-			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) ==
-					without.fragment_stores);
+			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) == limits.fragment_stores);
 		});
 	}
 }

@@ -3,7 +3,7 @@
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/render_graph/read_back.h"
 #include "modules/render_graph/transient_pool.h"
-#include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/testing.h"
 #include "modules/scene/box_mesh.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
@@ -122,13 +122,11 @@ struct MaskFixture {
 	std::unique_ptr<ShadowSystem> shadows;
 
 	/// p_device: as DeviceOptions::device.
-	explicit MaskFixture(
-			const std::string &p_device = "", const DeviceOptions::Without &p_without = {}) {
+	explicit MaskFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
 		DeviceOptions options;
-		options.without = p_without;
 		options.validation = true;
 		options.device = p_device;
-		device = RenderingDevice::create(options);
+		device = create_limited_rendering_device(options, p_limits);
 		transients = std::make_unique<TransientPool>(*device);
 		shadows = std::make_unique<ShadowSystem>(*device);
 	}

@@ -1,0 +1,277 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/access.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+#include "modules/rendering_device_vulkan/vulkan_formats.h"
+
+namespace gnomon {
+
+namespace {
+
+VkAttachmentLoadOp get_load_op(LoadOp p_op) {
+	switch (p_op) {
+		case LoadOp::CLEAR:
+			return VK_ATTACHMENT_LOAD_OP_CLEAR;
+		case LoadOp::KEEP:
+			return VK_ATTACHMENT_LOAD_OP_LOAD;
+		case LoadOp::DISCARD:
+			return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+	}
+	return VK_ATTACHMENT_LOAD_OP_LOAD;
+}
+
+VkClearColorValue make_clear_value(Format p_format, glm::vec4 p_value) {
+	VkClearColorValue value = {};
+	for (int channel = 0; channel < 4; ++channel) {
+		if (is_uint_format(p_format)) {
+			value.uint32[channel] = static_cast<uint32_t>(p_value[channel]);
+		} else {
+			value.float32[channel] = p_value[channel];
+		}
+	}
+	return value;
+}
+
+std::string describe_formats(
+		const std::vector<Format> &p_formats, const std::optional<Format> &p_depth) {
+	std::string description;
+	for (const Format format : p_formats) {
+		description += text(get_format_name(format), " ");
+	}
+	return description + (p_depth ? text("with ", get_format_name(*p_depth)) : "without depth");
+}
+
+} // namespace
+
+void VulkanCommandList::begin_rendering(
+		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	GNOMON_ASSERT(!p_colors.empty() || p_depth,
+			"begin_rendering without targets; begin_rendering_without_targets gives the size");
+	const TextureRID first = p_colors.empty() ? p_depth->texture : p_colors.front().texture;
+	begin_rendering_of_size(device->textures.get(first).desc.size_px, p_colors, p_depth);
+}
+
+void VulkanCommandList::begin_rendering_without_targets(glm::uvec2 p_size_px) {
+	begin_rendering_of_size(p_size_px, {}, nullptr);
+}
+
+void VulkanCommandList::begin_rendering_of_size(
+		glm::uvec2 p_size_px, std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	check_recording("begin_rendering");
+	GNOMON_ASSERT(!is_rendering, "begin_rendering before end_rendering");
+	target_color_formats.clear();
+	std::vector<VkRenderingAttachmentInfo> colors;
+	for (const ColorTarget &target : p_colors) {
+		TextureResource &texture = device->textures.get(target.texture);
+		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
+				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
+				p_size_px.x, " x ", p_size_px.y);
+		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::COLOR_ATTACHMENT), "target '",
+				texture.desc.name, "' lacks the usage COLOR_ATTACHMENT");
+		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
+				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+				.imageView = device->get_view(texture, ViewUse::ATTACHMENT, target.layer, false),
+				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+				.loadOp = get_load_op(target.load),
+				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
+		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
+		target_color_formats.push_back(texture.desc.format);
+		GNOMON_ASSERT(texture.format == get_vulkan_format(texture.desc.format),
+				"the swapchain stores BGRA; draw into a texture and blit_texture it");
+	}
+	VkRenderingAttachmentInfo depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
+	target_depth_format.reset();
+	is_target_depth_read_only = false;
+	if (p_depth) {
+		TextureResource &texture = device->textures.get(p_depth->texture);
+		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
+				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
+				p_size_px.x, " x ", p_size_px.y);
+		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::DEPTH_ATTACHMENT), "target '",
+				texture.desc.name, "' lacks the usage DEPTH_ATTACHMENT");
+		const Format format = texture.desc.format;
+		target_depth_format = format;
+		const VkImageLayout read_only = get_layout(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
+		is_target_depth_read_only = texture.recorded_layout == read_only;
+		GNOMON_ASSERT(!is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
+				texture.desc.name, "' has Access::DEPTH_READ and must be kept");
+		depth.imageView = device->get_view(texture, ViewUse::ATTACHMENT, p_depth->layer, false);
+		depth.imageLayout = is_target_depth_read_only
+				? read_only
+				: get_layout(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
+		depth.loadOp = get_load_op(p_depth->load);
+		// Storing counts as a write, also of what was only tested against.
+		depth.storeOp = is_target_depth_read_only ? VK_ATTACHMENT_STORE_OP_NONE
+												  : VK_ATTACHMENT_STORE_OP_STORE;
+		depth.clearValue.depthStencil.depth = p_depth->clear;
+	}
+	const bool has_target_stencil = target_depth_format && has_stencil(*target_depth_format);
+	const VkRenderingInfo info = { .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+		.renderArea = { .extent = { p_size_px.x, p_size_px.y } },
+		.layerCount = 1,
+		.colorAttachmentCount = static_cast<uint32_t>(colors.size()),
+		.pColorAttachments = colors.data(),
+		.pDepthAttachment = p_depth ? &depth : nullptr,
+		.pStencilAttachment = has_target_stencil ? &depth : nullptr };
+	GNOMON_ASSERT(!is_conditional, "begin_rendering before end_conditional");
+	vkCmdBeginRendering(commands, &info);
+	is_rendering = true;
+	set_viewport(glm::uvec2(0), p_size_px);
+	set_cull_mode(CullMode::NONE);
+	set_winding(Winding::NORMAL);
+	set_depth_bounds(0.0f, 1.0f);
+	set_stencil_reference(0);
+}
+
+void VulkanCommandList::end_rendering() {
+	check_recording("end_rendering");
+	GNOMON_ASSERT(is_rendering, "end_rendering without begin_rendering");
+	GNOMON_ASSERT(!is_conditional, "end_rendering before end_conditional");
+	vkCmdEndRendering(commands);
+	is_rendering = false;
+}
+
+void VulkanCommandList::set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
+	check_recording("set_viewport");
+	const glm::vec2 offset(p_offset_px);
+	const glm::vec2 size(p_size_px);
+	const VkViewport viewport = { offset.x, offset.y, size.x, size.y, 0.0f, 1.0f };
+	const VkRect2D scissor = { { static_cast<int32_t>(p_offset_px.x),
+									   static_cast<int32_t>(p_offset_px.y) },
+		{ p_size_px.x, p_size_px.y } };
+	vkCmdSetViewport(commands, 0, 1, &viewport);
+	vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+void VulkanCommandList::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
+	check_recording("set_scissor");
+	const VkRect2D scissor = { { static_cast<int32_t>(p_offset_px.x),
+									   static_cast<int32_t>(p_offset_px.y) },
+		{ p_size_px.x, p_size_px.y } };
+	vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+void VulkanCommandList::set_depth_bounds(float p_least, float p_greatest) {
+	check_recording("set_depth_bounds");
+	GNOMON_ASSERT(p_least >= 0.0f && p_least <= p_greatest && p_greatest <= 1.0f, "depth bounds ",
+			p_least, " to ", p_greatest);
+	vkCmdSetDepthBounds(commands, p_least, p_greatest);
+}
+
+void VulkanCommandList::set_stencil_reference(uint32_t p_reference) {
+	check_recording("set_stencil_reference");
+	GNOMON_ASSERT(p_reference <= 255, "stencil reference ", p_reference);
+	vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_AND_BACK, p_reference);
+}
+
+void VulkanCommandList::set_cull_mode(CullMode p_mode) {
+	check_recording("set_cull_mode");
+	static const VkCullModeFlags MODES[] = { VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,
+		VK_CULL_MODE_BACK_BIT };
+	vkCmdSetCullMode(commands, MODES[static_cast<size_t>(p_mode)]);
+}
+
+void VulkanCommandList::set_winding(Winding p_winding) {
+	check_recording("set_winding");
+	vkCmdSetFrontFace(commands,
+			p_winding == Winding::NORMAL ? VK_FRONT_FACE_COUNTER_CLOCKWISE
+										 : VK_FRONT_FACE_CLOCKWISE);
+}
+
+void VulkanCommandList::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {
+	check_recording("bind_vertex_buffers");
+	std::vector<VkBuffer> handles;
+	for (const BufferRID buffer : p_buffers) {
+		handles.push_back(device->buffers.get(buffer).buffer);
+	}
+	const std::vector<VkDeviceSize> offsets(handles.size(), 0);
+	if (!handles.empty()) {
+		vkCmdBindVertexBuffers(
+				commands, 0, static_cast<uint32_t>(handles.size()), handles.data(), offsets.data());
+	}
+	bound_vertex_buffer_count = static_cast<uint32_t>(handles.size());
+}
+
+void VulkanCommandList::bind_index_buffer(BufferRID p_buffer) {
+	check_recording("bind_index_buffer");
+	vkCmdBindIndexBuffer(commands, device->buffers.get(p_buffer).buffer, 0, VK_INDEX_TYPE_UINT32);
+	is_index_buffer_bound = true;
+}
+
+void VulkanCommandList::prepare_draw(const char *p_call) const {
+	check_bound(p_call);
+	GNOMON_ASSERT(is_rendering, p_call, " outside begin_rendering .. end_rendering");
+	GNOMON_ASSERT(bound_pipeline->bind_point == VK_PIPELINE_BIND_POINT_GRAPHICS, p_call,
+			" with compute pipeline '", bound_pipeline->name, "'");
+	GNOMON_ASSERT(bound_pipeline->color_formats == target_color_formats &&
+					bound_pipeline->depth_format == target_depth_format,
+			"pipeline '", bound_pipeline->name, "' draws into ",
+			describe_formats(bound_pipeline->color_formats, bound_pipeline->depth_format),
+			", the targets are ", describe_formats(target_color_formats, target_depth_format));
+	GNOMON_ASSERT(!is_target_depth_read_only || !bound_pipeline->writes_depth, "pipeline '",
+			bound_pipeline->name, "' writes depth, the depth target has Access::DEPTH_READ");
+	GNOMON_ASSERT(bound_vertex_buffer_count >= bound_pipeline->vertex_buffer_count, "pipeline '",
+			bound_pipeline->name, "' reads ", bound_pipeline->vertex_buffer_count,
+			" vertex buffers, ", bound_vertex_buffer_count, " are bound");
+}
+
+void VulkanCommandList::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
+	prepare_draw("draw");
+	++device->command_counts.draws;
+	vkCmdDraw(commands, p_vertex_count, p_instance_count, 0, 0);
+}
+
+void VulkanCommandList::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
+	prepare_draw("draw_indexed");
+	GNOMON_ASSERT(is_index_buffer_bound, "pipeline '", bound_pipeline->name,
+			"': draw_indexed before bind_index_buffer");
+	++device->command_counts.draws;
+	vkCmdDrawIndexed(commands, p_index_count, 1, p_first_index, 0, 0);
+}
+
+void VulkanCommandList::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
+	prepare_draw("draw_indirect");
+	++device->command_counts.draws;
+	vkCmdDrawIndirect(commands, device->buffers.get(p_arguments).buffer, p_offset_bytes, 1, 0);
+}
+
+void VulkanCommandList::begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) {
+	check_recording("begin_conditional");
+	GNOMON_ASSERT(device->begin_conditional_rendering,
+			"begin_conditional on a device without conditional rendering");
+	GNOMON_ASSERT(!is_conditional, "begin_conditional before end_conditional");
+	const BufferResource &predicate = device->buffers.get(p_predicate);
+	GNOMON_ASSERT(has_usage(predicate.desc.usage, BufferUsage::CONDITIONAL), "buffer '",
+			predicate.desc.name, "' lacks the usage CONDITIONAL");
+	GNOMON_ASSERT(p_offset_bytes % sizeof(uint32_t) == 0 &&
+					p_offset_bytes + sizeof(uint32_t) <= predicate.desc.size_bytes,
+			"begin_conditional at byte ", p_offset_bytes, " of buffer '", predicate.desc.name, "'");
+	const VkConditionalRenderingBeginInfoEXT info = {
+		.sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT,
+		.buffer = predicate.buffer,
+		.offset = p_offset_bytes
+	};
+	device->begin_conditional_rendering(commands, &info);
+	is_conditional = true;
+}
+
+void VulkanCommandList::end_conditional() {
+	check_recording("end_conditional");
+	GNOMON_ASSERT(is_conditional, "end_conditional without begin_conditional");
+	is_conditional = false;
+	device->end_conditional_rendering(commands);
+}
+
+void VulkanCommandList::clear_color(TextureRID p_texture, glm::vec4 p_value) {
+	check_copy("clear_color");
+	const TextureResource &texture = device->textures.get(p_texture);
+	GNOMON_ASSERT(!is_depth_format(texture.desc.format), "clear_color of depth texture '",
+			texture.desc.name, "'");
+	const VkClearColorValue value = make_clear_value(texture.desc.format, p_value);
+	const VkImageSubresourceRange range = { .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
+		.levelCount = 1,
+		.layerCount = texture.desc.layer_count };
+	vkCmdClearColorImage(
+			commands, texture.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
+}
+
+} // namespace gnomon

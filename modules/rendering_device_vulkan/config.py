@@ -1,0 +1,14 @@
+def get_dependencies():
+    return ["core", "rendering_device"]
+
+
+def get_layer():
+    return 2
+
+
+def get_description():
+    return "The device on Vulkan, the only code that includes it: memory, pipelines, timers, windows"
+
+
+def configure(env):
+    env.Append(LIBS=["vulkan"])

@@ -1,0 +1,52 @@
+// What environment variables say of a device.
+
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+
+namespace gnomon {
+
+namespace {
+
+constexpr double MAX_WAIT_S = 86400;
+constexpr double GPU_WAIT_S = 60;  // drivers reset a device that hangs after 2 to 10 s
+constexpr double CPU_WAIT_S = 600; // software draws the same pass a hundred times slower
+constexpr double MAX_BUDGET_MIB = 1 << 24;
+
+/// Nothing where the variable is absent or empty.
+std::optional<double> read_number(
+		const char *p_name, double p_greatest, const char *p_unit, const char *p_zero) {
+	const char *value = std::getenv(p_name);
+	if (value == nullptr || *value == 0) {
+		return std::nullopt;
+	}
+	const std::string_view written(value);
+	double number = 0;
+	const auto result = std::from_chars(written.begin(), written.end(), number);
+	if (result.ec != std::errc() || result.ptr != written.end() || !(number >= 0) ||
+			number > p_greatest) {
+		fail(p_name, " is \"", written, "\", must be 0..", p_greatest, " ", p_unit,
+				" (0 = ", p_zero, "). Change it, or unset it.");
+	}
+	return number;
+}
+
+} // namespace
+
+void VulkanDevice::read_environment() {
+	const auto budget_mib = read_number(
+			"GNOMON_MEMORY_BUDGET_MIB", MAX_BUDGET_MIB, "MiB", "what the device reports");
+	if (options.memory_budget_bytes == 0 && budget_mib) {
+		options.memory_budget_bytes = static_cast<uint64_t>(*budget_mib * (1 << 20));
+	}
+	const auto wait_s =
+			read_number("GNOMON_DEVICE_TIMEOUT_S", MAX_WAIT_S, "seconds", "wait for ever");
+	wait_limit_s = options.wait_limit_s.value_or(
+			wait_s.value_or(physical.info.type == "CPU" ? CPU_WAIT_S : GPU_WAIT_S));
+	injected_fault = read_injected_fault();
+}
+
+} // namespace gnomon

@@ -1,0 +1,117 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+constexpr size_t LARGEST_RESOURCE_COUNT = 3;
+
+std::string describe_bytes(uint64_t p_bytes) {
+	constexpr uint64_t KIB = 1024;
+	constexpr uint64_t MIB = KIB * KIB;
+	if (p_bytes < 16 * KIB) {
+		return text(p_bytes, " bytes");
+	}
+	return p_bytes < 16 * MIB ? text(p_bytes / KIB, " KiB") : text(p_bytes / MIB, " MiB");
+}
+
+} // namespace
+
+void VulkanDevice::check(VkResult p_result, const char *p_call) {
+	if (p_result >= 0) {
+		return;
+	}
+	if (p_result == VK_ERROR_DEVICE_LOST) {
+		fail_as_lost(find_last_span_begun());
+	}
+	fail(p_call, " failed on device \"", physical.info.name, "\": ", get_result_name(p_result),
+			". Lower the sizes in use, or choose another device with --device.");
+}
+
+void VulkanDevice::fail_if_lost() const {
+	if (!lost_text.empty()) {
+		throw DeviceLost(lost_text);
+	}
+}
+
+void VulkanDevice::fail_as_lost(const std::string &p_span_name) {
+	if (lost_text.empty()) {
+		lost_text = p_span_name.empty()
+				? "The device was lost before any pass began. "
+				: "The device was lost during pass '" + p_span_name + "' (last pass that began). ";
+		lost_text += "Restart the program; if it happens again, lower the sizes this pass works "
+					 "with, update the driver, or choose another device with --device.";
+	}
+	throw DeviceLost(lost_text);
+}
+
+std::string VulkanDevice::find_last_span_begun() const {
+	// Newest submission first; the memory of the breadcrumbs stays readable after the loss.
+	const SubmissionSlot *ordered[SLOT_COUNT] = { &slots[0], &slots[1] };
+	if (ordered[0]->number < ordered[1]->number) {
+		std::swap(ordered[0], ordered[1]);
+	}
+	for (const SubmissionSlot *slot : ordered) {
+		if (const size_t begun_count = count_begun_spans(*slot); begun_count > 0) {
+			return slot->span_names[begun_count - 1];
+		}
+	}
+	for (const SubmissionSlot *slot : ordered) {
+		if (!slot->span_names.empty()) {
+			return slot->span_names.back();
+		}
+	}
+	return "";
+}
+
+void VulkanDevice::fail_out_of_memory(
+		const std::string &p_resource, uint64_t p_size_bytes, MemoryRequest p_request) {
+	struct Consumer {
+		uint64_t size_bytes;
+		std::string name;
+	};
+	std::vector<Consumer> consumers;
+	buffers.for_each([&](BufferRID, const BufferResource &p_buffer) {
+		consumers.push_back({ p_buffer.memory.size_bytes, "buffer '" + p_buffer.desc.name + "'" });
+	});
+	textures.for_each([&](TextureRID, const TextureResource &p_texture) {
+		consumers.push_back(
+				{ p_texture.memory.size_bytes, "texture '" + p_texture.desc.name + "'" });
+	});
+	memories.for_each([&](MemoryRID, const MemoryResource &p_memory) {
+		consumers.push_back({ p_memory.memory.size_bytes, "memory '" + p_memory.desc.name + "'" });
+	});
+	std::sort(consumers.begin(), consumers.end(), [](const auto &p_left, const auto &p_right) {
+		return p_left.size_bytes > p_right.size_bytes;
+	});
+	std::string largest;
+	for (size_t index = 0; index < std::min(consumers.size(), LARGEST_RESOURCE_COUNT); ++index) {
+		largest += text(largest.empty() ? "; the largest are " : ", ", consumers[index].name, " ",
+				describe_bytes(consumers[index].size_bytes));
+	}
+	const uint32_t type =
+			allocator.find_memory_type(p_request.needs.memoryTypeBits, p_request.kind);
+	fail("Out of device memory: ", p_resource, " needs ", describe_bytes(p_size_bytes), ", ",
+			describe_bytes(allocator.get_use().used_bytes), " of ",
+			describe_bytes(allocator.compute_budget_bytes(type)), " are in use", largest,
+			". Lower the map size, the layer count or the image size, or choose another device ",
+			"with --device.");
+}
+
+void VulkanDevice::set_name_of(VkObjectType p_type, uint64_t p_handle, const std::string &p_name) {
+	if (!set_object_name) {
+		return;
+	}
+	const VkDebugUtilsObjectNameInfoEXT info = {
+		.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+		.objectType = p_type,
+		.objectHandle = p_handle,
+		.pObjectName = p_name.c_str()
+	};
+	set_object_name(device, &info);
+}
+
+} // namespace gnomon

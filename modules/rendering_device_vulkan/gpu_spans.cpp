@@ -1,0 +1,74 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+namespace gnomon {
+
+void VulkanDevice::begin_span(const std::string &p_name) {
+	SubmissionSlot &slot = get_recording_slot();
+	const uint32_t index = static_cast<uint32_t>(slot.span_names.size());
+	slot.span_names.push_back(p_name);
+	if (begin_label) {
+		const VkDebugUtilsLabelEXT label = { .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
+			.pLabelName = p_name.c_str() };
+		begin_label(slot.commands, &label);
+	}
+	if (index < MAX_BREADCRUMBS) {
+		vkCmdFillBuffer(slot.commands, slot.breadcrumbs.buffer, index * sizeof(uint32_t),
+				sizeof(uint32_t), static_cast<uint32_t>(slot.number));
+	}
+	if (timestamp_mask == 0) {
+		return;
+	}
+	const uint32_t pool_index = index / SPANS_PER_QUERY_POOL;
+	if (pool_index == slot.query_pools.size()) {
+		const VkQueryPoolCreateInfo info = { .sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+			.queryType = VK_QUERY_TYPE_TIMESTAMP,
+			.queryCount = 2 * SPANS_PER_QUERY_POOL };
+		VkQueryPool pool = VK_NULL_HANDLE;
+		check(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
+		set_name(VK_OBJECT_TYPE_QUERY_POOL, pool, "span times");
+		slot.query_pools.push_back(pool);
+	}
+	const VkQueryPool pool = slot.query_pools[pool_index];
+	const uint32_t in_pool = index % SPANS_PER_QUERY_POOL;
+	if (in_pool == 0) {
+		vkCmdResetQueryPool(slot.commands, pool, 0, 2 * SPANS_PER_QUERY_POOL);
+	}
+	// "All commands" at both ends: a span begins when what was recorded before it is done, so that
+	// the spans of a frame do not overlap and add up.
+	vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
+}
+
+void VulkanDevice::end_span() {
+	SubmissionSlot &slot = get_recording_slot();
+	const uint32_t index = static_cast<uint32_t>(slot.span_names.size()) - 1;
+	if (timestamp_mask != 0) {
+		vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+				slot.query_pools[index / SPANS_PER_QUERY_POOL],
+				2 * (index % SPANS_PER_QUERY_POOL) + 1);
+	}
+	if (end_label) {
+		end_label(slot.commands);
+	}
+}
+
+void VulkanDevice::read_spans(SubmissionSlot &r_slot) {
+	r_slot.has_unread_spans = false;
+	gpu_spans.clear();
+	for (uint32_t index = 0; index < r_slot.span_names.size(); ++index) {
+		GpuSpan span{ r_slot.span_names[index], 0.0 };
+		uint64_t times[2] = {};
+		if (timestamp_mask != 0) {
+			check(vkGetQueryPoolResults(device, r_slot.query_pools[index / SPANS_PER_QUERY_POOL],
+						  2 * (index % SPANS_PER_QUERY_POOL), 2, sizeof(times), times,
+						  sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+					"vkGetQueryPoolResults");
+			// The difference wraps correctly where fewer than 64 bits count.
+			const uint64_t ticks = (times[1] - times[0]) & timestamp_mask;
+			span.gpu_ms = static_cast<double>(ticks) * limits.timestampPeriod * 1e-6;
+		}
+		gpu_spans.push_back(std::move(span));
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+namespace gnomon {
+
+/// The entry points of a pipeline with everything that its create info points to. The shader
+/// modules live as long as this object.
+class PipelineStages {
+public:
+	PipelineStages(VulkanDevice &r_device, const std::vector<SpecializationConstant> &p_constants);
+	~PipelineStages();
+	PipelineStages(const PipelineStages &) = delete;
+	PipelineStages &operator=(const PipelineStages &) = delete;
+
+	/// An unknown shader is an Error; a shader of another stage is our mistake.
+	void add(const std::string &p_shader, VkShaderStageFlagBits p_expected_stage);
+	const std::vector<ReflectedShader> &get_reflected() const { return reflected; }
+	const std::vector<VkPipelineShaderStageCreateInfo> &get_infos() const { return infos; }
+
+private:
+	VulkanDevice &device;
+	const std::vector<SpecializationConstant> &constants;
+	// Constants that a shader lacks are ignored by Vulkan, so that all stages get the same.
+	std::vector<VkSpecializationMapEntry> entries;
+	std::vector<uint32_t> values;
+	VkSpecializationInfo specialization = {};
+	std::vector<ReflectedShader> reflected;
+	std::vector<VkPipelineShaderStageCreateInfo> infos;
+};
+
+/// Part of a pipeline's description, by which equal ones are found.
+std::string describe_constants(const std::vector<SpecializationConstant> &p_constants);
+
+} // namespace gnomon

@@ -1,0 +1,153 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/pipeline_stages.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint32_t PUSH_CONSTANT_GRANULARITY = 16; // C++ blocks are padded to it
+
+void merge_bindings(const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders,
+		std::vector<ReflectedBinding> &r_bindings) {
+	for (const ReflectedShader &shader : p_shaders) {
+		for (const ReflectedBinding &binding : shader.bindings) {
+			const auto found = std::find_if(
+					r_bindings.begin(), r_bindings.end(), [&](const ReflectedBinding &p_other) {
+						return p_other.binding == binding.binding;
+					});
+			if (found == r_bindings.end()) {
+				r_bindings.push_back(binding);
+				continue;
+			}
+			if (found->type != binding.type || found->is_arrayed != binding.is_arrayed) {
+				fail("Pipeline '", p_pipeline, "': binding ", binding.binding,
+						" is declared as two kinds of resource. Give one of them another number.");
+			}
+			if (binding.is_used) {
+				found->stages = found->is_used ? found->stages | binding.stages : binding.stages;
+				found->is_used = true;
+			}
+		}
+	}
+	std::sort(r_bindings.begin(), r_bindings.end(), [](const auto &p_left, const auto &p_right) {
+		return p_left.binding < p_right.binding;
+	});
+}
+
+} // namespace
+
+void VulkanDevice::create_layout(
+		PipelineResource &r_pipeline, std::span<const ReflectedShader> p_shaders) {
+	merge_bindings(r_pipeline.name, p_shaders, r_pipeline.bindings);
+	uint32_t push_bytes = 0;
+	for (const ReflectedShader &shader : p_shaders) {
+		if (shader.push_constant_bytes > 0) {
+			push_bytes = std::max(push_bytes, shader.push_constant_bytes);
+			r_pipeline.push_constant_stages |= shader.stage;
+		}
+	}
+	r_pipeline.push_constant_bytes = (push_bytes + PUSH_CONSTANT_GRANULARITY - 1) /
+			PUSH_CONSTANT_GRANULARITY * PUSH_CONSTANT_GRANULARITY;
+	if (r_pipeline.push_constant_bytes > limits.maxPushConstantsSize) {
+		fail("Pipeline '", r_pipeline.name, "' has ", r_pipeline.push_constant_bytes,
+				" bytes of push constants; device \"", physical.info.name, "\" has at most ",
+				limits.maxPushConstantsSize, ". Move some into a uniform buffer.");
+	}
+	std::vector<VkDescriptorSetLayoutBinding> bindings;
+	for (const ReflectedBinding &binding : r_pipeline.bindings) {
+		if (binding.is_used) {
+			bindings.push_back({ .binding = binding.binding,
+					.descriptorType = binding.type,
+					.descriptorCount = 1,
+					.stageFlags = binding.stages });
+		}
+	}
+	r_pipeline.uses_resources = !bindings.empty();
+	const VkDescriptorSetLayoutCreateInfo set_info = {
+		.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+		.bindingCount = static_cast<uint32_t>(bindings.size()),
+		.pBindings = bindings.data()
+	};
+	check(vkCreateDescriptorSetLayout(device, &set_info, nullptr, &r_pipeline.set_layout),
+			"vkCreateDescriptorSetLayout");
+	set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, r_pipeline.set_layout, r_pipeline.name);
+	const VkPushConstantRange range = { r_pipeline.push_constant_stages, 0,
+		r_pipeline.push_constant_bytes };
+	const VkPipelineLayoutCreateInfo info = { .sType =
+													  VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+		.setLayoutCount = 1,
+		.pSetLayouts = &r_pipeline.set_layout,
+		.pushConstantRangeCount = r_pipeline.push_constant_bytes > 0 ? 1u : 0u,
+		.pPushConstantRanges = &range };
+	check(vkCreatePipelineLayout(device, &info, nullptr, &r_pipeline.layout),
+			"vkCreatePipelineLayout");
+	set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, r_pipeline.layout, r_pipeline.name);
+}
+
+void VulkanDevice::destroy(PipelineResource &r_pipeline) {
+	vkDestroyPipeline(device, r_pipeline.pipeline, nullptr);
+	vkDestroyPipelineLayout(device, r_pipeline.layout, nullptr);
+	vkDestroyDescriptorSetLayout(device, r_pipeline.set_layout, nullptr);
+}
+
+PipelineRID VulkanDevice::find_pipeline(const std::string &p_description) const {
+	const auto found = pipelines_by_description.find(p_description);
+	return found == pipelines_by_description.end() ? PipelineRID() : found->second;
+}
+
+PipelineRID VulkanDevice::add_pipeline(
+		const std::string &p_description, PipelineResource &&p_pipeline) {
+	set_name(VK_OBJECT_TYPE_PIPELINE, p_pipeline.pipeline, p_pipeline.name);
+	pipelines.push_back(std::move(p_pipeline));
+	const PipelineRID handle{ pipelines.size() };
+	pipelines_by_description[p_description] = handle;
+	return handle;
+}
+
+const PipelineResource &VulkanDevice::get_pipeline(PipelineRID p_pipeline) const {
+	GNOMON_ASSERT(p_pipeline.id >= 1 && p_pipeline.id <= pipelines.size(), "pipeline handle ",
+			p_pipeline.id);
+	return pipelines[p_pipeline.id - 1];
+}
+
+uint32_t VulkanDevice::get_pipeline_count() const {
+	return static_cast<uint32_t>(pipelines.size());
+}
+
+PipelineResource VulkanDevice::make_pipeline(const ComputePipelineDesc &p_desc) {
+	PipelineStages stages(*this, p_desc.constants);
+	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);
+	PipelineResource pipeline;
+	pipeline.name = p_desc.name.empty() ? p_desc.shader : p_desc.name;
+	pipeline.desc = p_desc;
+	pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
+	pipeline.local_size = stages.get_reflected()[0].local_size;
+	try {
+		create_layout(pipeline, stages.get_reflected());
+		const VkComputePipelineCreateInfo info = {
+			.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+			.stage = stages.get_infos()[0],
+			.layout = pipeline.layout
+		};
+		check(vkCreateComputePipelines(
+					  device, pipeline_cache, 1, &info, nullptr, &pipeline.pipeline),
+				("vkCreateComputePipelines of '" + pipeline.name + "'").c_str());
+	} catch (...) {
+		destroy(pipeline);
+		throw;
+	}
+	return pipeline;
+}
+
+PipelineRID VulkanDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc) {
+	fail_if_lost();
+	const std::string description = p_desc.shader + describe_constants(p_desc.constants);
+	if (const PipelineRID found = find_pipeline(description)) {
+		return found;
+	}
+	return add_pipeline(description, make_pipeline(p_desc));
+}
+
+} // namespace gnomon

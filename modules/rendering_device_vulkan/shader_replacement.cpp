@@ -1,0 +1,104 @@
+#include "modules/core/embedded_shaders.h"
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+namespace gnomon {
+
+namespace {
+
+using Replacements = std::map<std::string, std::vector<uint32_t>>;
+
+bool is_same_kind(const ReflectedBinding &p_left, const ReflectedBinding &p_right) {
+	return p_left.type == p_right.type && p_left.is_arrayed == p_right.is_arrayed;
+}
+
+bool uses_any(const ComputePipelineDesc &p_desc, const Replacements &p_shaders) {
+	return p_shaders.contains(p_desc.shader);
+}
+
+bool uses_any(const RasterPipelineDesc &p_desc, const Replacements &p_shaders) {
+	return p_shaders.contains(p_desc.vertex_shader) || p_shaders.contains(p_desc.geometry_shader) ||
+			p_shaders.contains(p_desc.fragment_shader);
+}
+
+const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p_number) {
+	for (const ReflectedBinding &binding : p_shader.bindings) {
+		if (binding.binding == p_number) {
+			return &binding;
+		}
+	}
+	return nullptr;
+}
+
+/// The program gives a shader what it declared when the program was built: it may use less of that,
+/// and no more.
+void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
+	const ReflectedShader built = reflect_spirv(p_name, find_built_shader(p_name), {});
+	const ReflectedShader now = reflect_spirv(p_name, p_words, {});
+	const auto refuse = [&](const std::string &p_what) {
+		fail("Shader \"", p_name, "\" ", p_what,
+				", which the program does not know of. Build the program and start it again.");
+	};
+	for (const ReflectedBinding &binding : now.bindings) {
+		const ReflectedBinding *known = find_binding(built, binding.binding);
+		if (!is_same_kind(*find_binding(now, binding.binding), binding)) {
+			refuse(text("declares binding ", binding.binding, " as two kinds of resource"));
+		}
+		if ((known != nullptr && !is_same_kind(*known, binding)) ||
+				(binding.is_used && (known == nullptr || !known->is_used))) {
+			refuse(text("uses binding ", binding.binding, " in another way than before"));
+		}
+	}
+	for (const ReflectedBinding &binding : built.bindings) {
+		if (find_binding(now, binding.binding) == nullptr) {
+			refuse(text("declares binding ", binding.binding, " no more"));
+		}
+	}
+	if (built.push_constant_bytes != now.push_constant_bytes) {
+		refuse(text("has ", now.push_constant_bytes, " bytes of push constants, before ",
+				built.push_constant_bytes));
+	}
+}
+
+} // namespace
+
+void VulkanDevice::replace_shaders(const Replacements &p_spirv_by_name) {
+	fail_if_lost();
+	Replacements before;
+	for (const auto &[name, words] : p_spirv_by_name) {
+		check_interface(name, words);
+		const std::span<const uint32_t> now = find_embedded_shader(name);
+		before[name].assign(now.begin(), now.end());
+	}
+	for (const auto &[name, words] : p_spirv_by_name) {
+		replace_embedded_shader(name, words);
+	}
+	std::vector<std::pair<size_t, PipelineResource>> made;
+	try {
+		for (size_t index = 0; index < pipelines.size(); ++index) {
+			std::visit(
+					[&](const auto &p_desc) {
+						if (uses_any(p_desc, p_spirv_by_name)) {
+							made.emplace_back(index, make_pipeline(p_desc));
+						}
+					},
+					pipelines[index].desc);
+		}
+		wait_idle();
+	} catch (...) {
+		for (auto &[index, pipeline] : made) {
+			destroy(pipeline);
+		}
+		for (auto &[name, words] : before) {
+			replace_embedded_shader(name, std::move(words));
+		}
+		throw;
+	}
+	for (auto &[index, pipeline] : made) {
+		std::swap(pipelines[index], pipeline);
+		set_name(VK_OBJECT_TYPE_PIPELINE, pipelines[index].pipeline, pipelines[index].name);
+		destroy(pipeline);
+	}
+}
+
+} // namespace gnomon

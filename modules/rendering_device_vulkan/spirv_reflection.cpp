@@ -1,0 +1,380 @@
+#include "modules/rendering_device_vulkan/spirv_reflection.h"
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace gnomon {
+
+namespace {
+
+// From the SPIR-V specification, section 3; only what is read here.
+enum Op : uint32_t {
+	OP_ENTRY_POINT = 15,
+	OP_EXECUTION_MODE = 16,
+	OP_TYPE_INT = 21,
+	OP_TYPE_FLOAT = 22,
+	OP_TYPE_VECTOR = 23,
+	OP_TYPE_MATRIX = 24,
+	OP_TYPE_IMAGE = 25,
+	OP_TYPE_SAMPLER = 26,
+	OP_TYPE_SAMPLED_IMAGE = 27,
+	OP_TYPE_ARRAY = 28,
+	OP_TYPE_RUNTIME_ARRAY = 29,
+	OP_TYPE_STRUCT = 30,
+	OP_TYPE_POINTER = 32,
+	OP_CONSTANT = 43,
+	OP_SPEC_CONSTANT = 50,
+	OP_CONSTANT_COMPOSITE = 44,
+	OP_SPEC_CONSTANT_COMPOSITE = 51,
+	OP_FUNCTION = 54,
+	OP_FUNCTION_CALL = 57,
+	OP_VARIABLE = 59,
+	OP_IMAGE_TEXEL_POINTER = 60,
+	OP_LOAD = 61,
+	OP_STORE = 62,
+	OP_COPY_MEMORY = 63,
+	OP_ACCESS_CHAIN = 65,
+	OP_IN_BOUNDS_ACCESS_CHAIN = 66,
+	OP_PTR_ACCESS_CHAIN = 67,
+	OP_ARRAY_LENGTH = 68,
+	OP_DECORATE = 71,
+	OP_MEMBER_DECORATE = 72,
+	OP_COPY_OBJECT = 83,
+	OP_EXECUTION_MODE_ID = 331,
+};
+enum Decoration : uint32_t {
+	DECORATION_SPEC_ID = 1,
+	DECORATION_BUFFER_BLOCK = 3,
+	DECORATION_ARRAY_STRIDE = 6,
+	DECORATION_MATRIX_STRIDE = 7,
+	DECORATION_BUILT_IN = 11,
+	DECORATION_BINDING = 33,
+	DECORATION_DESCRIPTOR_SET = 34,
+	DECORATION_OFFSET = 35,
+};
+enum StorageClass : uint32_t {
+	CLASS_UNIFORM_CONSTANT = 0,
+	CLASS_UNIFORM = 2,
+	CLASS_PUSH_CONSTANT = 9,
+	CLASS_STORAGE_BUFFER = 12,
+};
+constexpr uint32_t SPIRV_MAGIC = 0x07230203;
+constexpr size_t SPIRV_HEADER_WORDS = 5;
+constexpr uint32_t BUILT_IN_WORKGROUP_SIZE = 25;
+constexpr uint32_t MODE_LOCAL_SIZE = 17;
+constexpr uint32_t MODE_LOCAL_SIZE_ID = 38;
+constexpr uint32_t DIM_BUFFER = 5;
+constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
+
+using Instruction = std::span<const uint32_t>; // word 0 is op and length
+
+class Reflector {
+public:
+	Reflector(std::string_view p_name, std::span<const SpecializationConstant> p_constants) :
+			name(p_name), constants(p_constants) {}
+
+	ReflectedShader reflect(std::span<const uint32_t> p_words) {
+		read(p_words);
+		ReflectedShader shader;
+		shader.stage = stage;
+		for (const auto &[id, variable] : variables) {
+			add_variable(id, variable, shader);
+		}
+		std::sort(shader.bindings.begin(), shader.bindings.end(),
+				[](const auto &p_left, const auto &p_right) {
+					return p_left.binding < p_right.binding;
+				});
+		shader.local_size = compute_local_size();
+		return shader;
+	}
+
+private:
+	struct Variable {
+		uint32_t pointer_type = 0;
+		uint32_t storage_class = 0;
+		bool is_used = false;
+	};
+
+	void read(std::span<const uint32_t> p_words) {
+		if (p_words.size() < SPIRV_HEADER_WORDS || p_words[0] != SPIRV_MAGIC) {
+			fail("Shader \"", name, "\" holds no SPIR-V. Build it again.");
+		}
+		bool is_in_function = false;
+		for (size_t at = SPIRV_HEADER_WORDS; at < p_words.size();) {
+			const uint32_t length = p_words[at] >> 16;
+			if (length == 0 || at + length > p_words.size()) {
+				fail("Shader \"", name, "\" is damaged at word ", at, ". Build it again.");
+			}
+			const Instruction instruction = p_words.subspan(at, length);
+			is_in_function = is_in_function || get_op(instruction) == OP_FUNCTION;
+			if (is_in_function) {
+				mark_used(instruction);
+			} else {
+				read_declaration(instruction);
+			}
+			at += length;
+		}
+	}
+
+	static uint32_t get_op(Instruction p_instruction) { return p_instruction[0] & 0xffffu; }
+
+	void read_declaration(Instruction p_in) {
+		switch (get_op(p_in)) {
+			case OP_ENTRY_POINT:
+				stage = get_stage(p_in[1]);
+				break;
+			case OP_EXECUTION_MODE:
+			case OP_EXECUTION_MODE_ID:
+				if (p_in[2] == MODE_LOCAL_SIZE) {
+					local_size = glm::uvec3(p_in[3], p_in[4], p_in[5]);
+				} else if (p_in[2] == MODE_LOCAL_SIZE_ID) {
+					local_size_ids = glm::uvec3(p_in[3], p_in[4], p_in[5]);
+				}
+				break;
+			case OP_DECORATE:
+				decorations[{ p_in[1], p_in[2] }] = p_in.size() > 3 ? p_in[3] : 0;
+				break;
+			case OP_MEMBER_DECORATE:
+				member_decorations[{ p_in[1], p_in[2], p_in[3] }] = p_in.size() > 4 ? p_in[4] : 0;
+				break;
+			case OP_VARIABLE:
+				variables[p_in[2]] = { p_in[1], p_in[3], false };
+				break;
+			case OP_CONSTANT:
+			case OP_SPEC_CONSTANT:
+			case OP_CONSTANT_COMPOSITE:
+			case OP_SPEC_CONSTANT_COMPOSITE:
+				definitions[p_in[2]] = p_in;
+				break;
+			case OP_TYPE_INT:
+			case OP_TYPE_FLOAT:
+			case OP_TYPE_VECTOR:
+			case OP_TYPE_MATRIX:
+			case OP_TYPE_IMAGE:
+			case OP_TYPE_SAMPLER:
+			case OP_TYPE_SAMPLED_IMAGE:
+			case OP_TYPE_ARRAY:
+			case OP_TYPE_RUNTIME_ARRAY:
+			case OP_TYPE_STRUCT:
+			case OP_TYPE_POINTER:
+				definitions[p_in[1]] = p_in;
+				break;
+			default:
+				break;
+		}
+	}
+
+	/// Only instructions that take a pointer are looked at: a literal elsewhere could equal an id.
+	void mark_used(Instruction p_in) {
+		switch (get_op(p_in)) {
+			case OP_LOAD:
+			case OP_ACCESS_CHAIN:
+			case OP_IN_BOUNDS_ACCESS_CHAIN:
+			case OP_PTR_ACCESS_CHAIN:
+			case OP_ARRAY_LENGTH:
+			case OP_IMAGE_TEXEL_POINTER:
+			case OP_COPY_OBJECT:
+				mark_variable(p_in[3]);
+				break;
+			case OP_STORE:
+				mark_variable(p_in[1]);
+				break;
+			case OP_COPY_MEMORY:
+				mark_variable(p_in[1]);
+				mark_variable(p_in[2]);
+				break;
+			case OP_FUNCTION_CALL:
+				for (const uint32_t argument : p_in.subspan(4)) {
+					mark_variable(argument);
+				}
+				break;
+			default:
+				break;
+		}
+	}
+
+	void mark_variable(uint32_t p_id) {
+		if (const auto found = variables.find(p_id); found != variables.end()) {
+			found->second.is_used = true;
+		}
+	}
+
+	VkShaderStageFlagBits get_stage(uint32_t p_model) const {
+		switch (p_model) {
+			case 0:
+				return VK_SHADER_STAGE_VERTEX_BIT;
+			case 3:
+				return VK_SHADER_STAGE_GEOMETRY_BIT;
+			case 4:
+				return VK_SHADER_STAGE_FRAGMENT_BIT;
+			case 5:
+				return VK_SHADER_STAGE_COMPUTE_BIT;
+			default:
+				fail("Shader \"", name, "\" has execution model ", p_model,
+						"; vertex, geometry, fragment and compute are supported.");
+		}
+	}
+
+	std::optional<uint32_t> find_decoration(uint32_t p_id, uint32_t p_decoration) const {
+		const auto found = decorations.find({ p_id, p_decoration });
+		return found == decorations.end() ? std::nullopt : std::optional(found->second);
+	}
+
+	uint32_t get_member_decoration(
+			uint32_t p_type, uint32_t p_member, uint32_t p_decoration) const {
+		const auto found = member_decorations.find({ p_type, p_member, p_decoration });
+		return found == member_decorations.end() ? 0 : found->second;
+	}
+
+	Instruction get_definition(uint32_t p_id) const {
+		const auto found = definitions.find(p_id);
+		GNOMON_ASSERT(found != definitions.end(), "shader ", name, ": id ", p_id);
+		return found->second;
+	}
+
+	/// Of an integer constant, with specialization.
+	uint32_t get_constant(uint32_t p_id) const {
+		if (const auto spec_id = find_decoration(p_id, DECORATION_SPEC_ID)) {
+			for (const SpecializationConstant &constant : constants) {
+				if (constant.constant_id == *spec_id) {
+					return constant.value;
+				}
+			}
+		}
+		return get_definition(p_id)[3];
+	}
+
+	void add_variable(uint32_t p_id, const Variable &p_variable, ReflectedShader &r_shader) const {
+		const uint32_t type = get_definition(p_variable.pointer_type)[3];
+		if (p_variable.storage_class == CLASS_PUSH_CONSTANT) {
+			r_shader.push_constant_bytes = compute_size_bytes(type, 0);
+			return;
+		}
+		if (p_variable.storage_class != CLASS_UNIFORM_CONSTANT &&
+				p_variable.storage_class != CLASS_UNIFORM &&
+				p_variable.storage_class != CLASS_STORAGE_BUFFER) {
+			return;
+		}
+		const uint32_t set = find_decoration(p_id, DECORATION_DESCRIPTOR_SET).value_or(0);
+		ReflectedBinding binding;
+		binding.binding = find_decoration(p_id, DECORATION_BINDING).value_or(0);
+		binding.stages = static_cast<VkShaderStageFlags>(stage);
+		binding.is_used = p_variable.is_used;
+		if (set != 0) {
+			fail("Shader \"", name, "\": binding ", binding.binding, " is in set ", set,
+					"; only set 0 is used. Change its layout.");
+		}
+		set_descriptor_type(type, p_variable.storage_class, binding);
+		r_shader.bindings.push_back(binding);
+	}
+
+	void set_descriptor_type(
+			uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
+		Instruction type = get_definition(p_type);
+		if (p_storage_class == CLASS_STORAGE_BUFFER) {
+			r_binding.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+			return;
+		}
+		if (p_storage_class == CLASS_UNIFORM) {
+			r_binding.type = find_decoration(p_type, DECORATION_BUFFER_BLOCK)
+					? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+					: VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+			return;
+		}
+		const bool is_combined = get_op(type) == OP_TYPE_SAMPLED_IMAGE;
+		if (is_combined) {
+			type = get_definition(type[2]);
+		}
+		if (get_op(type) == OP_TYPE_SAMPLER) {
+			r_binding.type = VK_DESCRIPTOR_TYPE_SAMPLER;
+			return;
+		}
+		if (get_op(type) != OP_TYPE_IMAGE) {
+			fail("Shader \"", name, "\": binding ", r_binding.binding,
+					" is an array of resources, which is not supported. Use one binding for each.");
+		}
+		const bool is_buffer = type[3] == DIM_BUFFER;
+		const bool is_storage = type[7] == IMAGE_IS_STORAGE;
+		r_binding.is_arrayed = type[5] == 1;
+		if (is_buffer && is_storage) {
+			fail("Shader \"", name, "\": binding ", r_binding.binding,
+					" is a storage texel buffer, which is not supported. Use a storage buffer.");
+		}
+		if (is_buffer) {
+			r_binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+		} else if (is_storage) {
+			r_binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+		} else {
+			r_binding.type = is_combined ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+										 : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+		}
+	}
+
+	/// p_matrix_stride_bytes: of the member that holds the type, for matrices.
+	uint32_t compute_size_bytes(uint32_t p_type, uint32_t p_matrix_stride_bytes) const {
+		const Instruction type = get_definition(p_type);
+		switch (get_op(type)) {
+			case OP_TYPE_INT:
+			case OP_TYPE_FLOAT:
+				return type[2] / 8;
+			case OP_TYPE_VECTOR:
+				return type[3] * compute_size_bytes(type[2], 0);
+			case OP_TYPE_MATRIX:
+				return type[3] * p_matrix_stride_bytes;
+			case OP_TYPE_ARRAY:
+				return get_constant(type[3]) *
+						find_decoration(p_type, DECORATION_ARRAY_STRIDE).value_or(0);
+			case OP_TYPE_STRUCT: {
+				uint32_t end = 0;
+				for (uint32_t member = 0; member + 2 < type.size(); ++member) {
+					const uint32_t offset =
+							get_member_decoration(p_type, member, DECORATION_OFFSET);
+					const uint32_t stride =
+							get_member_decoration(p_type, member, DECORATION_MATRIX_STRIDE);
+					end = std::max(end, offset + compute_size_bytes(type[member + 2], stride));
+				}
+				return end;
+			}
+			default:
+				fail("Shader \"", name, "\": a push constant has an unsupported type. Use floats, ",
+						"integers, vectors, matrices, arrays and structures.");
+		}
+	}
+
+	glm::uvec3 compute_local_size() const {
+		// A constant decorated WorkgroupSize has precedence over the execution modes.
+		for (const auto &[key, value] : decorations) {
+			if (key.second == DECORATION_BUILT_IN && value == BUILT_IN_WORKGROUP_SIZE) {
+				const Instruction parts = get_definition(key.first);
+				return { get_constant(parts[3]), get_constant(parts[4]), get_constant(parts[5]) };
+			}
+		}
+		if (local_size_ids) {
+			return { get_constant(local_size_ids->x), get_constant(local_size_ids->y),
+				get_constant(local_size_ids->z) };
+		}
+		return local_size;
+	}
+
+	std::string_view name;
+	std::span<const SpecializationConstant> constants;
+	VkShaderStageFlagBits stage = VK_SHADER_STAGE_FLAG_BITS_MAX_ENUM;
+	glm::uvec3 local_size = glm::uvec3(1);
+	std::optional<glm::uvec3> local_size_ids;
+	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations;	// id, decoration -> operand
+	std::map<std::array<uint32_t, 3>, uint32_t> member_decorations; // type, member, decoration
+	std::map<uint32_t, Instruction> definitions;					// types and constants
+	std::map<uint32_t, Variable> variables;
+};
+
+} // namespace
+
+ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
+		std::span<const SpecializationConstant> p_constants) {
+	return Reflector(p_name, p_constants).reflect(p_words);
+}
+
+} // namespace gnomon

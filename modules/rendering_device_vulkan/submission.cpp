@@ -1,0 +1,277 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+#include "modules/rendering_device_vulkan/vulkan_swapchain.h"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+void record_full_barrier(VkCommandBuffer p_commands, VkPipelineStageFlags2 p_target_stages,
+		VkAccessFlags2 p_target_access) {
+	const VkMemoryBarrier2 barrier = { .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+		.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+		.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+		.dstStageMask = p_target_stages,
+		.dstAccessMask = p_target_access };
+	const VkDependencyInfo dependency = { .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+		.memoryBarrierCount = 1,
+		.pMemoryBarriers = &barrier };
+	vkCmdPipelineBarrier2(p_commands, &dependency);
+}
+
+constexpr VkCommandBufferBeginInfo BEGIN_INFO = {
+	.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+	.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
+};
+
+} // namespace
+
+void VulkanDevice::create_slots() {
+	const VkSemaphoreTypeCreateInfo timeline_info = {
+		.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+		.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE
+	};
+	const VkSemaphoreCreateInfo semaphore_info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO,
+		.pNext = &timeline_info };
+	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &timeline), "vkCreateSemaphore");
+	set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "finished submissions");
+	check(vkCreateSemaphore(device, &semaphore_info, nullptr, &never), "vkCreateSemaphore");
+	set_name(VK_OBJECT_TYPE_SEMAPHORE, never, "injected hang");
+	for (uint32_t index = 0; index < SLOT_COUNT; ++index) {
+		SubmissionSlot &slot = slots[index];
+		const VkCommandPoolCreateInfo pool_info = {
+			.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+			.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+			.queueFamilyIndex = physical.queue_family
+		};
+		check(vkCreateCommandPool(device, &pool_info, nullptr, &slot.pool), "vkCreateCommandPool");
+		const VkCommandBufferAllocateInfo allocate_info = {
+			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+			.commandPool = slot.pool,
+			.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+			.commandBufferCount = 2
+		};
+		VkCommandBuffer made[2];
+		check(vkAllocateCommandBuffers(device, &allocate_info, made), "vkAllocateCommandBuffers");
+		slot.commands = made[0];
+		slot.uploads = made[1];
+		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, text("commands ", index));
+		set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.uploads, text("uploads ", index));
+		slot.breadcrumbs = make_buffer({ .name = text("breadcrumbs ", index),
+				.size_bytes = MAX_BREADCRUMBS * sizeof(uint32_t),
+				.usage = BufferUsage::COPY_TARGET,
+				.memory = MemoryKind::READBACK });
+	}
+}
+
+void VulkanDevice::destroy_slots() {
+	for (SubmissionSlot &slot : slots) {
+		vkDestroyCommandPool(device, slot.pool, nullptr);
+		for (VkDescriptorPool pool : slot.descriptor_pools) {
+			vkDestroyDescriptorPool(device, pool, nullptr);
+		}
+		for (VkQueryPool pool : slot.query_pools) {
+			vkDestroyQueryPool(device, pool, nullptr);
+		}
+		destroy(slot.breadcrumbs);
+	}
+	vkDestroySemaphore(device, timeline, nullptr);
+	vkDestroySemaphore(device, never, nullptr);
+}
+
+uint64_t VulkanDevice::get_finished_number() {
+	uint64_t finished = 0;
+	check(vkGetSemaphoreCounterValue(device, timeline, &finished), "vkGetSemaphoreCounterValue");
+	return finished;
+}
+
+void VulkanDevice::collect() {
+	const uint64_t finished = get_finished_number();
+	while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
+		std::visit([&](auto &r_resource) { destroy(r_resource); }, deferred_frees.front().resource);
+		deferred_frees.pop_front();
+	}
+	SubmissionSlot *newest = nullptr;
+	for (SubmissionSlot &slot : slots) {
+		const bool is_finished = slot.has_unread_spans && slot.number <= finished;
+		if (is_finished && (!newest || slot.number > newest->number)) {
+			newest = &slot;
+		}
+	}
+	if (newest) {
+		read_spans(*newest);
+	}
+}
+
+template <typename Resource> void VulkanDevice::defer_free(Resource &&p_resource) {
+	const uint64_t number = submitted_number + (recording.is_recording ? 1 : 0);
+	deferred_frees.push_back({ number, std::move(p_resource) });
+	// Never throws, since destructors call it: a lost device keeps everything until it ends.
+	uint64_t finished = 0;
+	if (lost_text.empty() &&
+			vkGetSemaphoreCounterValue(device, timeline, &finished) == VK_SUCCESS) {
+		while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
+			std::visit([&](auto &r_resource) { destroy(r_resource); },
+					deferred_frees.front().resource);
+			deferred_frees.pop_front();
+		}
+	}
+}
+template void VulkanDevice::defer_free(BufferResource &&);
+template void VulkanDevice::defer_free(TextureResource &&);
+template void VulkanDevice::defer_free(SamplerResource &&);
+template void VulkanDevice::defer_free(MemoryResource &&);
+
+CommandList &VulkanDevice::begin_commands() {
+	fail_if_lost();
+	GNOMON_ASSERT(!recording.is_recording,
+			"begin_commands was called twice without submit_commands or abandon_commands.");
+	SubmissionSlot &slot = get_recording_slot();
+	// An abandoned or refused recording leaves a number that was never submitted.
+	wait_for(std::min(slot.number, submitted_number));
+	collect();
+	check(vkResetCommandPool(device, slot.pool, 0), "vkResetCommandPool");
+	for (VkDescriptorPool pool : slot.descriptor_pools) {
+		vkResetDescriptorPool(device, pool, 0);
+	}
+	slot.descriptor_pool_index = 0;
+	slot.span_names.clear();
+	slot.has_unread_spans = false;
+	slot.number = submitted_number + 1;
+	check(vkBeginCommandBuffer(slot.commands, &BEGIN_INFO), "vkBeginCommandBuffer");
+	// Frames follow one another; inside a frame the render graph is more exact.
+	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+			VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+	recording = VulkanCommandList();
+	recording.device = this;
+	recording.commands = slot.commands;
+	recording.is_recording = true;
+	return recording;
+}
+
+void VulkanDevice::submit_commands(SubmitMode p_mode) {
+	fail_if_lost();
+	GNOMON_ASSERT(recording.is_recording, "submit_commands without begin_commands.");
+	GNOMON_ASSERT(!recording.is_rendering, "submit_commands before end_rendering.");
+	GNOMON_ASSERT(!recording.is_conditional, "submit_commands before end_conditional.");
+	GNOMON_ASSERT(!recording.is_in_span, "submit_commands inside span '",
+			get_recording_slot().span_names.back(), "'.");
+	submit();
+	if (p_mode == SubmitMode::WAIT) {
+		wait_for(submitted_number);
+		collect();
+	}
+}
+
+bool VulkanDevice::meet_fault(const SubmissionSlot &p_slot) {
+	const std::optional<std::string> pass = injected_fault.find_pass(p_slot.span_names);
+	if (!pass) {
+		return false;
+	}
+	const Fault fault = std::exchange(injected_fault, {}).fault;
+	if (fault == Fault::DEVICE_LOST) {
+		fail_as_lost(*pass);
+	}
+	if (fault == Fault::OUT_OF_MEMORY) {
+		throw std::bad_alloc();
+	}
+	return fault == Fault::HANG;
+}
+
+void VulkanDevice::submit() {
+	SubmissionSlot &slot = get_recording_slot();
+	record_full_barrier(slot.commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+	recording.is_recording = false;
+	check(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
+	const bool is_to_hang = meet_fault(slot);
+	VkCommandBufferSubmitInfo command_infos[2] = {};
+	uint32_t command_count = 0;
+	const auto add_commands = [&](VkCommandBuffer p_commands) {
+		command_infos[command_count++] = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+			.commandBuffer = p_commands };
+	};
+	if (!pending_uploads.empty()) {
+		check(vkBeginCommandBuffer(slot.uploads, &BEGIN_INFO), "vkBeginCommandBuffer");
+		record_uploads(slot.uploads);
+		check(vkEndCommandBuffer(slot.uploads), "vkEndCommandBuffer");
+		add_commands(slot.uploads);
+	}
+	add_commands(slot.commands);
+
+	const bool is_waiting = swapchain && swapchain->must_wait();
+	const bool is_presenting = swapchain && swapchain->must_present();
+	VkSemaphoreSubmitInfo waits[2] = {};
+	uint32_t wait_count = 0;
+	const auto add_wait = [&](VkSemaphore p_semaphore, uint64_t p_value) {
+		waits[wait_count++] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+			.semaphore = p_semaphore,
+			.value = p_value,
+			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	};
+	if (is_waiting) {
+		add_wait(swapchain->get_acquisition(), 0);
+	}
+	if (is_to_hang) {
+		add_wait(never, 1);
+	}
+	VkSemaphoreSubmitInfo signals[2] = {
+		{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+				.semaphore = timeline,
+				.value = slot.number,
+				.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT },
+	};
+	if (is_presenting) {
+		signals[1] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+			.semaphore = swapchain->get_rendered(),
+			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+	}
+	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+		.waitSemaphoreInfoCount = wait_count,
+		.pWaitSemaphoreInfos = waits,
+		.commandBufferInfoCount = command_count,
+		.pCommandBufferInfos = command_infos,
+		.signalSemaphoreInfoCount = is_presenting ? 2u : 1u,
+		.pSignalSemaphoreInfos = signals };
+	check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit2");
+	submitted_number = slot.number;
+	slot.has_unread_spans = true;
+	for (PendingUpload &upload : pending_uploads) {
+		deferred_frees.push_back({ submitted_number, std::move(upload.staging) });
+	}
+	pending_uploads.clear();
+	pending_upload_bytes = 0;
+	if (is_waiting) {
+		swapchain->is_acquisition_awaited = true;
+	}
+	if (is_presenting) {
+		swapchain->present();
+	}
+}
+
+void VulkanDevice::abandon_commands() {
+	if (!recording.is_recording) {
+		return;
+	}
+	// The command buffer stays open; begin_commands resets its pool.
+	recording.is_recording = false;
+	get_recording_slot().span_names.clear();
+}
+
+uint64_t VulkanDevice::get_submission_number() const {
+	return submitted_number + (recording.is_recording ? 1 : 0);
+}
+
+bool VulkanDevice::is_submission_finished(uint64_t p_number) {
+	fail_if_lost();
+	return p_number <= get_finished_number();
+}
+
+const std::vector<GpuSpan> &VulkanDevice::get_gpu_spans() const {
+	return gpu_spans;
+}
+
+} // namespace gnomon

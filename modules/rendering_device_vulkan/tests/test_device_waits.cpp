@@ -1,0 +1,212 @@
+#include "modules/rendering_device/tests/device_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+using namespace gnomon;
+using SubmitMode = RenderingDevice::SubmitMode;
+
+namespace {
+
+const uint64_t TARGET_BYTES = 64 * sizeof(float);
+const uint32_t ROUND_COUNT = 65535; // of each invocation: the most that software drivers run
+const uint32_t MOST_GROUPS = 65535; // of all devices; takes seconds on 128 cores
+
+OwnedBuffer make_target(RenderingDevice &r_device) {
+	return OwnedBuffer(r_device,
+			r_device.create_buffer({ .name = "target",
+					.size_bytes = TARGET_BYTES,
+					.usage = BufferUsage::STORAGE | BufferUsage::COPY_TARGET }));
+}
+
+void record_work(RenderingDevice &r_device, CommandList &r_commands, const std::string &p_name,
+		BufferRID p_target, uint32_t p_group_count = 1) {
+	const Barrier barrier = { .buffer = p_target,
+		.before = Access::SHADER_WRITE_COMPUTE,
+		.after = Access::SHADER_WRITE_COMPUTE };
+	r_commands.begin_span(p_name);
+	r_commands.barriers({ &barrier, 1 });
+	r_commands.bind_pipeline(r_device.get_compute_pipeline(
+			{ .name = "slow", .shader = "rendering_device/test_slow.comp" }));
+	r_commands.bind_resources({ { 0, p_target } });
+	r_commands.push_constants(ROUND_COUNT);
+	r_commands.dispatch({ p_group_count, 1, 1 });
+	r_commands.end_span();
+}
+
+/// Work that is slow enough is known of CPUs; a fast GPU would be done with all of it at once.
+bool is_slow(const RenderingDevice &p_device) {
+	return p_device.get_info().type == "CPU";
+}
+
+/// Pipelines are compiled before the clock matters.
+void warm_up(RenderingDevice &r_device, BufferRID p_target) {
+	record_work(r_device, r_device.begin_commands(), "warm up", p_target);
+	r_device.submit_commands(SubmitMode::WAIT);
+}
+
+double compute_seconds_since(std::chrono::steady_clock::time_point p_start) {
+	return std::chrono::duration<double>(std::chrono::steady_clock::now() - p_start).count();
+}
+
+/// An environment variable that is unset again.
+struct Variable {
+	const char *name;
+	Variable(const char *p_name, const char *p_value) : name(p_name) { ::setenv(name, p_value, 1); }
+	~Variable() { ::unsetenv(name); }
+	Variable(const Variable &) = delete;
+	Variable &operator=(const Variable &) = delete;
+};
+
+} // namespace
+
+TEST_CASE("[GPU][RenderingDevice] a pass that takes longer than the limit is named, and the device "
+		  "given up") {
+	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	RenderingDevice &device = *fixture.device;
+	if (!is_slow(device)) {
+		return;
+	}
+	const OwnedBuffer target = make_target(device);
+	warm_up(device, target.get());
+	std::string error;
+	for (uint32_t groups = 1; error.empty() && groups <= MOST_GROUPS; groups *= 3) {
+		CommandList &commands = device.begin_commands();
+		record_work(device, commands, "G-buffer", target.get());
+		record_work(device, commands, "Lamp: resolve", target.get(), groups);
+		record_work(device, commands, "tone map", target.get());
+		error = catch_error([&] { device.submit_commands(SubmitMode::WAIT); });
+	}
+	CHECK(contains(error, "no progress for 1 s, in pass 'Lamp: resolve'"));
+	CHECK(contains(error, "GNOMON_DEVICE_TIMEOUT_S"));
+	CHECK_THROWS_AS(device.begin_commands(), DeviceLost);
+	CHECK(catch_error([&] { device.wait_idle(); }) == error);
+}
+
+TEST_CASE("[GPU][RenderingDevice] passes that take longer than the limit together are waited for") {
+	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	RenderingDevice &device = *fixture.device;
+	if (!is_slow(device)) {
+		return;
+	}
+	const OwnedBuffer target = make_target(device);
+	warm_up(device, target.get());
+	// Twice the work until it is enough: each pass takes a twentieth of the limit at most.
+	double seconds = 0;
+	for (uint32_t groups = 1; seconds <= 1.0; groups *= 2) {
+		REQUIRE(groups <= MOST_GROUPS);
+		CommandList &commands = device.begin_commands();
+		for (uint32_t index = 0; index < 40; ++index) {
+			record_work(device, commands, text("pass ", index), target.get(), groups);
+		}
+		const auto start = std::chrono::steady_clock::now();
+		device.submit_commands(SubmitMode::WAIT); // throws where it is not waited for
+		seconds = compute_seconds_since(start);
+	}
+}
+
+TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its first pass") {
+	DeviceFixture fixture({ .wait_limit_s = 1.0 });
+	RenderingDevice &device = *fixture.device;
+	OwnedBuffer target = make_target(device);
+	record_work(device, device.begin_commands(), "shown before", target.get());
+	device.submit_commands(SubmitMode::WAIT);
+	record_work(device, device.begin_commands(), "G-buffer", target.get());
+	inject_fault(device, Fault::HANG);
+	const auto start = std::chrono::steady_clock::now();
+	device.submit_commands(SubmitMode::QUEUE); // the next one that waits notices it
+	const std::string error = catch_error([&] { device.wait_idle(); });
+	CHECK(contains(error, "before pass 'G-buffer' began"));
+	CHECK(compute_seconds_since(start) >= 1.0);
+	release_injected_hang(device);
+	target.reset();
+	fixture.device.reset();
+	CHECK_FALSE(has_device_hung());
+}
+
+TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is told once, then the "
+		  "device works on") {
+	DeviceFixture fixture;
+	RenderingDevice &device = *fixture.device;
+	const OwnedBuffer target = make_target(device);
+	for (int repeat = 0; repeat < 3; ++repeat) {
+		inject_fault(device, Fault::OUT_OF_MEMORY);
+		record_work(device, device.begin_commands(), "pass", target.get());
+		CHECK_THROWS_AS(device.submit_commands(SubmitMode::WAIT), std::bad_alloc);
+		record_work(device, device.begin_commands(), "pass", target.get());
+		device.submit_commands(SubmitMode::WAIT);
+	}
+	CHECK(list_live_resources(device) == std::vector<std::string>{ "buffer 'target'" });
+}
+
+TEST_CASE("[GPU][RenderingDevice] environment variables set limits, and bad ones are refused") {
+	SUBCASE("the memory budget") {
+		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+		DeviceFixture fixture;
+		CHECK(fixture.device->get_memory_use().budget_bytes == 3 << 20);
+		const std::string error = catch_error([&] {
+			fixture.device->create_buffer(
+					{ .name = "large", .size_bytes = 4 << 20, .usage = BufferUsage::STORAGE });
+		});
+		CHECK(contains(error, "Out of device memory: buffer 'large' needs 4096 KiB"));
+	}
+	SUBCASE("what is chosen in the program comes first") {
+		const Variable variable("GNOMON_MEMORY_BUDGET_MIB", "3");
+		DeviceFixture fixture({ .memory_budget_bytes = 5 << 20 });
+		CHECK(fixture.device->get_memory_use().budget_bytes == 5 << 20);
+	}
+	for (const char *name : { "GNOMON_MEMORY_BUDGET_MIB", "GNOMON_DEVICE_TIMEOUT_S" }) {
+		for (const char *value : { "-1", "many", "1e99", "nan", "5 s" }) {
+			const Variable variable(name, value);
+			const std::string error = catch_error([] { create_rendering_device({}); });
+			CHECK(contains(error, text(name, " is \"", value, "\", must be 0..")));
+		}
+	}
+	for (const char *value : { "fire", "hang@", "hang@12", "hang@pass", "hang@pass:", "hang@file:",
+				 "hang@frame:3", "fire@pass:resolve", "@pass:resolve" }) {
+		const Variable variable("GNOMON_INJECT_FAULT", value);
+		const std::string error = catch_error([] { create_rendering_device({}); });
+		CHECK(contains(error, text("GNOMON_INJECT_FAULT is \"", value, "\"")));
+	}
+}
+
+TEST_CASE(
+		"[GPU][RenderingDevice] a fault of the environment happens once, to the submission that is "
+		"named") {
+	const auto submit = [](DeviceFixture &r_fixture, std::initializer_list<const char *> p_passes) {
+		RenderingDevice &device = *r_fixture.device;
+		CommandList &commands = device.begin_commands();
+		for (const char *pass : p_passes) {
+			commands.begin_span(pass);
+			commands.end_span();
+		}
+		device.submit_commands(SubmitMode::WAIT);
+	};
+	SUBCASE("the first one") {
+		const Variable variable("GNOMON_INJECT_FAULT", "device_lost");
+		DeviceFixture fixture;
+		CHECK_THROWS_AS(submit(fixture, {}), DeviceLost);
+	}
+	SUBCASE("the first one with that pass, which the message names") {
+		const Variable variable("GNOMON_INJECT_FAULT", "device_lost@pass:resolve");
+		DeviceFixture fixture;
+		submit(fixture, {});
+		submit(fixture, { "G-buffer" });
+		const std::string error = catch_error([&] {
+			submit(fixture, { "G-buffer", "Lamp: resolve", "tone map" });
+		});
+		CHECK(contains(error, "pass 'Lamp: resolve'"));
+	}
+	SUBCASE("the first one after that file exists") {
+		const TemporaryFolder folder;
+		const std::filesystem::path file = folder.path / "a file";
+		const Variable variable(
+				"GNOMON_INJECT_FAULT", text("out_of_memory@file:", file.string()).c_str());
+		DeviceFixture fixture;
+		submit(fixture, { "G-buffer" });
+		save_file_atomically(file, std::string_view("here"));
+		CHECK_THROWS_AS(submit(fixture, { "G-buffer" }), std::bad_alloc);
+		submit(fixture, { "G-buffer" });
+	}
+}

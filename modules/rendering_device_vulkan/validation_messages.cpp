@@ -1,0 +1,69 @@
+#include "modules/rendering_device_vulkan/validation_messages.h"
+
+#include "modules/core/log.h"
+#include "modules/rendering_device/testing.h"
+
+#include <cstring>
+#include <mutex>
+
+namespace gnomon {
+
+namespace {
+
+std::mutex messages_mutex; // layers may report from the driver's threads
+unsigned message_count = 0;
+std::vector<std::string> *expected_messages = nullptr;
+
+VKAPI_ATTR VkBool32 VKAPI_CALL receive_message(
+		VkDebugUtilsMessageSeverityFlagBitsEXT /*p_severity*/,
+		VkDebugUtilsMessageTypeFlagsEXT /*p_types*/,
+		const VkDebugUtilsMessengerCallbackDataEXT *p_data, void * /*p_user*/) {
+	const char *name = p_data->pMessageIdName ? p_data->pMessageIdName : "";
+	if (std::strncmp(name, "Loader Message", 14) == 0) {
+		return VK_FALSE;
+	}
+	const char *message = p_data->pMessage ? p_data->pMessage : "";
+	{
+		std::lock_guard lock(messages_mutex);
+		if (expected_messages) {
+			expected_messages->push_back(message);
+			return VK_FALSE;
+		}
+		++message_count;
+	}
+	log_error("Validation: ", message);
+	return VK_FALSE;
+}
+
+} // namespace
+
+VkDebugUtilsMessengerCreateInfoEXT make_messenger_info() {
+	return { .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+		.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+				VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+		.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT |
+				VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+		.pfnUserCallback = receive_message };
+}
+
+unsigned get_validation_message_count() {
+	std::lock_guard lock(messages_mutex);
+	return message_count;
+}
+
+ExpectedValidationMessages::ExpectedValidationMessages() {
+	std::lock_guard lock(messages_mutex);
+	before = std::exchange(expected_messages, &messages);
+}
+
+ExpectedValidationMessages::~ExpectedValidationMessages() {
+	std::lock_guard lock(messages_mutex);
+	expected_messages = before;
+}
+
+std::vector<std::string> ExpectedValidationMessages::get_messages() const {
+	std::lock_guard lock(messages_mutex);
+	return messages;
+}
+
+} // namespace gnomon

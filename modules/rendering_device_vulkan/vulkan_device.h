@@ -1,0 +1,296 @@
+#pragma once
+
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/slot_table.h"
+#include "modules/rendering_device_vulkan/injected_fault.h"
+#include "modules/rendering_device_vulkan/memory_allocator.h"
+#include "modules/rendering_device_vulkan/spirv_reflection.h"
+#include "modules/rendering_device_vulkan/vulkan_command_list.h"
+#include "modules/rendering_device_vulkan/vulkan_handles.h"
+#include "modules/rendering_device_vulkan/vulkan_instance.h"
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <variant>
+
+namespace gnomon {
+
+class VulkanSwapchain;
+
+struct BufferResource {
+	BufferDesc desc;
+	VkBuffer buffer = VK_NULL_HANDLE;
+	VkBufferView texel_view = VK_NULL_HANDLE;
+	Allocation memory;
+};
+
+/// Shaders read the depth of a texture with a stencil; as an attachment it has both.
+enum class ViewUse { ATTACHMENT, SHADER };
+struct TextureView {
+	ViewUse use = ViewUse::ATTACHMENT;
+	uint32_t layer = 0; // or Binding::ALL_LAYERS
+	bool is_arrayed = false;
+	VkImageView view = VK_NULL_HANDLE;
+};
+
+struct TextureResource {
+	TextureDesc desc;
+	VkImage image = VK_NULL_HANDLE;
+	VkFormat format = VK_FORMAT_UNDEFINED; // differs from desc.format for some swapchain images
+	Allocation memory;					   // empty when placed, or the swapchain's
+	MemoryRID placed_in;
+	bool is_swapchain = false;
+	/// After the commands recorded so far. Lets an attachment be read-only without saying so twice.
+	VkImageLayout recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+	std::vector<TextureView> views; // made when first needed
+};
+
+struct SamplerResource {
+	SamplerDesc desc;
+	VkSampler sampler = VK_NULL_HANDLE;
+};
+
+struct MemoryResource {
+	struct Desc {
+		std::string name;
+		uint64_t size_bytes = 0;
+	} desc;
+	Allocation memory;
+	uint32_t texture_count = 0; // placed here and not freed
+};
+
+struct PipelineResource {
+	std::string name;
+	VkPipeline pipeline = VK_NULL_HANDLE;
+	VkPipelineLayout layout = VK_NULL_HANDLE;
+	VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+	VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+	std::vector<ReflectedBinding> bindings; // of all stages
+	bool uses_resources = false;
+	uint32_t push_constant_bytes = 0; // rounded up to 16
+	VkShaderStageFlags push_constant_stages = 0;
+	glm::uvec3 local_size = glm::uvec3(1);
+	// Of raster pipelines, compared with the targets at each draw.
+	std::vector<Format> color_formats;
+	std::optional<Format> depth_format;
+	bool writes_depth = false; // or stencil
+	uint32_t vertex_buffer_count = 0;
+	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc; // what it was made of
+};
+
+/// Freed, but perhaps still used by the submission of this number.
+struct DeferredFree {
+	uint64_t submission_number = 0;
+	std::variant<BufferResource, TextureResource, SamplerResource, MemoryResource> resource;
+};
+
+/// Bytes on their way into a new resource; recorded in front of the next submission.
+struct PendingUpload {
+	BufferResource staging;
+	uint64_t size_bytes = 0;
+	BufferRID buffer; // one of the two
+	uint64_t buffer_offset_bytes = 0;
+	TextureRID texture;
+	uint32_t layer_count = 1;
+};
+
+/// What one of the two submissions in flight owns.
+struct SubmissionSlot {
+	uint64_t number = 0; // 0: nothing submitted yet
+	VkCommandPool pool = VK_NULL_HANDLE;
+	VkCommandBuffer commands = VK_NULL_HANDLE;
+	VkCommandBuffer uploads = VK_NULL_HANDLE; // runs before `commands`
+	std::vector<VkDescriptorPool> descriptor_pools;
+	size_t descriptor_pool_index = 0;
+	std::vector<VkQueryPool> query_pools;
+	std::vector<std::string> span_names;
+	bool has_unread_spans = false;
+	BufferResource breadcrumbs; // word i: the submission in which span i began last
+};
+
+/// The Vulkan device. Its parts see each other; nothing outside this module sees it.
+class VulkanDevice final : public RenderingDevice {
+public:
+	~VulkanDevice() override;
+	/// Once, before everything else; where it fails, the destructor ends what there is.
+	void initialize(const DeviceOptions &p_options, const PretendedLimits &p_limits);
+
+	// device_creation.cpp
+	const DeviceInfo &get_info() const override;
+	const DeviceFeatures &get_features() const override;
+	MemoryUse get_memory_use() const override;
+	CommandCounts get_command_counts() const override;
+	std::vector<std::string> list_live_resources();
+
+	// buffers.cpp, textures.cpp, placed_textures.cpp
+	BufferRID create_buffer(const BufferDesc &p_desc) override;
+	BufferRID create_buffer_with_data(BufferDesc p_desc, std::span<const uint8_t> p_bytes) override;
+	TextureRID create_texture(const TextureDesc &p_desc) override;
+	TextureRID create_texture_with_data(
+			TextureDesc p_desc, std::span<const uint8_t> p_bytes) override;
+	SamplerRID create_sampler(const SamplerDesc &p_desc) override;
+	void free(BufferRID p_buffer) override;
+	void free(TextureRID p_texture) override;
+	void free(SamplerRID p_sampler) override;
+	void free(MemoryRID p_memory) override;
+	const BufferDesc &get_desc(BufferRID p_buffer) const override;
+	const TextureDesc &get_desc(TextureRID p_texture) const override;
+	uint8_t *get_mapped(BufferRID p_buffer) override;
+	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) override;
+	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) override;
+	TextureRID create_placed_texture(
+			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) override;
+
+	// pipelines.cpp, raster_pipelines.cpp, shader_replacement.cpp
+	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) override;
+	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) override;
+	uint32_t get_pipeline_count() const override;
+	void replace_shaders(
+			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) override;
+
+	// submission.cpp, device_waits.cpp
+	CommandList &begin_commands() override;
+	void submit_commands(SubmitMode p_mode) override;
+	void abandon_commands() override;
+	void wait_idle() override;
+	uint64_t get_submission_number() const override;
+	bool is_submission_finished(uint64_t p_number) override;
+	const std::vector<GpuSpan> &get_gpu_spans() const override;
+
+	static constexpr uint32_t SLOT_COUNT = 2;
+	static constexpr uint32_t SPANS_PER_QUERY_POOL = 64;
+	static constexpr uint32_t MAX_BREADCRUMBS = 1024; // later spans of a submission leave none
+
+	DeviceOptions options;
+	std::unique_ptr<VulkanInstance> instance;
+	PhysicalDevice physical;
+	VkPhysicalDeviceLimits limits = {};
+	uint64_t max_buffer_bytes = 0;
+	uint64_t timestamp_mask = 0; // 0: no timestamps
+	DeviceFeatures features;
+	VkDevice device = VK_NULL_HANDLE;
+	VkQueue queue = VK_NULL_HANDLE;
+	MemoryAllocator allocator;
+
+	SlotTable<BufferRID, BufferResource> buffers{ "buffer" };
+	SlotTable<TextureRID, TextureResource> textures{ "texture" };
+	SlotTable<SamplerRID, SamplerResource> samplers{ "sampler" };
+	SlotTable<MemoryRID, MemoryResource> memories{ "memory" };
+	std::deque<PipelineResource> pipelines; // RID = index + 1
+	std::map<std::string, PipelineRID> pipelines_by_description;
+	VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+	uint64_t saved_cache_hash = 0;
+
+	std::deque<DeferredFree> deferred_frees; // in the order of their submissions
+	std::vector<PendingUpload> pending_uploads;
+	uint64_t pending_upload_bytes = 0;
+
+	VkSemaphore timeline = VK_NULL_HANDLE; // counts finished submissions
+	uint64_t submitted_number = 0;
+	CommandCounts command_counts;
+	SubmissionSlot slots[SLOT_COUNT];
+	VulkanCommandList recording;
+	std::vector<GpuSpan> gpu_spans;
+	VulkanSwapchain *swapchain = nullptr;
+
+	InjectedFault injected_fault;
+	VkSemaphore never = VK_NULL_HANDLE; // that an injected hang waits for
+	double wait_limit_s = 0;			// 0: none
+	bool is_hung = false;  // lost because it made no progress; may still use everything
+	std::string lost_text; // empty while the device works
+
+	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
+	PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
+	PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+	PFN_vkCmdBeginConditionalRenderingEXT begin_conditional_rendering =
+			nullptr; // or the device lacks it
+	PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering = nullptr;
+
+	// device_creation.cpp
+	void shutdown();
+
+	// device_environment.cpp
+	void read_environment();
+
+	// failures.cpp
+	/// Throws unless the call succeeded; a lost device is reported with the pass it happened in.
+	void check(VkResult p_result, const char *p_call);
+	void fail_if_lost() const;
+	[[noreturn]] void fail_as_lost(const std::string &p_span_name);
+	std::string find_last_span_begun() const;
+	[[noreturn]] void fail_out_of_memory(
+			const std::string &p_resource, uint64_t p_size_bytes, MemoryRequest p_request);
+	template <typename Handle>
+	void set_name(VkObjectType p_type, Handle p_handle, const std::string &p_name) {
+		set_name_of(p_type, reinterpret_cast<uint64_t>(p_handle), p_name);
+	}
+	void set_name_of(VkObjectType p_type, uint64_t p_handle, const std::string &p_name);
+
+	// buffers.cpp, textures.cpp
+	Allocation allocate(const std::string &p_resource, const MemoryRequest &p_request);
+	BufferResource make_buffer(const BufferDesc &p_desc);
+	TextureResource make_image(const TextureDesc &p_desc);
+	VkImageCreateInfo make_image_info(const TextureDesc &p_desc);
+	void check_texture_limits(const TextureDesc &p_desc);
+	VkImageView get_view(
+			TextureResource &r_texture, ViewUse p_use, uint32_t p_layer, bool p_is_arrayed);
+	void destroy(BufferResource &r_buffer);
+	void destroy(TextureResource &r_texture);
+	void destroy(SamplerResource &r_sampler);
+	void destroy(MemoryResource &r_memory);
+	void destroy(PipelineResource &r_pipeline);
+	PipelineResource make_pipeline(const ComputePipelineDesc &p_desc);
+	PipelineResource make_pipeline(const RasterPipelineDesc &p_desc);
+
+	// uploads.cpp
+	void add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t> p_bytes);
+	void add_texture_upload(TextureRID p_texture, std::span<const uint8_t> p_bytes);
+	BufferResource make_staging(const std::string &p_name, std::span<const uint8_t> p_bytes);
+	void record_uploads(VkCommandBuffer p_commands);
+	void flush_uploads_when_many();
+	template <typename Handle> void drop_uploads(Handle p_target);
+
+	// submission.cpp
+	SubmissionSlot &get_recording_slot() { return slots[(submitted_number + 1) % SLOT_COUNT]; }
+	void create_slots();
+	void destroy_slots();
+	uint64_t get_finished_number();
+	/// Destroys what finished submissions no longer use and reads their timestamps.
+	void collect();
+	template <typename Resource> void defer_free(Resource &&p_resource);
+	void submit();
+	/// Throws what a test wants this submission to fail with; true: it is to hang.
+	bool meet_fault(const SubmissionSlot &p_slot);
+
+	// device_waits.cpp
+	/// Without progress for wait_limit_s: DeviceLost.
+	void wait_for(uint64_t p_submission_number);
+	VkResult wait_at_most(uint64_t p_submission_number, double p_seconds);
+	size_t count_begun_spans(const SubmissionSlot &p_slot) const;
+	[[noreturn]] void fail_as_hung(uint64_t p_finished_number);
+	/// Waits until the device does nothing any more. False: it hangs, and nothing may be destroyed.
+	bool has_ended();
+
+	// gpu_spans.cpp
+	void begin_span(const std::string &p_name);
+	void end_span();
+	void read_spans(SubmissionSlot &r_slot);
+
+	// pipelines.cpp, raster_pipelines.cpp, pipeline_cache_file.cpp
+	PipelineRID find_pipeline(const std::string &p_description) const;
+	const PipelineResource &get_pipeline(PipelineRID p_pipeline) const;
+	PipelineRID add_pipeline(const std::string &p_description, PipelineResource &&p_pipeline);
+	void check_raster_features(const RasterPipelineDesc &p_desc) const;
+	VkPipeline create_raster_pipeline(const RasterPipelineDesc &p_desc, VkPipelineLayout p_layout,
+			std::span<const VkPipelineShaderStageCreateInfo> p_stages);
+	void create_layout(PipelineResource &r_pipeline, std::span<const ReflectedShader> p_shaders);
+	std::string get_cache_name() const;
+	void load_pipeline_cache();
+	void save_pipeline_cache();
+
+	// descriptors.cpp
+	VkDescriptorSet allocate_set(VkDescriptorSetLayout p_layout);
+};
+
+} // namespace gnomon

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "modules/rendering_device/resource_types.h"
+#include "modules/rendering_device_vulkan/vulkan_handles.h"
+
+namespace gnomon {
+
+VkFormat get_vulkan_format(Format p_format);
+VkImageAspectFlags get_aspect(Format p_format);
+VkImageUsageFlags get_vulkan_usage(TextureUsage p_usage);
+VkBufferUsageFlags get_vulkan_usage(BufferUsage p_usage);
+/// Of an attribute: floats and uints by component count, other formats as they are.
+VkFormat get_attribute_format(const VertexAttribute &p_attribute);
+
+} // namespace gnomon

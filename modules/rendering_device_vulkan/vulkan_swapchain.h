@@ -1,0 +1,51 @@
+#pragma once
+
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+#include "modules/rendering_device_vulkan/window_swapchain.h"
+
+namespace gnomon {
+
+/// Images of a window, and what a submission has to do for the one that is acquired.
+class VulkanSwapchain final : public Swapchain {
+public:
+	VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_create_surface);
+	~VulkanSwapchain() override;
+	std::optional<TextureRID> acquire(glm::uvec2 p_window_size_px) override;
+	glm::uvec2 get_size_px() const override;
+
+	VulkanDevice &device;
+	VkSurfaceKHR surface = VK_NULL_HANDLE;
+	VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+	VkSurfaceFormatKHR format = {};
+	glm::uvec2 size_px = glm::uvec2(0);
+	glm::uvec2 wanted_size_px = glm::uvec2(0); // the window's when the images were made
+	bool is_out_of_date = false;
+	struct Image {
+		TextureRID texture;
+		VkSemaphore rendered = VK_NULL_HANDLE; // presenting waits for it
+	};
+	std::vector<Image> images;
+	std::optional<uint32_t> acquired_index; // until it is presented
+	bool is_acquisition_awaited = false;	// some submission since then waits for the semaphore
+	// One more than submissions in flight: an image may be acquired before begin_commands has
+	// waited for the older one.
+	static constexpr size_t ACQUISITION_COUNT = VulkanDevice::SLOT_COUNT + 1;
+	VkSemaphore acquisitions[ACQUISITION_COUNT] = {};
+	size_t acquisition_index = 0; // of the image acquired last
+
+	void create_semaphores();
+	void choose_format();
+	/// False while the window has no area.
+	bool recreate(glm::uvec2 p_window_size_px);
+	void destroy_images();
+
+	/// What a submission has to do for the image, seen from the barriers recorded so far: wait for
+	/// it when it is touched for the first time, signal and present when it has Access::PRESENT.
+	bool must_wait() const;
+	bool must_present() const;
+	VkSemaphore get_acquisition() const { return acquisitions[acquisition_index]; }
+	VkSemaphore get_rendered() const { return images[*acquired_index].rendered; }
+	void present();
+};
+
+} // namespace gnomon

@@ -1,0 +1,22 @@
+#pragma once
+
+// What the owner of a window needs of this backend.
+
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/swapchain.h"
+#include "modules/rendering_device_vulkan/vulkan_handles.h"
+
+#include <functional>
+#include <memory>
+
+namespace gnomon {
+
+/// The window system's own call, so that this module needs no window library.
+using CreateSurface = std::function<VkSurfaceKHR(VkInstance)>;
+
+/// For a device that was created with needs_surface and the window's instance extensions, one at a
+/// time. A window that the device cannot show is an Error.
+std::unique_ptr<Swapchain> create_window_swapchain(
+		RenderingDevice &r_device, const CreateSurface &p_create_surface);
+
+} // namespace gnomon
