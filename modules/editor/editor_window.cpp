@@ -16,6 +16,7 @@
 #include "modules/editor/ui_renderer.h"
 #include "modules/editor/viewport_guides.h"
 #include "modules/render_graph/transient_pool.h"
+#include "modules/renderer/present_pass.h"
 
 #include <imgui.h>
 
@@ -181,18 +182,11 @@ private:
 		const glm::uvec2 size_px = window.get_size_px();
 		RenderGraph graph(*device, transients);
 		const RGTexture target = graph.create_texture({ "editor", Format::RGBA8_UNORM, size_px, 1,
-				TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
+				TextureUsage::COLOR_ATTACHMENT | TextureUsage::SAMPLED });
 		graph.add_pass("editor background").color(target, LoadOp::CLEAR).execute([](PassContext &) {
 		});
 		ui.add_pass(graph, target, *ImGui::GetDrawData());
-		const RGTexture shown =
-				graph.import_window_image([&] { return swapchain->acquire(size_px); });
-		graph.add_pass("present")
-				.reads(target, Access::COPY_READ)
-				.writes(shown, Access::COPY_WRITE)
-				.execute([=](PassContext &p_context) {
-					p_context.commands.blit_texture(p_context.get(target), p_context.get(shown));
-				});
+		add_present_pass(graph, target, [&] { return swapchain->acquire(size_px); });
 		graph.execute(RenderGraph::Mode::QUEUE);
 	}
 

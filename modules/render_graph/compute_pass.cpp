@@ -24,6 +24,7 @@ void bind_compute(PassContext &r_context, PipelineRID p_pipeline,
 		if (binding.texture) {
 			resources.emplace_back(
 					binding.binding, r_context.get(binding.texture), binding.sampler);
+			resources.back().layer = binding.layer;
 		} else {
 			resources.emplace_back(binding.binding, r_context.get(binding.buffer));
 		}

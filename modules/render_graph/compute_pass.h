@@ -18,6 +18,7 @@ struct PassBinding {
 	PassBuilder::Content content = PassBuilder::Content::FRESH; // of what is written
 
 	SamplerRID sampler; // with a texture that the shader samples, not only fetches
+	uint32_t layer = Binding::ALL_LAYERS; // of the texture
 
 	/// Sampled or fetched.
 	static PassBinding read(uint32_t p_binding, RGTexture p_texture, SamplerRID p_sampler = {}) {

@@ -89,11 +89,13 @@ void RenderGraph::record_pass(Pass &p_pass, CommandList &p_commands) {
 			depth = { context.get(target.texture), target.load, target.clear, target.layer };
 		}
 		p_commands.begin_rendering(colors, p_pass.depth_target ? &depth : nullptr);
+	} else if (p_pass.size_without_targets_px) {
+		p_commands.begin_rendering_without_targets(*p_pass.size_without_targets_px);
 	}
 	if (p_pass.record) {
 		p_pass.record(context);
 	}
-	if (is_raster) {
+	if (is_raster || p_pass.size_without_targets_px) {
 		p_commands.end_rendering();
 	}
 }

@@ -61,6 +61,11 @@ PassBuilder &PassBuilder::depth(
 	return *this;
 }
 
+PassBuilder &PassBuilder::without_targets(glm::uvec2 p_size_px) {
+	graph.passes[pass_index].size_without_targets_px = p_size_px;
+	return *this;
+}
+
 PassBuilder &PassBuilder::keep() {
 	graph.passes[pass_index].is_kept = true;
 	return *this;

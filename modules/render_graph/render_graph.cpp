@@ -75,6 +75,11 @@ TextureDesc RenderGraph::get_desc(RGTexture p_texture) const {
 	return resources[p_texture.index].texture_desc;
 }
 
+BufferDesc RenderGraph::get_desc(RGBuffer p_buffer) const {
+	GNOMON_ASSERT(p_buffer && !resources[p_buffer.index].is_texture, "not a buffer");
+	return resources[p_buffer.index].buffer_desc;
+}
+
 PassBuilder RenderGraph::add_pass(const std::string &p_name) {
 	passes.push_back({});
 	passes.back().name = pass_prefix + p_name;

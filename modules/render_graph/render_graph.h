@@ -79,6 +79,8 @@ public:
 			glm::vec4 p_clear = glm::vec4(0.0f), uint32_t p_layer = 0);
 	PassBuilder &depth(
 			RGTexture p_texture, LoadOp p_load, float p_clear = 0.0f, uint32_t p_layer = 0);
+	/// The rendering has no attachments but a size: for fragment shaders that only store.
+	PassBuilder &without_targets(glm::uvec2 p_size_px);
 	/// Runs even when nobody reads what it writes.
 	PassBuilder &keep();
 	void execute(std::function<void(PassContext &)> p_record);
@@ -126,6 +128,7 @@ public:
 
 	/// By value: a reference would end with the next resource that is made.
 	TextureDesc get_desc(RGTexture p_texture) const;
+	BufferDesc get_desc(RGBuffer p_buffer) const;
 
 	PassBuilder add_pass(const std::string &p_name);
 	/// Goes before the names of the passes added from now on: "Lamp: ". Empty = nothing.

@@ -50,6 +50,7 @@ struct RenderGraph::Pass {
 	};
 	std::vector<Color> colors;
 	std::optional<Depth> depth_target;
+	std::optional<glm::uvec2> size_without_targets_px;
 	bool is_kept = false;
 	bool is_culled = false;
 	std::function<void(PassContext &)> record;

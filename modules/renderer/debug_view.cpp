@@ -78,13 +78,15 @@ const ShadowTechnique::DebugView *choose_debug_view(
 
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view) {
 	const RGTexture output = create_picture(p_image.graph, p_image.size_px);
-	const shader::DebugViewPush push = { p_view.shown_range, p_view.layer, p_view.class_count,
-		p_view.is_color ? 1u : 0u, 0, 0, 0 };
+	const shader::DebugViewPush push = { p_view.shown_range, p_view.class_count,
+		p_view.is_color ? 1u : 0u };
+	PassBinding shown = PassBinding::read(RENDERER_BINDING_MASK, p_view.texture);
+	shown.layer = p_view.layer;
 	add_compute_pass(p_image.graph, "debug view " + p_view.id,
 			p_image.device.get_compute_pipeline({ "debug view", "renderer/debug_view.comp", {} }),
 			{
 					PassBinding::constants(RENDERER_BINDING_FRAME, p_image.frame),
-					PassBinding::read(RENDERER_BINDING_MASK, p_view.texture),
+					shown,
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
 			p_image.size_px, push);

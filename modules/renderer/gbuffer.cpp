@@ -38,12 +38,21 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::R32_UINT,
 		Format::RGBA16_SFLOAT, Format::RGBA16_SFLOAT };
 	desc.depth_compare = CompareOp::GREATER;
-	const PipelineRID pipeline = p_device.get_raster_pipeline(desc);
+	PipelineRID pipelines[2][2]; // mirrored, double-sided; made when first needed
+	const auto get_pipeline = [&](bool p_is_mirrored, bool p_is_double_sided) {
+		PipelineRID &r_pipeline = pipelines[p_is_mirrored][p_is_double_sided];
+		if (!r_pipeline) {
+			desc.winding = p_is_mirrored ? Winding::MIRRORED : Winding::NORMAL;
+			desc.cull_mode = p_is_double_sided ? CullMode::NONE : CullMode::BACK;
+			r_pipeline = p_device.get_raster_pipeline(desc);
+		}
+		return r_pipeline;
+	};
 
 	struct Draw {
 		const GpuMesh *mesh;
 		shader::InstancePush push;
-		bool is_double_sided;
+		PipelineRID pipeline;
 	};
 	std::vector<Draw> draws;
 	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
@@ -63,7 +72,8 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 		push.scatter = material.scatter;
 		push.scatter_distance_m = material.scatter_distance_m;
 		push.is_mirrored = instance.is_mirrored() ? 1u : 0u;
-		draws.push_back({ &p_meshes.get(instance.mesh), push, material.is_double_sided });
+		draws.push_back({ &p_meshes.get(instance.mesh), push,
+				get_pipeline(instance.is_mirrored(), material.is_double_sided) });
 	}
 	r_drawn_count = static_cast<uint32_t>(draws.size());
 	r_graph.add_pass("G-buffer")
@@ -74,21 +84,18 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 			.color(gbuffer.material)
 			.color(gbuffer.emissive)
 			.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
-			.execute([draws = std::move(draws), pipeline, p_frame](PassContext &p_context) {
+			.execute([draws = std::move(draws), p_frame](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
-				commands.bind_pipeline(pipeline);
 				for (const Draw &draw : draws) {
 					const BufferRID vertices[] = { draw.mesh->positions.get(),
 						draw.mesh->normals.get() };
+					commands.bind_pipeline(draw.pipeline);
 					commands.bind_resources({
 							{ GBUFFER_BINDING_FRAME, p_context.get(p_frame) },
 							{ GBUFFER_BINDING_POSITIONS, draw.mesh->positions.get() },
 							{ GBUFFER_BINDING_INDICES, draw.mesh->indices.get() },
 					});
 					commands.push_constants(draw.push);
-					commands.set_cull_mode(draw.is_double_sided ? CullMode::NONE : CullMode::BACK);
-					commands.set_winding(draw.push.is_mirrored ? CommandList::Winding::MIRRORED
-															   : CommandList::Winding::NORMAL);
 					commands.bind_vertex_buffers(vertices);
 					commands.bind_index_buffer(draw.mesh->indices.get());
 					commands.draw_indexed(draw.mesh->index_count);

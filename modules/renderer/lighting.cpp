@@ -85,7 +85,8 @@ void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGT
 
 RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
 	return r_graph.create_texture({ "picture", Format::RGBA8_UNORM, p_size_px, 1,
-			TextureUsage::STORAGE | TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_SOURCE });
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT |
+					TextureUsage::COPY_SOURCE });
 }
 
 RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {

@@ -4,6 +4,7 @@
 #include "modules/render_graph/read_back.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
+#include "modules/renderer/present_pass.h"
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/shadow_frame.h"
@@ -152,13 +153,7 @@ void Renderer::add_picture(Frame &r_frame) {
 		add_overlay(r_frame, picture);
 	}
 	if (request.acquire_window_image) {
-		const RGTexture shown = graph.import_window_image(request.acquire_window_image);
-		graph.add_pass("present")
-				.reads(picture, Access::COPY_READ)
-				.writes(shown, Access::COPY_WRITE)
-				.execute([=](PassContext &p_context) {
-					p_context.commands.blit_texture(p_context.get(picture), p_context.get(shown));
-				});
+		add_present_pass(graph, picture, request.acquire_window_image);
 	}
 	if (request.picture_target) {
 		const RGTexture target =

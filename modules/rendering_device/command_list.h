@@ -20,8 +20,7 @@ public:
 
 	virtual void barriers(std::span<const Barrier> p_barriers) = 0;
 
-	/// Viewport and scissor cover the targets. Dynamic state starts as: no culling,
-	/// counter-clockwise front faces as seen in a y-up view.
+	/// Viewport and scissor cover the targets.
 	virtual void begin_rendering(
 			std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) = 0;
 	/// For fragment shaders that only store into buffers and textures.
@@ -32,13 +31,6 @@ public:
 	virtual void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) = 0;
 	/// Of the pipelines with has_depth_bounds; each begin_rendering sets 0 to 1.
 	virtual void set_depth_bounds(float p_least, float p_greatest) = 0;
-	/// What stencils compare with and StencilOp::REPLACE writes, 0 to 255; each begin_rendering
-	/// sets 0.
-	virtual void set_stencil_reference(uint32_t p_reference) = 0;
-	virtual void set_cull_mode(CullMode p_mode) = 0;
-	/// Mirrored transforms wind their front faces the other way.
-	enum class Winding { NORMAL, MIRRORED };
-	virtual void set_winding(Winding p_winding) = 0;
 
 	virtual void bind_pipeline(PipelineRID p_pipeline) = 0;
 	/// All bindings that the bound pipeline declares, and no other: a missing or an extra one is an
@@ -71,7 +63,8 @@ public:
 	virtual void dispatch_items(glm::uvec3 p_item_count) = 0;
 	virtual void dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) = 0;
 
-	virtual void fill_buffer(BufferRID p_buffer, uint32_t p_value) = 0;
+	/// All bytes become 0. Other values: add_fill_pass of the render graph.
+	virtual void clear_buffer(BufferRID p_buffer) = 0;
 	virtual void copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
 			uint64_t p_source_offset_bytes = 0, uint64_t p_target_offset_bytes = 0) = 0;
 	/// Tightly packed rows. Depth textures give their depth.
@@ -79,10 +72,6 @@ public:
 			TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0) = 0;
 	virtual void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target,
 			uint32_t p_layer = 0, uint64_t p_source_offset_bytes = 0) = 0;
-	/// Any sizes and colour formats, nearest texel; brings a picture into a window. Layer 0, from
-	/// COPY_READ to COPY_WRITE. sRGB formats are decoded and encoded, so values that are encoded
-	/// already belong into RGBA8_UNORM. Integer formats only to integer formats; not for depth.
-	virtual void blit_texture(TextureRID p_source, TextureRID p_target) = 0;
 	/// Same size and format.
 	virtual void copy_texture(TextureRID p_source, TextureRID p_target) = 0;
 	/// The texture has Access::COPY_WRITE; of UINT formats: the value is converted.

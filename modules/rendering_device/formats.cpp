@@ -21,6 +21,7 @@ const FormatRow FORMATS[] = {
 	{ "RG32_SFLOAT", 8 },
 	{ "RGBA8_UNORM", 4 },
 	{ "RGBA8_SRGB", 4 },
+	{ "BGRA8_UNORM", 4 },
 	{ "RGBA16_SFLOAT", 8 },
 	{ "RGBA32_SFLOAT", 16 },
 	{ "RGBA32_UINT", 16 },

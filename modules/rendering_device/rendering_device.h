@@ -156,10 +156,14 @@ public:
 	/// acquired swapchain image stays acquired. Does nothing when no commands are being recorded.
 	virtual void abandon_commands() = 0;
 	virtual void wait_idle() = 0;
-	/// Of the submission that is being recorded, or was last; they count up from 1.
-	virtual uint64_t get_submission_number() const = 0;
-	/// That submission has ended: what it copied into READBACK memory is valid.
-	virtual bool is_submission_finished(uint64_t p_number) = 0;
+	/// Copies the buffer, as it is at this command (usage COPY_SOURCE, Access::COPY_READ), and
+	/// calls p_callback with its bytes once the submission that is being recorded has ended: in a
+	/// later begin_commands, submit_commands(WAIT) or wait_idle, in the order of the calls. Never
+	/// when the commands are abandoned, or the device is lost or ends.
+	using ReadBackCallback = std::function<void(std::span<const uint8_t>)>;
+	virtual void read_back(BufferRID p_buffer, ReadBackCallback p_callback) = 0;
+	/// As above, of a texture's layer: tightly packed rows, of depth textures their depth.
+	virtual void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) = 0;
 	/// Spans of the newest finished submission, in recording order.
 	virtual const std::vector<GpuSpan> &get_gpu_spans() const = 0;
 };

@@ -33,6 +33,7 @@ enum class Format {
 	RG32_SFLOAT,
 	RGBA8_UNORM,
 	RGBA8_SRGB,
+	BGRA8_UNORM, // of windows; only drawn into
 	RGBA16_SFLOAT,
 	RGBA32_SFLOAT,
 	RGBA32_UINT,
@@ -85,8 +86,11 @@ struct TextureDesc {
 	std::string name; // shown in errors, leaks and debuggers
 	Format format = Format::RGBA8_UNORM;
 	glm::uvec2 size_px = glm::uvec2(1);
-	uint32_t layer_count = 1; // above 1: bound as a 2D array
+	uint32_t layer_count = 1; // above 1 only of arrays
 	TextureUsage usage = TextureUsage::SAMPLED;
+	/// Shaders declare it as a 2D array, also where it has one layer; a Binding of one of its
+	/// layers is a 2D texture.
+	bool is_array = false;
 	bool operator==(const TextureDesc &) const = default;
 };
 
@@ -136,7 +140,7 @@ enum class StencilOp {
 };
 /// Of one side of the triangles.
 struct StencilFace {
-	/// Of CommandList::set_stencil_reference with what is stored.
+	/// Of StencilTest::reference with what is stored.
 	CompareOp compare = CompareOp::ALWAYS;
 	StencilOp fail = StencilOp::KEEP;
 	StencilOp depth_fail = StencilOp::KEEP;
@@ -145,8 +149,12 @@ struct StencilFace {
 struct StencilTest {
 	StencilFace front;
 	StencilFace back;
+	uint32_t reference = 0; // what is compared with and what REPLACE writes, 0 to 255
 };
 enum class CullMode { NONE, FRONT, BACK };
+/// NORMAL: front faces are counter-clockwise as seen in a y-up view. Mirrored transforms wind them
+/// the other way.
+enum class Winding { NORMAL, MIRRORED };
 enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY, TRIANGLE_STRIP, LINES, POINTS };
 enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
 
@@ -180,6 +188,10 @@ struct RasterPipelineDesc {
 	std::vector<VertexAttribute> attributes;
 	std::vector<uint32_t> vertex_strides_bytes;
 	Topology topology = Topology::TRIANGLES;
+	CullMode cull_mode = CullMode::NONE;
+	Winding winding = Winding::NORMAL;
+	/// Without any, and has_depth false: for a rendering without targets, where fragment shaders
+	/// only store.
 	std::vector<Format> color_formats;
 	BlendMode blend = BlendMode::OFF; // all colour targets alike
 	bool has_depth = true;			  // a D32_SFLOAT attachment is bound

@@ -19,9 +19,8 @@ public:
 	/// while the window has no area. Recreates itself after a resize. Before begin_commands or
 	/// after it. The image starts without content (Access::NONE) and must end with Access::PRESENT:
 	/// the submission that brings it there presents it. An image that no submission brought there
-	/// is handed out again. The handle is a COLOR_ATTACHMENT and COPY_TARGET texture; as many
-	/// windows store BGRA, fill it with CommandList::blit_texture, which converts. Drawing into it
-	/// directly asserts where the window is not RGBA.
+	/// is handed out again. The handle is a COLOR_ATTACHMENT texture of RGBA8_UNORM or
+	/// BGRA8_UNORM, see RenderingDevice::get_desc.
 	virtual std::optional<TextureRID> acquire(glm::uvec2 p_window_size_px) = 0;
 	virtual glm::uvec2 get_size_px() const = 0;
 };

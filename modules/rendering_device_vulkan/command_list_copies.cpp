@@ -36,33 +36,40 @@ void VulkanCommandList::check_copy(const char *p_call) const {
 	GNOMON_ASSERT(!is_rendering, p_call, " inside begin_rendering .. end_rendering");
 }
 
-void VulkanCommandList::fill_buffer(BufferRID p_buffer, uint32_t p_value) {
-	check_copy("fill_buffer");
-	vkCmdFillBuffer(commands, device->buffers.get(p_buffer).buffer, 0, VK_WHOLE_SIZE, p_value);
+void VulkanCommandList::clear_buffer(BufferRID p_buffer) {
+	check_copy("clear_buffer");
+	vkCmdFillBuffer(commands, device->buffers.get(p_buffer).buffer, 0, VK_WHOLE_SIZE, 0);
 }
 
 void VulkanCommandList::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
 		uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) {
+	copy_buffer(device->buffers.get(p_source), device->buffers.get(p_target), p_size_bytes,
+			p_source_offset_bytes, p_target_offset_bytes);
+}
+
+void VulkanCommandList::copy_buffer(const BufferResource &p_source, const BufferResource &p_target,
+		uint64_t p_size_bytes, uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) {
 	check_copy("copy_buffer");
-	const BufferResource &source = device->buffers.get(p_source);
-	const BufferResource &target = device->buffers.get(p_target);
-	GNOMON_ASSERT(p_source_offset_bytes + p_size_bytes <= source.desc.size_bytes &&
-					p_target_offset_bytes + p_size_bytes <= target.desc.size_bytes,
-			"copy of ", p_size_bytes, " bytes from '", source.desc.name, "' at ",
-			p_source_offset_bytes, " of ", source.desc.size_bytes, " to '", target.desc.name,
-			"' at ", p_target_offset_bytes, " of ", target.desc.size_bytes);
+	GNOMON_ASSERT(p_source_offset_bytes + p_size_bytes <= p_source.desc.size_bytes &&
+					p_target_offset_bytes + p_size_bytes <= p_target.desc.size_bytes,
+			"copy of ", p_size_bytes, " bytes from '", p_source.desc.name, "' at ",
+			p_source_offset_bytes, " of ", p_source.desc.size_bytes, " to '", p_target.desc.name,
+			"' at ", p_target_offset_bytes, " of ", p_target.desc.size_bytes);
 	const VkBufferCopy region = { p_source_offset_bytes, p_target_offset_bytes, p_size_bytes };
-	vkCmdCopyBuffer(commands, source.buffer, target.buffer, 1, &region);
+	vkCmdCopyBuffer(commands, p_source.buffer, p_target.buffer, 1, &region);
 }
 
 void VulkanCommandList::copy_texture_to_buffer(
 		TextureRID p_source, BufferRID p_target, uint32_t p_layer) {
+	copy_texture_to_buffer(device->textures.get(p_source), device->buffers.get(p_target), p_layer);
+}
+
+void VulkanCommandList::copy_texture_to_buffer(
+		const TextureResource &p_source, const BufferResource &p_target, uint32_t p_layer) {
 	check_copy("copy_texture_to_buffer");
-	const TextureResource &source = device->textures.get(p_source);
-	const BufferResource &target = device->buffers.get(p_target);
-	const VkBufferImageCopy region = make_layer_copy(target.desc, source.desc, p_layer);
-	vkCmdCopyImageToBuffer(commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-			target.buffer, 1, &region);
+	const VkBufferImageCopy region = make_layer_copy(p_target.desc, p_source.desc, p_layer);
+	vkCmdCopyImageToBuffer(commands, p_source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+			p_target.buffer, 1, &region);
 }
 
 void VulkanCommandList::copy_buffer_to_texture(
@@ -81,35 +88,16 @@ void VulkanCommandList::copy_texture(TextureRID p_source, TextureRID p_target) {
 	const TextureResource &source = device->textures.get(p_source);
 	const TextureResource &target = device->textures.get(p_target);
 	const uint32_t layer_count = source.desc.layer_count;
-	GNOMON_ASSERT(source.format == target.format && source.desc.size_px == target.desc.size_px &&
+	GNOMON_ASSERT(source.desc.format == target.desc.format &&
+					source.desc.size_px == target.desc.size_px &&
 					layer_count == target.desc.layer_count,
 			"copy_texture of '", source.desc.name, "' to '", target.desc.name,
-			"', which differ in format, size or layer count; use blit_texture");
+			"', which differ in format, size or layer count");
 	const VkImageCopy region = { .srcSubresource = make_layers(source.desc, 0, layer_count),
 		.dstSubresource = make_layers(target.desc, 0, layer_count),
 		.extent = { source.desc.size_px.x, source.desc.size_px.y, 1 } };
 	vkCmdCopyImage(commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
 			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-}
-
-void VulkanCommandList::blit_texture(TextureRID p_source, TextureRID p_target) {
-	check_copy("blit_texture");
-	const TextureResource &source = device->textures.get(p_source);
-	const TextureResource &target = device->textures.get(p_target);
-	GNOMON_ASSERT(!is_depth_format(source.desc.format) && !is_depth_format(target.desc.format) &&
-					is_uint_format(source.desc.format) == is_uint_format(target.desc.format),
-			"blit_texture of '", source.desc.name, "' to '", target.desc.name,
-			"' cannot convert depth, nor between integers and floats");
-	const auto get_end = [](const TextureDesc &p_desc) {
-		return VkOffset3D{ static_cast<int32_t>(p_desc.size_px.x),
-			static_cast<int32_t>(p_desc.size_px.y), 1 };
-	};
-	const VkImageBlit region = { .srcSubresource = make_layers(source.desc, 0, 1),
-		.srcOffsets = { {}, get_end(source.desc) },
-		.dstSubresource = make_layers(target.desc, 0, 1),
-		.dstOffsets = { {}, get_end(target.desc) } };
-	vkCmdBlitImage(commands, source.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
-			VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
 }
 
 } // namespace gnomon

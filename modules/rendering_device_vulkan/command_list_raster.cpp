@@ -75,8 +75,6 @@ void VulkanCommandList::begin_rendering_of_size(
 				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		target_color_formats.push_back(texture.desc.format);
-		GNOMON_ASSERT(texture.format == get_vulkan_format(texture.desc.format),
-				"the swapchain stores BGRA; draw into a texture and blit_texture it");
 	}
 	VkRenderingAttachmentInfo depth = { .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO };
 	target_depth_format.reset();
@@ -116,10 +114,7 @@ void VulkanCommandList::begin_rendering_of_size(
 	vkCmdBeginRendering(commands, &info);
 	is_rendering = true;
 	set_viewport(glm::uvec2(0), p_size_px);
-	set_cull_mode(CullMode::NONE);
-	set_winding(Winding::NORMAL);
 	set_depth_bounds(0.0f, 1.0f);
-	set_stencil_reference(0);
 }
 
 void VulkanCommandList::end_rendering() {
@@ -155,26 +150,6 @@ void VulkanCommandList::set_depth_bounds(float p_least, float p_greatest) {
 	GNOMON_ASSERT(p_least >= 0.0f && p_least <= p_greatest && p_greatest <= 1.0f, "depth bounds ",
 			p_least, " to ", p_greatest);
 	vkCmdSetDepthBounds(commands, p_least, p_greatest);
-}
-
-void VulkanCommandList::set_stencil_reference(uint32_t p_reference) {
-	check_recording("set_stencil_reference");
-	GNOMON_ASSERT(p_reference <= 255, "stencil reference ", p_reference);
-	vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_AND_BACK, p_reference);
-}
-
-void VulkanCommandList::set_cull_mode(CullMode p_mode) {
-	check_recording("set_cull_mode");
-	static const VkCullModeFlags MODES[] = { VK_CULL_MODE_NONE, VK_CULL_MODE_FRONT_BIT,
-		VK_CULL_MODE_BACK_BIT };
-	vkCmdSetCullMode(commands, MODES[static_cast<size_t>(p_mode)]);
-}
-
-void VulkanCommandList::set_winding(Winding p_winding) {
-	check_recording("set_winding");
-	vkCmdSetFrontFace(commands,
-			p_winding == Winding::NORMAL ? VK_FRONT_FACE_COUNTER_CLOCKWISE
-										 : VK_FRONT_FACE_CLOCKWISE);
 }
 
 void VulkanCommandList::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {

@@ -95,6 +95,10 @@ private:
 								  is_storage ? TextureUsage::STORAGE : TextureUsage::SAMPLED),
 					"pipeline '", pipeline.name, "': texture '", texture.desc.name, "' at binding ",
 					p_binding.binding, " lacks the usage ", is_storage ? "STORAGE" : "SAMPLED");
+			const bool is_array = texture.desc.is_array && p_binding.layer == Binding::ALL_LAYERS;
+			GNOMON_ASSERT(is_array == p_slot.is_arrayed, "pipeline '", pipeline.name,
+					"': texture '", texture.desc.name, "' at binding ", p_binding.binding,
+					is_array ? " is an array" : " is no array", ", the shader declares another");
 			info.imageView =
 					device.get_view(texture, ViewUse::SHADER, p_binding.layer, p_slot.is_arrayed);
 			info.imageLayout = p_layout;

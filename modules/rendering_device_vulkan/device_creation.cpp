@@ -199,6 +199,7 @@ void VulkanDevice::shutdown() {
 	for (PendingUpload &upload : pending_uploads) {
 		destroy(upload.staging);
 	}
+	drop_read_backs(0);
 	for (DeferredFree &freed : deferred_frees) {
 		std::visit([&](auto &r_resource) { destroy(r_resource); }, freed.resource);
 	}

@@ -121,6 +121,10 @@ void VulkanDevice::wait_idle() {
 	wait_for(submitted_number);
 	check(vkDeviceWaitIdle(device), "vkDeviceWaitIdle");
 	collect();
+	if (!recording.is_recording) {
+		drop_read_backs(submitted_number);
+		call_read_backs();
+	}
 }
 
 } // namespace gnomon

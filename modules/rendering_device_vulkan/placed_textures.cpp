@@ -31,8 +31,8 @@ MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_
 	const TextureDesc samples[] = {
 		{ "", Format::RGBA16_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT },
-		{ "", Format::R32_SFLOAT, glm::uvec2(256), 2,
-				TextureUsage::SAMPLED | TextureUsage::STORAGE },
+		{ "", Format::R32_SFLOAT, glm::uvec2(256), 2, TextureUsage::SAMPLED | TextureUsage::STORAGE,
+				true },
 		{ "", Format::D32_SFLOAT, glm::uvec2(256), 1,
 				TextureUsage::SAMPLED | TextureUsage::DEPTH_ATTACHMENT },
 	};

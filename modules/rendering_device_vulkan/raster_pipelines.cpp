@@ -12,7 +12,7 @@ std::string describe(const StencilFace &p_face) {
 }
 
 std::string describe(const StencilTest &p_test) {
-	return describe(p_test.front) + describe(p_test.back);
+	return describe(p_test.front) + describe(p_test.back) + text(" ", p_test.reference);
 }
 
 /// Everything but the name, which changes nothing.
@@ -28,7 +28,9 @@ std::string describe(const RasterPipelineDesc &p_desc) {
 	for (const uint32_t stride : p_desc.vertex_strides_bytes) {
 		description += text(" ", stride);
 	}
-	description += text(" topology ", static_cast<int>(p_desc.topology), " colors");
+	description += text(" topology ", static_cast<int>(p_desc.topology), " cull ",
+			static_cast<int>(p_desc.cull_mode), " winding ", static_cast<int>(p_desc.winding),
+			" colors");
 	for (const Format format : p_desc.color_formats) {
 		description += text(" ", get_format_name(format));
 	}
@@ -63,11 +65,23 @@ VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_
 	return state;
 }
 
-VkStencilOpState make_stencil_state(const StencilFace &p_face) {
+VkStencilOpState make_stencil_state(const StencilFace &p_face, uint32_t p_reference) {
 	const uint32_t all = 0xff; // CompareOp and StencilOp have Vulkan's order
 	return { static_cast<VkStencilOp>(p_face.fail), static_cast<VkStencilOp>(p_face.pass),
 		static_cast<VkStencilOp>(p_face.depth_fail), static_cast<VkCompareOp>(p_face.compare), all,
-		all, 0 };
+		all, p_reference };
+}
+
+VkCullModeFlags get_vulkan_cull_mode(CullMode p_mode) {
+	switch (p_mode) {
+		case CullMode::NONE:
+			return VK_CULL_MODE_NONE;
+		case CullMode::FRONT:
+			return VK_CULL_MODE_FRONT_BIT;
+		case CullMode::BACK:
+			return VK_CULL_MODE_BACK_BIT;
+	}
+	return VK_CULL_MODE_NONE;
 }
 
 bool may_write(const StencilFace &p_face) {
@@ -164,6 +178,9 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
 		.depthClampEnable = p_desc.clamps_depth,
 		.polygonMode = VK_POLYGON_MODE_FILL,
+		.cullMode = get_vulkan_cull_mode(p_desc.cull_mode),
+		.frontFace = p_desc.winding == Winding::NORMAL ? VK_FRONT_FACE_COUNTER_CLOCKWISE
+													   : VK_FRONT_FACE_CLOCKWISE,
 		.depthBiasEnable = has_bias,
 		.depthBiasConstantFactor = p_desc.depth_bias_constant,
 		.depthBiasSlopeFactor = p_desc.depth_bias_slope,
@@ -180,8 +197,8 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 		.depthCompareOp = static_cast<VkCompareOp>(p_desc.depth_compare), // same order as CompareOp
 		.depthBoundsTestEnable = p_desc.has_depth_bounds,
 		.stencilTestEnable = p_desc.has_stencil,
-		.front = make_stencil_state(p_desc.stencil.front),
-		.back = make_stencil_state(p_desc.stencil.back),
+		.front = make_stencil_state(p_desc.stencil.front, p_desc.stencil.reference),
+		.back = make_stencil_state(p_desc.stencil.back, p_desc.stencil.reference),
 		.maxDepthBounds = 1.0f
 	};
 	std::vector<VkPipelineColorBlendAttachmentState> blend_states;
@@ -196,8 +213,7 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 		.pAttachments = blend_states.data()
 	};
 	const VkDynamicState dynamic_states[] = { VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-		VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BOUNDS,
-		VK_DYNAMIC_STATE_STENCIL_REFERENCE };
+		VK_DYNAMIC_STATE_DEPTH_BOUNDS };
 	const VkPipelineDynamicStateCreateInfo dynamic = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
 		.dynamicStateCount = static_cast<uint32_t>(std::size(dynamic_states)),
@@ -236,6 +252,8 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 PipelineResource VulkanDevice::make_pipeline(const RasterPipelineDesc &p_desc) {
 	GNOMON_ASSERT(p_desc.has_depth || !p_desc.has_stencil, "pipeline '", p_desc.name,
 			"' has stencil without depth");
+	GNOMON_ASSERT(p_desc.stencil.reference <= 255, "pipeline '", p_desc.name,
+			"' has stencil reference ", p_desc.stencil.reference);
 	check_raster_features(p_desc);
 	PipelineStages stages(*this, p_desc.constants);
 	stages.add(p_desc.vertex_shader, VK_SHADER_STAGE_VERTEX_BIT);

@@ -134,6 +134,8 @@ CommandList &VulkanDevice::begin_commands() {
 	// An abandoned or refused recording leaves a number that was never submitted.
 	wait_for(std::min(slot.number, submitted_number));
 	collect();
+	drop_read_backs(submitted_number);
+	call_read_backs();
 	check(vkResetCommandPool(device, slot.pool, 0), "vkResetCommandPool");
 	for (VkDescriptorPool pool : slot.descriptor_pools) {
 		vkResetDescriptorPool(device, pool, 0);
@@ -164,6 +166,7 @@ void VulkanDevice::submit_commands(SubmitMode p_mode) {
 	if (p_mode == SubmitMode::WAIT) {
 		wait_for(submitted_number);
 		collect();
+		call_read_backs();
 	}
 }
 
@@ -259,15 +262,7 @@ void VulkanDevice::abandon_commands() {
 	// The command buffer stays open; begin_commands resets its pool.
 	recording.is_recording = false;
 	get_recording_slot().span_names.clear();
-}
-
-uint64_t VulkanDevice::get_submission_number() const {
-	return submitted_number + (recording.is_recording ? 1 : 0);
-}
-
-bool VulkanDevice::is_submission_finished(uint64_t p_number) {
-	fail_if_lost();
-	return p_number <= get_finished_number();
+	drop_read_backs(submitted_number);
 }
 
 const std::vector<GpuSpan> &VulkanDevice::get_gpu_spans() const {

@@ -8,6 +8,8 @@ void VulkanDevice::check_texture_limits(const TextureDesc &p_desc) {
 	GNOMON_ASSERT(p_desc.size_px.x > 0 && p_desc.size_px.y > 0 && p_desc.layer_count > 0,
 			"texture '", p_desc.name, "' is ", p_desc.size_px.x, " x ", p_desc.size_px.y, " x ",
 			p_desc.layer_count);
+	GNOMON_ASSERT(p_desc.is_array || p_desc.layer_count == 1, "texture '", p_desc.name, "' has ",
+			p_desc.layer_count, " layers and is no array");
 	const VkImageCreateInfo info = make_image_info(p_desc);
 	const VkPhysicalDeviceImageFormatInfo2 format_info = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2,
@@ -51,7 +53,6 @@ TextureResource VulkanDevice::make_image(const TextureDesc &p_desc) {
 	check_texture_limits(p_desc);
 	TextureResource texture;
 	texture.desc = p_desc;
-	texture.format = get_vulkan_format(p_desc.format);
 	const VkImageCreateInfo info = make_image_info(p_desc);
 	check(vkCreateImage(device, &info, nullptr, &texture.image), "vkCreateImage");
 	set_name(VK_OBJECT_TYPE_IMAGE, texture.image, p_desc.name);
@@ -78,7 +79,7 @@ VkImageView VulkanDevice::get_view(
 	const VkImageViewCreateInfo info = { .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
 		.image = r_texture.image,
 		.viewType = p_is_arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
-		.format = r_texture.format,
+		.format = get_vulkan_format(desc.format),
 		.subresourceRange = { .aspectMask = aspect,
 				.levelCount = 1,
 				.baseArrayLayer = has_all_layers ? 0 : p_layer,

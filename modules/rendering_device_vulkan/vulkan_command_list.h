@@ -9,7 +9,9 @@
 namespace gnomon {
 
 class VulkanDevice;
+struct BufferResource;
 struct PipelineResource;
+struct TextureResource;
 
 /// Records into the command buffer of one submission. Assigning a new one forgets the state.
 class VulkanCommandList final : public CommandList {
@@ -35,9 +37,6 @@ public:
 	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
 	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
 	void set_depth_bounds(float p_least, float p_greatest) override;
-	void set_stencil_reference(uint32_t p_reference) override;
-	void set_cull_mode(CullMode p_mode) override;
-	void set_winding(Winding p_winding) override;
 	void bind_vertex_buffers(std::span<const BufferRID> p_buffers) override;
 	void bind_index_buffer(BufferRID p_buffer) override;
 	void draw(uint32_t p_vertex_count, uint32_t p_instance_count) override;
@@ -48,14 +47,18 @@ public:
 	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
 
 	// command_list_copies.cpp
-	void fill_buffer(BufferRID p_buffer, uint32_t p_value) override;
+	void clear_buffer(BufferRID p_buffer) override;
 	void copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
 			uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) override;
 	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer) override;
 	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer,
 			uint64_t p_source_offset_bytes) override;
-	void blit_texture(TextureRID p_source, TextureRID p_target) override;
 	void copy_texture(TextureRID p_source, TextureRID p_target) override;
+
+	void copy_buffer(const BufferResource &p_source, const BufferResource &p_target,
+			uint64_t p_size_bytes, uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes);
+	void copy_texture_to_buffer(
+			const TextureResource &p_source, const BufferResource &p_target, uint32_t p_layer);
 
 	// State of the recording between begin_commands and submit_commands.
 	VulkanDevice *device = nullptr;

@@ -37,8 +37,7 @@ struct TextureView {
 struct TextureResource {
 	TextureDesc desc;
 	VkImage image = VK_NULL_HANDLE;
-	VkFormat format = VK_FORMAT_UNDEFINED; // differs from desc.format for some swapchain images
-	Allocation memory;					   // empty when placed, or the swapchain's
+	Allocation memory; // empty when placed, or the swapchain's
 	MemoryRID placed_in;
 	bool is_swapchain = false;
 	/// After the commands recorded so far. Lets an attachment be read-only without saying so twice.
@@ -93,6 +92,13 @@ struct PendingUpload {
 	uint64_t buffer_offset_bytes = 0;
 	TextureRID texture;
 	uint32_t layer_count = 1;
+};
+
+/// Bytes on their way to the CPU.
+struct PendingReadBack {
+	uint64_t submission_number = 0;
+	BufferResource staging;
+	RenderingDevice::ReadBackCallback callback;
 };
 
 /// What one of the two submissions in flight owns.
@@ -154,9 +160,11 @@ public:
 	void submit_commands(SubmitMode p_mode) override;
 	void abandon_commands() override;
 	void wait_idle() override;
-	uint64_t get_submission_number() const override;
-	bool is_submission_finished(uint64_t p_number) override;
 	const std::vector<GpuSpan> &get_gpu_spans() const override;
+
+	// read_backs.cpp
+	void read_back(BufferRID p_buffer, ReadBackCallback p_callback) override;
+	void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) override;
 
 	static constexpr uint32_t SLOT_COUNT = 2;
 	static constexpr uint32_t SPANS_PER_QUERY_POOL = 64;
@@ -185,6 +193,7 @@ public:
 	std::deque<DeferredFree> deferred_frees; // in the order of their submissions
 	std::vector<PendingUpload> pending_uploads;
 	uint64_t pending_upload_bytes = 0;
+	std::deque<PendingReadBack> read_backs; // in the order of their submissions
 
 	VkSemaphore timeline = VK_NULL_HANDLE; // counts finished submissions
 	uint64_t submitted_number = 0;
@@ -250,6 +259,15 @@ public:
 	void record_uploads(VkCommandBuffer p_commands);
 	void flush_uploads_when_many();
 	template <typename Handle> void drop_uploads(Handle p_target);
+
+	// read_backs.cpp
+	/// The buffer to copy into.
+	BufferResource &add_read_back(
+			const std::string &p_resource, uint64_t p_size_bytes, ReadBackCallback &&p_callback);
+	/// Calls back for the submissions that have ended. Not while commands are being recorded.
+	void call_read_backs();
+	/// Forgets those of later submissions, which never come to be.
+	void drop_read_backs(uint64_t p_after_submission_number);
 
 	// submission.cpp
 	SubmissionSlot &get_recording_slot() { return slots[(submitted_number + 1) % SLOT_COUNT]; }

@@ -9,8 +9,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr VkImageUsageFlags IMAGE_USAGE =
-		VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+constexpr VkImageUsageFlags IMAGE_USAGE = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
 
 constexpr uint64_t ACQUIRE_NS = 2'000'000'000;
 
@@ -163,10 +162,9 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 	vkGetSwapchainImagesKHR(device.device, swapchain, &count, handles.data());
 	for (uint32_t index = 0; index < count; ++index) {
 		TextureResource texture;
-		texture.desc = { text("window image ", index), Format::RGBA8_UNORM, size_px, 1,
-			TextureUsage::COLOR_ATTACHMENT | TextureUsage::COPY_TARGET };
+		texture.desc = { text("window image ", index), get_format(), size_px, 1,
+			TextureUsage::COLOR_ATTACHMENT };
 		texture.image = handles[index];
-		texture.format = format.format;
 		texture.is_swapchain = true;
 		device.set_name(VK_OBJECT_TYPE_IMAGE, texture.image, texture.desc.name);
 		Image image;

@@ -38,6 +38,10 @@ public:
 	/// False while the window has no area.
 	bool recreate(glm::uvec2 p_window_size_px);
 	void destroy_images();
+	Format get_format() const {
+		return format.format == VK_FORMAT_R8G8B8A8_UNORM ? Format::RGBA8_UNORM
+														 : Format::BGRA8_UNORM;
+	}
 
 	/// What a submission has to do for the image, seen from the barriers recorded so far: wait for
 	/// it when it is touched for the first time, signal and present when it has Access::PRESENT.

@@ -154,7 +154,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	r_graph.add_pass("clear blocks")
 			.writes(blocks.dispatches, Access::COPY_WRITE)
 			.execute([dispatches = blocks.dispatches](PassContext &p_context) {
-				p_context.commands.fill_buffer(p_context.get(dispatches), 0);
+				p_context.commands.clear_buffer(p_context.get(dispatches));
 			});
 	// One subgroup is one work group.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
@@ -226,9 +226,9 @@ RGTexture add_count_passes(
 
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
-	const RGTexture output = r_graph.create_texture(
-			{ "counted", Format::R16_SFLOAT, p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+	const RGTexture output = r_graph.create_texture({ "counted", Format::R16_SFLOAT,
+			p_passes.inputs.size_px, EDGE_COUNT_DEBUG_LAYERS,
+			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE, true });
 	for (uint32_t kind = 0; kind < EDGE_COUNT_BLOCK_KINDS; ++kind) {
 		std::vector<PassBinding> bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, output,

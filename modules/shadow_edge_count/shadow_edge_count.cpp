@@ -183,9 +183,8 @@ std::vector<LightView> ShadowEdgeCount::build_depth_views(const Inputs &p_inputs
 RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs) {
 	if (!frame_depth_map) {
 		const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
-			glm::uvec2(DEPTH_MAP_SIZE_PX),
-			std::max(2u, static_cast<uint32_t>(p_inputs.views.size())), // an array
-			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED };
+			glm::uvec2(DEPTH_MAP_SIZE_PX), static_cast<uint32_t>(p_inputs.views.size()),
+			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true };
 		const bool has_content = bool(depth_map);
 		if (!has_content) {
 			depth_map = OwnedTexture(p_inputs.device, p_inputs.device.create_texture(desc));

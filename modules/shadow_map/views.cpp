@@ -73,9 +73,9 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const PipelineRID pipeline = p_inputs.device.get_compute_pipeline(
 			{ "views accumulate", "shadow_map/accumulate.comp", {} });
 	const RGTexture mask = create_mask(r_graph, p_inputs.size_px, Format::R32_SFLOAT);
-	const RGTexture map = r_graph.create_texture(
-			{ "map of one light point", Format::D32_SFLOAT, p_inputs.views[0].size_px,
-					views_per_point, TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+	const RGTexture map = r_graph.create_texture({ "map of one light point", Format::D32_SFLOAT,
+			p_inputs.views[0].size_px, views_per_point,
+			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
 	const uint32_t count = static_cast<uint32_t>(p_inputs.views.size()) / views_per_point;
 	const double nearest_m = compute_nearest_distance_m(p_inputs.light, p_inputs.scene);
 	bool is_map_written = false;

@@ -9,7 +9,7 @@ bool FinsMaps::prepare(RenderingDevice &p_device, const std::string &p_light, gl
 	forget_frame();
 	const TextureDesc desc = { "depth layer of " + p_light, Format::D32_SFLOAT, p_size_px,
 		p_view_count,
-		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET };
+		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED | TextureUsage::COPY_TARGET, true };
 	has_content = layers.size() == p_layer_count && layer_desc == desc &&
 			bool(color) == p_has_fins && bool(penumbra_depth) == p_has_fins;
 	if (has_content) {
@@ -24,11 +24,11 @@ bool FinsMaps::prepare(RenderingDevice &p_device, const std::string &p_light, gl
 		color = OwnedTexture(p_device,
 				p_device.create_texture({ "penumbra color of " + p_light, Format::RG16_SFLOAT,
 						p_size_px, p_view_count,
-						TextureUsage::COLOR_ATTACHMENT | TextureUsage::SAMPLED }));
+						TextureUsage::COLOR_ATTACHMENT | TextureUsage::SAMPLED, true }));
 		penumbra_depth = OwnedTexture(p_device,
 				p_device.create_texture({ "penumbra depth of " + p_light, Format::D32_SFLOAT,
 						p_size_px, p_view_count,
-						TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED }));
+						TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true }));
 	}
 	return false;
 }

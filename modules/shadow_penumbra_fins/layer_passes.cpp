@@ -17,7 +17,7 @@ RGBuffer add_found_flag(RenderGraph &r_graph, uint32_t p_view_index) {
 	r_graph.add_pass(text("clear layer found view ", p_view_index))
 			.writes(flag, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
-				p_context.commands.fill_buffer(p_context.get(flag), 0);
+				p_context.commands.clear_buffer(p_context.get(flag));
 			});
 	return flag;
 }
@@ -122,19 +122,18 @@ void add_one_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 	r_graph.add_pass(text("clear layers view ", p_view_index))
 			.writes(texels, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
-				p_context.commands.fill_buffer(p_context.get(texels), 0);
+				p_context.commands.clear_buffer(p_context.get(texels));
 			});
 	r_graph.add_pass(text("layers view ", p_view_index))
 			.writes(texels, Access::SHADER_WRITE_FRAGMENT, PassBuilder::Content::UPDATE)
-			.execute([=, size_px = view.size_px,
+			.without_targets(view.size_px)
+			.execute([=,
 							 draws = build_caster_draws(p_inputs, view,
 									 p_inputs.casters[p_view_index])](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
-				commands.begin_rendering_without_targets(size_px);
 				commands.bind_pipeline(pipeline);
 				commands.bind_resources({ { LAYERS_BINDING_TEXELS, p_context.get(texels) } });
 				record_caster_draws(commands, draws);
-				commands.end_rendering();
 			});
 	PassBuilder copy = r_graph.add_pass(text("copy layers view ", p_view_index));
 	copy.reads(texels, Access::COPY_READ);

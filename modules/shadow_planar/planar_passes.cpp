@@ -93,6 +93,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	const glm::dvec4 plane(p_plane.normal, p_plane.offset_m);
 	RasterPipelineDesc seen_desc = make_screen_desc("plane", "shadow_planar/plane.frag");
 	seen_desc.color_formats.clear();
+	seen_desc.stencil.reference = ON_PLANE;
 	seen_desc.stencil.front.pass = seen_desc.stencil.back.pass = StencilOp::REPLACE;
 	const PipelineRID seen_pipeline = p_inputs.device.get_raster_pipeline(seen_desc);
 	shader::PlanePush seen_push = {};
@@ -113,7 +114,6 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 				{ PLANAR_BINDING_NORMAL, p_context.get(normal) },
 				{ PLANAR_BINDING_RECEIVERS, p_context.get(receivers) } });
 		commands.push_constants(seen_push);
-		commands.set_stencil_reference(ON_PLANE);
 		commands.draw(3);
 	});
 
@@ -128,6 +128,7 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 	// What is dark once is not drawn again.
 	desc.stencil.front = { CompareOp::EQUAL, StencilOp::KEEP, StencilOp::KEEP, StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;
+	desc.stencil.reference = ON_PLANE;
 	desc.depth_compare = CompareOp::ALWAYS;
 	desc.writes_depth = false;
 	const PipelineRID pipeline = p_inputs.device.get_raster_pipeline(desc);
@@ -138,7 +139,6 @@ void add_plane_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inp
 							 pipeline](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				commands.bind_pipeline(pipeline);
-				commands.set_stencil_reference(ON_PLANE);
 				for (const PlanarDraw &draw : draws) {
 					const BufferRID positions[] = { draw.mesh->positions.get() };
 					commands.push_constants(draw.push);

@@ -35,7 +35,7 @@ void ShadowTemplate::at_light_view(
 	if (!map) {
 		map = r_graph.create_texture({ "template map", Format::D32_SFLOAT,
 				p_inputs.views[p_view_index].size_px, static_cast<uint32_t>(p_inputs.views.size()),
-				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
+				TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
 	}
 	add_depth_pass(r_graph, text("depth view ", p_view_index), p_inputs,
 			p_inputs.views[p_view_index], p_inputs.casters[p_view_index], map, p_view_index);

@@ -2,6 +2,7 @@
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
+#include "modules/render_graph/fill_pass.h"
 #include "modules/shadow_volume/culling_boxes.h"
 #include "modules/shadow_volume/occluders.h"
 
@@ -61,7 +62,7 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	++frame;
 	tested.reset();
 	map = {};
-	collect(p_inputs.device);
+	collect();
 	if (p_wish == Wish::OFF || !p_inputs.may_leave_out || p_inputs.views.empty() ||
 			p_inputs.views.size() > CULLING_MAX_VIEWS) {
 		return p_instances;
@@ -139,13 +140,8 @@ DrawPredicates CasterCulling::add_passes(
 			"culling boxes", BufferUsage::STORAGE, bytes_of(std::span(culling_boxes.boxes)));
 	const RGBuffer words =
 			r_graph.create_buffer({ "seen casters", compute_words_bytes(tested->size()),
-					BufferUsage::STORAGE | BufferUsage::COPY_TARGET | BufferUsage::COPY_SOURCE |
-							BufferUsage::CONDITIONAL });
-	r_graph.add_pass("all casters are seen")
-			.writes(words, Access::COPY_WRITE)
-			.execute([=](PassContext &p_context) {
-				p_context.commands.fill_buffer(p_context.get(words), 1);
-			});
+					BufferUsage::STORAGE | BufferUsage::COPY_SOURCE | BufferUsage::CONDITIONAL });
+	add_fill_pass(r_graph, p_inputs.device, "all casters are seen", words, 1);
 	const PipelineRID pipeline =
 			p_inputs.device.get_compute_pipeline({ "cull", "shadow_volume/cull.comp", {} });
 	r_graph.add_pass("casters hidden from the light")
@@ -162,7 +158,7 @@ DrawPredicates CasterCulling::add_passes(
 						{ CULLING_BINDING_WORDS, p_context.get(words) } });
 				commands.dispatch({ count, 1, 1 });
 			});
-	add_readback(r_graph, p_inputs.device, words);
+	add_readback(r_graph, words);
 	return decides_draws(p_inputs) ? DrawPredicates{ words, HEADER_BYTES, tested }
 								   : DrawPredicates{};
 }
@@ -174,67 +170,37 @@ void CasterCulling::get_debug_views(std::vector<ShadowTechnique::DebugView> &r_v
 	}
 }
 
-void CasterCulling::add_readback(
-		RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_words) {
-	const auto slot = std::find_if(results.begin(), results.end(),
-			[](const auto &p_result) { return !p_result || !p_result->is_awaited; });
-	if (slot == results.end()) {
-		return; // this frame's result is not kept
-	}
-	const size_t size_bytes = compute_words_bytes(tested->size());
-	if (!*slot || p_device.get_desc((*slot)->words.get()).size_bytes != size_bytes) {
-		*slot = std::make_shared<Result>();
-		(*slot)->words = OwnedBuffer(p_device,
-				p_device.create_buffer({ "read seen casters", size_bytes, BufferUsage::COPY_TARGET,
-						MemoryKind::READBACK }));
-		std::memset(p_device.get_mapped((*slot)->words.get()), 0, size_bytes);
-	}
-	const std::shared_ptr<Result> result = *slot;
-	result->key = key;
-	result->caster_count = tested->size();
-	result->submission_number = 0;
-	result->is_awaited = true;
-	const RGBuffer target = r_graph.import_buffer(result->words.get());
+void CasterCulling::add_readback(RenderGraph &r_graph, RGBuffer p_words) {
+	const auto receive = [newest = newest, key = key, caster_count = tested->size()](
+								 std::span<const uint8_t> p_bytes) {
+		std::vector<uint32_t> words(CULLING_HEADER_WORDS + caster_count);
+		std::memcpy(words.data(), p_bytes.data(), words.size() * sizeof(uint32_t));
+		const uint64_t found_key = words[0] | uint64_t(words[1]) << 32;
+		if (found_key == key) {
+			*newest = { key, { words.begin() + CULLING_HEADER_WORDS, words.end() } };
+		}
+	};
 	r_graph.add_pass("read seen casters")
 			.reads(p_words, Access::COPY_READ)
-			.writes(target, Access::COPY_WRITE)
+			.keep()
 			.execute([=](PassContext &p_context) {
-				result->submission_number = p_context.get_device().get_submission_number();
-				p_context.commands.copy_buffer(
-						p_context.get(p_words), p_context.get(target), size_bytes);
+				p_context.get_device().read_back(p_context.get(p_words), receive);
 			});
 }
 
-void CasterCulling::collect(RenderingDevice &p_device) {
-	for (const std::shared_ptr<Result> &result : results) {
-		if (!result || !result->is_awaited) {
-			continue;
-		}
-		if (result->submission_number == 0) { // its frame ended in an error
-			result->is_awaited = false;
-			continue;
-		}
-		if (!p_device.is_submission_finished(result->submission_number)) {
-			continue;
-		}
-		result->is_awaited = false;
-		std::vector<uint32_t> words(CULLING_HEADER_WORDS + result->caster_count);
-		std::memcpy(words.data(), p_device.get_mapped(result->words.get()),
-				words.size() * sizeof(uint32_t));
-		const uint64_t found_key = words[0] | uint64_t(words[1]) << 32;
-		if (found_key != result->key ||
-				(known && known->submission_number > result->submission_number)) {
-			continue;
-		}
-		known = { result->key, result->submission_number, {} };
-		size_t hidden_count = 0;
-		for (size_t i = CULLING_HEADER_WORDS; i < words.size(); ++i) {
-			known->is_hidden.push_back(words[i] == 0);
-			hidden_count += words[i] == 0 ? 1 : 0;
-		}
-		if (hidden_count < LEAST_HIDDEN_SHARE * static_cast<double>(result->caster_count)) {
-			rests_until_frame = frame + REST_FRAMES;
-		}
+void CasterCulling::collect() {
+	if (!*newest) {
+		return;
+	}
+	const Result result = *std::exchange(*newest, std::nullopt);
+	known = { result.key, {} };
+	size_t hidden_count = 0;
+	for (const uint32_t word : result.words) {
+		known->is_hidden.push_back(word == 0);
+		hidden_count += word == 0 ? 1 : 0;
+	}
+	if (hidden_count < LEAST_HIDDEN_SHARE * static_cast<double>(result.words.size())) {
+		rests_until_frame = frame + REST_FRAMES;
 	}
 }
 

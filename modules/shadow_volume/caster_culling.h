@@ -3,7 +3,7 @@
 #include "modules/shadows/draw_predicates.h"
 #include "modules/shadows/shadow_technique.h"
 
-#include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -43,26 +43,23 @@ public:
 	void get_debug_views(std::vector<ShadowTechnique::DebugView> &r_views) const;
 
 private:
-	/// Words on their way back from the GPU.
+	/// Words that have come back from the GPU.
 	struct Result {
-		OwnedBuffer words;
 		uint64_t key = 0;
-		size_t caster_count = 0;
-		uint64_t submission_number = 0; // 0: not recorded yet
-		bool is_awaited = false;
+		std::vector<uint32_t> words; // per caster, 0 = hidden
 	};
 	struct Known {
-		uint64_t key = 0; // of the views and casters
-		uint64_t submission_number = 0;
+		uint64_t key = 0;			 // of the views and casters
 		std::vector<bool> is_hidden; // per caster, in the order of plan's p_instances
 	};
 
-	void collect(RenderingDevice &p_device);
+	void collect();
 	std::vector<uint32_t> leave_out_hidden(
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const;
-	void add_readback(RenderGraph &r_graph, RenderingDevice &p_device, RGBuffer p_words);
+	void add_readback(RenderGraph &r_graph, RGBuffer p_words);
 
-	std::array<std::shared_ptr<Result>, 3> results; // two submissions may be in flight
+	/// Since the last plan; shared with what comes back when this object is gone.
+	std::shared_ptr<std::optional<Result>> newest = std::make_shared<std::optional<Result>>();
 	std::optional<Known> known;
 	uint64_t frame = 0;
 	uint64_t rests_until_frame = 0;

@@ -2,19 +2,20 @@
 
 #include "modules/core/text.h"
 #include "modules/shadows/caster_pass.h"
+#include "modules/shadows/mask.h"
 #include "modules/shadows/mesh_store.h"
 #include "modules/shadows/silhouette_lists.h"
 
 #include "shadow_volume/culling_shared.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gnomon {
 
 namespace {
 
 const size_t MOST_OCCLUDERS = 128;
-static_assert(MOST_OCCLUDERS <= 255, "each has a number in the stencil");
 const uint32_t MOST_TRIANGLES = 16384;
 const uint32_t MOST_TRIANGLES_OF_ONE = 4096;
 const double LEAST_SIZE_PX = 8.0; // its borders alone are 3 wide
@@ -89,12 +90,18 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	return draws;
 }
 
+/// The stencil tells occluders by numbers from 1 on, which begin again after so many: a pipeline
+/// has one number.
+constexpr size_t NUMBER_COUNT = 8;
+
 struct OccluderPipelines {
-	PipelineRID faces;
-	PipelineRID edges;
+	std::array<PipelineRID, NUMBER_COUNT> faces; // of number 1 first
+	std::array<PipelineRID, NUMBER_COUNT> edges;
+	PipelineRID forget; // all numbers
 };
 
-OccluderPipelines get_pipelines(RenderingDevice &p_device) {
+/// p_count: of the occluders.
+OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 	RasterPipelineDesc desc;
 	desc.name = "occluders";
 	desc.vertex_shader = "shadow_volume/occluders.vert";
@@ -104,14 +111,26 @@ OccluderPipelines get_pipelines(RenderingDevice &p_device) {
 	desc.stencil.front.pass = StencilOp::REPLACE;
 	desc.stencil.back = desc.stencil.front;
 	OccluderPipelines pipelines;
-	pipelines.faces = p_device.get_raster_pipeline(desc);
+	const auto get_numbered = [&](std::array<PipelineRID, NUMBER_COUNT> &r_pipelines) {
+		for (uint32_t number = 1; number <= std::min(p_count, NUMBER_COUNT); ++number) {
+			desc.stencil.reference = number;
+			r_pipelines[number - 1] = p_device.get_raster_pipeline(desc);
+		}
+	};
+	get_numbered(pipelines.faces);
 	desc.name = "occluders' edges";
 	desc.vertex_shader = "shadow_volume/occluder_edges.vert";
 	desc.fragment_shader = "";
 	desc.depth_compare = CompareOp::LESS;
 	desc.stencil.front = { .compare = CompareOp::EQUAL };
 	desc.stencil.back = desc.stencil.front;
-	pipelines.edges = p_device.get_raster_pipeline(desc);
+	get_numbered(pipelines.edges);
+	if (p_count > NUMBER_COUNT) {
+		desc = make_screen_desc("occluders' numbers", "");
+		desc.color_formats.clear();
+		desc.stencil.front.pass = desc.stencil.back.pass = StencilOp::ZERO;
+		pipelines.forget = p_device.get_raster_pipeline(desc);
+	}
 	return pipelines;
 }
 
@@ -119,15 +138,19 @@ OccluderPipelines get_pipelines(RenderingDevice &p_device) {
 /// of its edges is corrected before the next one comes, and only there, which the stencil tells.
 void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
 		const std::vector<OccluderDraw> &p_draws) {
-	uint32_t number = 0;
-	for (const OccluderDraw &draw : p_draws) {
-		r_commands.set_stencil_reference(++number);
-		r_commands.bind_pipeline(p_pipelines.faces);
+	for (size_t index = 0; index < p_draws.size(); ++index) {
+		const OccluderDraw &draw = p_draws[index];
+		const size_t number_index = index % NUMBER_COUNT;
+		if (index > 0 && number_index == 0) {
+			r_commands.bind_pipeline(p_pipelines.forget);
+			r_commands.draw(3);
+		}
+		r_commands.bind_pipeline(p_pipelines.faces[number_index]);
 		r_commands.bind_resources({ { CULLING_BINDING_POSITIONS, draw.gpu->positions.get() },
 				{ CULLING_BINDING_TRIANGLES, draw.gpu->adjacency_indices.get() } });
 		r_commands.push_constants(draw.push);
 		r_commands.draw(CORNERS_PER_FACE * draw.gpu->topology->get_face_count());
-		r_commands.bind_pipeline(p_pipelines.edges);
+		r_commands.bind_pipeline(p_pipelines.edges[number_index]);
 		r_commands.bind_resources({ { CULLING_BINDING_POSITIONS, draw.gpu->positions.get() },
 				{ CULLING_BINDING_EDGES, draw.gpu->edges.get() } });
 		r_commands.push_constants(draw.push);
@@ -208,8 +231,8 @@ OccluderMap add_occluder_passes(RenderGraph &r_graph, const ShadowTechnique::Inp
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	const RGTexture map = r_graph.create_texture(
 			{ "occluders", Format::D32_SFLOAT_S8_UINT, glm::uvec2(CULLING_MAP_SIZE_PX), view_count,
-					TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
-	const OccluderPipelines pipelines = get_pipelines(p_inputs.device);
+					TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true });
+	const OccluderPipelines pipelines = get_pipelines(p_inputs.device, p_occluders.size());
 	for (uint32_t view = 0; view < view_count; ++view) {
 		r_graph.add_pass(text("occluders view ", view))
 				.depth(map, LoadOp::CLEAR, 0.0f, view)

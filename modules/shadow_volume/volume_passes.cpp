@@ -50,6 +50,7 @@ RasterPipelineDesc make_volume_desc(const VolumeCaster &p_caster, const std::str
 		{ VOLUMES_CONSTANT_HAS_FAR_CAP, p_caster.shape.has_far_cap ? 1u : 0u } };
 	desc.has_stencil = true;
 	desc.stencil = make_count_test(p_caster.count);
+	desc.winding = p_caster.is_mirrored ? Winding::MIRRORED : Winding::NORMAL;
 	desc.writes_depth = false;
 	desc.depth_compare = CompareOp::GREATER; // reversed: nearer
 	if (p_what == "geometry shader") {
@@ -255,9 +256,6 @@ void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_in
 				if (has_bounds) {
 					p_context.commands.set_depth_bounds(area.least_depth, area.greatest_depth);
 				}
-				p_context.commands.set_winding(draw.caster->is_mirrored
-								? CommandList::Winding::MIRRORED
-								: CommandList::Winding::NORMAL);
 				p_predicates.record(p_context, draw.caster->instance_index,
 						[&] { record_draw(p_context, draw, lists); });
 			}

@@ -9,7 +9,7 @@ void KeptDepthMap::plan(
 		const ShadowTechnique::Inputs &p_inputs, KeptViews::Reads p_reads, TechniquePlan &r_plan) {
 	const TextureDesc desc = { "depth map of " + p_inputs.light.name, Format::D32_SFLOAT,
 		p_inputs.views[0].size_px, static_cast<uint32_t>(p_inputs.views.size()),
-		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED };
+		TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED, true };
 	frame_map = {};
 	views.begin(p_inputs, p_reads);
 	if (views.may_forget()) {

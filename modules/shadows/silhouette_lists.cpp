@@ -120,7 +120,7 @@ SilhouetteLists add_silhouette_passes(RenderGraph &r_graph, RenderingDevice &p_d
 	r_graph.add_pass("clear edges")
 			.writes(blocks, Access::COPY_WRITE)
 			.execute([=](PassContext &p_context) {
-				p_context.commands.fill_buffer(p_context.get(blocks), 0);
+				p_context.commands.clear_buffer(p_context.get(blocks));
 			});
 	const PipelineRID find_pipeline =
 			p_device.get_compute_pipeline({ "find edges", "shadows/find_edges.comp", {} });

@@ -3,12 +3,12 @@
 #include "editor/ui_shared.h"
 
 // Text, widgets and pictures: a texture times a colour, both as they are stored.
-layout(set = 0, binding = UI_BINDING_TEXTURE) uniform texture2DArray shown_texture;
+layout(set = 0, binding = UI_BINDING_TEXTURE) uniform texture2D shown_texture;
 layout(set = 0, binding = UI_BINDING_SAMPLER) uniform sampler shown_sampler;
 layout(location = 0) in vec2 in_uv;
 layout(location = 1) in vec4 in_color;
 layout(location = 0) out vec4 out_color;
 
 void main() {
-	out_color = in_color * texture(sampler2DArray(shown_texture, shown_sampler), vec3(in_uv, 0.0));
+	out_color = in_color * texture(sampler2D(shown_texture, shown_sampler), in_uv);
 }

@@ -10,7 +10,7 @@ layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) i
 layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
 	FrameConstants frame;
 };
-layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2DArray shown_texture;
+layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D shown_texture;
 layout(set = 0, binding = RENDERER_BINDING_OUTPUT, rgba8) uniform writeonly image2D output_image;
 layout(push_constant) uniform Push {
 	DebugViewPush push;
@@ -27,8 +27,8 @@ void main() {
 		return;
 	}
 	const vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size_px);
-	const ivec2 size = textureSize(shown_texture, 0).xy;
-	const vec4 value = texelFetch(shown_texture, ivec3(ivec2(uv * vec2(size)), push.layer), 0);
+	const ivec2 size = textureSize(shown_texture, 0);
+	const vec4 value = texelFetch(shown_texture, ivec2(uv * vec2(size)), 0);
 	const vec4 shown = (value - push.shown_range.x) / (push.shown_range.y - push.shown_range.x);
 	const vec3 color = push.class_count > 0u
 			? CLASS_COLORS[min(uint(value.r), push.class_count - 1u) % 8u]

@@ -18,6 +18,8 @@
 #define RENDERER_BINDING_TRUTH 12
 #define RENDERER_GROUP_SIZE 8
 
+#define PRESENT_BINDING_PICTURE 0
+
 #define GBUFFER_BINDING_FRAME 0
 #define GBUFFER_BINDING_POSITIONS 1
 #define GBUFFER_BINDING_INDICES 2
@@ -43,14 +45,18 @@ SHARED_SIZE(ExposurePush, 16);
 /// Push constants of debug_view.comp.
 struct SHARED_ALIGN DebugViewPush {
 	vec2 shown_range; // value shown black, value shown white
-	uint layer;
 	uint class_count; // above 0: values are classes 0 .. class_count - 1, shown in colours
 	uint is_color;	  // 1: values are colours
-	uint padding0;
-	uint padding1;
-	uint padding2;
 };
-SHARED_SIZE(DebugViewPush, 32);
+SHARED_SIZE(DebugViewPush, 16);
+
+/// Push constants of present.frag.
+struct SHARED_ALIGN PresentPush {
+	vec2 picture_px_per_window_px;
+	float padding0;
+	float padding1;
+};
+SHARED_SIZE(PresentPush, 16);
 
 #include "shared/shared_end.h"
 #endif

@@ -151,6 +151,7 @@ TEST_CASE("[GPU][RenderGraph] drawing one layer of an array leaves the other lay
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	TextureDesc desc = make_desc("array");
 	desc.layer_count = 3;
+	desc.is_array = true;
 	desc.usage = desc.usage | TextureUsage::COLOR_ATTACHMENT;
 	const RGTexture array = graph.create_texture(desc);
 	for (uint32_t layer = 0; layer < 3; ++layer) {

@@ -11,7 +11,7 @@ namespace {
 
 void record_span(CommandList &r_commands, const std::string &p_name, BufferRID p_buffer) {
 	r_commands.begin_span(p_name);
-	r_commands.fill_buffer(p_buffer, 1);
+	r_commands.clear_buffer(p_buffer);
 	r_commands.end_span();
 	const Barrier barrier = {
 		.buffer = p_buffer, .before = Access::COPY_WRITE, .after = Access::COPY_WRITE
@@ -92,8 +92,8 @@ TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {
 		const OwnedBuffer buffer = make_filled(device);
 		ExpectedValidationMessages expected;
 		CommandList &commands = device.begin_commands();
-		commands.fill_buffer(buffer.get(), 1);
-		commands.fill_buffer(buffer.get(), 2);
+		commands.clear_buffer(buffer.get());
+		commands.clear_buffer(buffer.get());
 		device.submit_commands(SubmitMode::WAIT);
 		REQUIRE_FALSE(expected.get_messages().empty());
 		CHECK(contains(expected.get_messages().front(), "SYNC-HAZARD-WRITE-AFTER-WRITE"));
@@ -104,7 +104,7 @@ TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {
 						{ .name = "vertices", .size_bytes = 16, .usage = BufferUsage::VERTEX }));
 		ExpectedValidationMessages expected;
 		CommandList &commands = device.begin_commands();
-		commands.fill_buffer(buffer.get(), 1);
+		commands.clear_buffer(buffer.get());
 		device.submit_commands(SubmitMode::WAIT);
 		REQUIRE_FALSE(expected.get_messages().empty());
 		CHECK(contains(expected.get_messages().front(), "vertices")); // objects have their names

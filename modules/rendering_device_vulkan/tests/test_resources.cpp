@@ -73,10 +73,12 @@ TEST_CASE("[GPU][RenderingDevice] memory of a freed resource is used again after
 	DeviceFixture fixture({ .memory_budget_bytes = 64 * MIB });
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer readback = fixture.make_readback(4);
+	const OwnedBuffer numbers = fixture.make_buffer(
+			"numbers", std::vector<uint32_t>{ 0, 1, 2, 3, 4, 5 }, BufferUsage::COPY_SOURCE);
 	for (uint32_t frame = 0; frame < 6; ++frame) {
 		CommandList &commands = device.begin_commands();
 		const OwnedBuffer buffer(device, device.create_buffer(make_desc("half", 40 * MIB)));
-		commands.fill_buffer(buffer.get(), frame);
+		commands.copy_buffer(numbers.get(), buffer.get(), 4, 4 * frame, 20 * MIB);
 		const Barrier barrier = {
 			.buffer = buffer.get(), .before = Access::COPY_WRITE, .after = Access::COPY_READ
 		};
@@ -162,14 +164,16 @@ TEST_CASE("[GPU][RenderingDevice] commands given up leave the device usable") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer readback = fixture.make_readback(4);
+	const OwnedBuffer numbers = fixture.make_buffer(
+			"numbers", std::vector<uint32_t>{ 99, 1, 2, 3 }, BufferUsage::COPY_SOURCE);
 	for (uint32_t round = 1; round < 4; ++round) {
 		CommandList &abandoned = device.begin_commands();
 		abandoned.begin_span("never finished");
-		abandoned.fill_buffer(readback.get(), 99);
+		abandoned.copy_buffer(numbers.get(), readback.get(), 4);
 		device.abandon_commands();
 		CommandList &commands = device.begin_commands();
 		commands.begin_span("fill");
-		commands.fill_buffer(readback.get(), round);
+		commands.copy_buffer(numbers.get(), readback.get(), 4, 4 * round);
 		commands.end_span();
 		device.submit_commands(SubmitMode::WAIT);
 		CHECK(fixture.read<uint32_t>(readback, 1)[0] == round);

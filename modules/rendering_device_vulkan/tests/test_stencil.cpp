@@ -44,10 +44,13 @@ struct StencilFixture : DeviceFixture {
 	size_t count_drawn(const RasterPipelineDesc &p_counting, uint32_t p_times,
 			bool p_is_turned = false, uint32_t p_reference = 0) {
 		RasterPipelineDesc counting = p_counting;
+		counting.stencil.reference = p_reference;
 		const StencilFace not_zero = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
 			StencilOp::ZERO };
 		RasterPipelineDesc drawing = make_desc("drawing", { not_zero, not_zero });
 		const PipelineRID count_pipeline = device->get_raster_pipeline(counting);
+		counting.winding = Winding::MIRRORED;
+		const PipelineRID turned_pipeline = device->get_raster_pipeline(counting);
 		const PipelineRID draw_pipeline = device->get_raster_pipeline(drawing);
 		CommandList &commands = device->begin_commands();
 		const Barrier before[] = { { .texture = color.get(), .after = Access::COLOR_WRITE },
@@ -56,13 +59,10 @@ struct StencilFixture : DeviceFixture {
 		const ColorTarget color_target = { color.get() };
 		const DepthTarget depth_target = { .texture = depth.get(), .clear = FAR };
 		commands.begin_rendering({ &color_target, 1 }, &depth_target);
-		commands.set_stencil_reference(p_reference);
 		for (uint32_t time = 0; time < p_times; ++time) {
 			draw_triangle(commands, count_pipeline, vertices.get());
 			if (p_is_turned) {
-				commands.set_winding(CommandList::Winding::MIRRORED);
-				draw_triangle(commands, count_pipeline, vertices.get());
-				commands.set_winding(CommandList::Winding::NORMAL);
+				draw_triangle(commands, turned_pipeline, vertices.get());
 			}
 		}
 		commands.end_rendering();

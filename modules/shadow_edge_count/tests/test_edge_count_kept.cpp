@@ -1,6 +1,7 @@
 // What is kept from frame to frame, what makes it new, and that every frame is the same bit for
 // bit.
 
+#include "modules/core/files.h"
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
 #include <doctest/doctest.h>
@@ -186,13 +187,14 @@ TEST_CASE("[GPU][EdgeCount] what memory held before changes no bit of the mask")
 	const auto fill_memory = [](RenderingDevice &r_device, uint32_t p_value) {
 		// Small enough to share a block of memory, which stays when they are gone.
 		std::vector<OwnedBuffer> buffers;
-		CommandList &commands = r_device.begin_commands();
+		const std::vector<uint32_t> words(4u << 20, p_value);
 		for (int index = 0; index < 3; ++index) {
 			buffers.emplace_back(r_device,
-					r_device.create_buffer({ text("fill ", index), 16u << 20,
-							BufferUsage::STORAGE | BufferUsage::COPY_TARGET }));
-			commands.fill_buffer(buffers.back().get(), p_value);
+					r_device.create_buffer_with_data(
+							{ text("fill ", index), 16u << 20, BufferUsage::STORAGE },
+							bytes_of(std::span<const uint32_t>(words))));
 		}
+		r_device.begin_commands();
 		r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
 	};
 	std::vector<float> expected;

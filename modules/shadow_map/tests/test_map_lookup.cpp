@@ -33,7 +33,8 @@ std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool>
 			r_fixture.device->create_texture_with_data({ .name = "map",
 															   .format = Format::R32_SFLOAT,
 															   .size_px = glm::uvec2(SIZE_PX),
-															   .usage = TextureUsage::SAMPLED },
+															   .usage = TextureUsage::SAMPLED,
+															   .is_array = true },
 					bytes_of(std::span<const float>(depths))));
 	const OwnedBuffer view = r_fixture.make_buffer(
 			"view", std::vector<shader::LightViewConstants>{ make_view() }, BufferUsage::UNIFORM);

@@ -99,7 +99,8 @@ struct FinsFixture : MaskFixture {
 				layers.push_back(r_graph.create_texture(
 						{ "layer", Format::D32_SFLOAT, p_frame.views[0].size_px, view_count,
 								TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED |
-										TextureUsage::COPY_TARGET | TextureUsage::COPY_SOURCE }));
+										TextureUsage::COPY_TARGET | TextureUsage::COPY_SOURCE,
+								true }));
 			}
 			RGBuffer texels;
 			for (uint32_t view = 0; view < view_count; ++view) {
@@ -131,7 +132,7 @@ struct FinsFixture : MaskFixture {
 			const glm::uvec2 size_px = p_frame.views[0].size_px;
 			const TextureUsage usage = TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE;
 			const TextureDesc layer_desc = { "layer", Format::D32_SFLOAT, size_px, 2,
-				usage | TextureUsage::DEPTH_ATTACHMENT };
+				usage | TextureUsage::DEPTH_ATTACHMENT, true };
 			const std::vector<RGTexture> layers = { r_graph.create_texture(layer_desc),
 				r_graph.create_texture(layer_desc) };
 			RGBuffer texels;

@@ -33,7 +33,7 @@ public:
 		r_graph.add_pass("none is seen")
 				.writes(predicates.words, Access::COPY_WRITE)
 				.execute([words = predicates.words](PassContext &p_context) {
-					p_context.commands.fill_buffer(p_context.get(words), 0);
+					p_context.commands.clear_buffer(p_context.get(words));
 				});
 		const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);
 		add_volume_passes(r_graph, p_inputs, settings, casters, predicates, targets, edges);

@@ -27,7 +27,6 @@ inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shado
 	desc.vertex_strides_bytes = { sizeof(glm::vec3) };
 	desc.color_formats = { Format::R32_UINT, Format::RGBA16_SFLOAT };
 	desc.depth_compare = CompareOp::GREATER;
-	const PipelineRID pipeline = r_shadows.get_device().get_raster_pipeline(desc);
 	struct Push {
 		glm::mat4 camera_relative_from_node;
 		glm::vec4 material;
@@ -35,19 +34,21 @@ inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shado
 	struct Draw {
 		const GpuMesh *mesh;
 		Push push;
-		bool is_double_sided;
-		bool is_mirrored;
+		PipelineRID pipeline;
 	};
 	std::vector<Draw> draws;
 	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
 	for (const InstanceSnapshot &instance : p_scene.instances) {
-		if (camera_view.may_see(instance)) {
-			draws.push_back({ &r_shadows.get_meshes().get(instance.mesh),
-					{ p_scene.get_camera_relative_from_node(instance),
-							{ instance.material->scatter, instance.material->scatter_distance_m, 0,
-									0 } },
-					instance.material->is_double_sided, instance.is_mirrored() });
+		if (!camera_view.may_see(instance)) {
+			continue;
 		}
+		const Material &material = *instance.material;
+		desc.cull_mode = material.is_double_sided ? CullMode::NONE : CullMode::BACK;
+		desc.winding = instance.is_mirrored() ? Winding::MIRRORED : Winding::NORMAL;
+		draws.push_back({ &r_shadows.get_meshes().get(instance.mesh),
+				{ p_scene.get_camera_relative_from_node(instance),
+						{ material.scatter, material.scatter_distance_m, 0, 0 } },
+				r_shadows.get_device().get_raster_pipeline(desc) });
 	}
 	r_graph.add_pass("surfaces")
 			.reads(p_frame, Access::UNIFORM_READ)
@@ -56,15 +57,12 @@ inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shado
 			.depth(surfaces.depth, LoadOp::CLEAR, 0.0f)
 			.execute([=, draws = std::move(draws)](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
-				commands.bind_pipeline(pipeline);
 				for (const Draw &draw : draws) {
 					const BufferRID vertices[] = { draw.mesh->positions.get() };
+					commands.bind_pipeline(draw.pipeline);
 					commands.bind_resources({ { 0, p_context.get(p_frame) },
 							{ 1, draw.mesh->positions.get() }, { 2, draw.mesh->indices.get() } });
 					commands.push_constants(draw.push);
-					commands.set_cull_mode(draw.is_double_sided ? CullMode::NONE : CullMode::BACK);
-					commands.set_winding(draw.is_mirrored ? CommandList::Winding::MIRRORED
-														  : CommandList::Winding::NORMAL);
 					commands.bind_vertex_buffers(vertices);
 					commands.bind_index_buffer(draw.mesh->indices.get());
 					commands.draw_indexed(draw.mesh->index_count);

@@ -25,7 +25,8 @@ struct HeldMasks {
 			texture(p_device,
 					p_device.create_texture({ "held masks", p_format, SIZE_PX, p_count,
 							TextureUsage::STORAGE | TextureUsage::SAMPLED |
-									TextureUsage::COPY_SOURCE })) {}
+									TextureUsage::COPY_SOURCE,
+							true })) {}
 };
 
 /// Draws all lights of the scene into the layers, then reads them back; 4 or 1 halves a texel.

@@ -1,0 +1,66 @@
+// Copies for the CPU that nobody waits for.
+
+#include "modules/core/error.h"
+#include "modules/rendering_device_vulkan/vulkan_device.h"
+
+namespace gnomon {
+
+BufferResource &VulkanDevice::add_read_back(
+		const std::string &p_resource, uint64_t p_size_bytes, ReadBackCallback &&p_callback) {
+	fail_if_lost();
+	GNOMON_ASSERT(recording.is_recording, "read_back of ", p_resource,
+			" outside begin_commands .. submit_commands");
+	PendingReadBack read_back;
+	read_back.submission_number = get_recording_slot().number;
+	read_back.staging = make_buffer({ .name = "read back " + p_resource,
+			.size_bytes = p_size_bytes,
+			.usage = BufferUsage::COPY_TARGET,
+			.memory = MemoryKind::READBACK });
+	read_back.callback = std::move(p_callback);
+	read_backs.push_back(std::move(read_back));
+	return read_backs.back().staging;
+}
+
+void VulkanDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
+	const BufferResource &source = buffers.get(p_buffer);
+	const BufferResource &target =
+			add_read_back(source.desc.name, source.desc.size_bytes, std::move(p_callback));
+	recording.copy_buffer(source, target, source.desc.size_bytes, 0, 0);
+}
+
+void VulkanDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
+	const TextureResource &source = textures.get(p_texture);
+	const uint64_t size_bytes = uint64_t(source.desc.size_px.x) * source.desc.size_px.y *
+			get_texel_size_bytes(source.desc.format);
+	const BufferResource &target =
+			add_read_back(source.desc.name, size_bytes, std::move(p_callback));
+	recording.copy_texture_to_buffer(source, target, p_layer);
+}
+
+void VulkanDevice::call_read_backs() {
+	const uint64_t finished = get_finished_number();
+	while (!read_backs.empty() && read_backs.front().submission_number <= finished) {
+		// Taken out first: the callback may throw, or use the device.
+		PendingReadBack read_back = std::move(read_backs.front());
+		read_backs.pop_front();
+		const Allocation &memory = read_back.staging.memory;
+		const std::span bytes(memory.block->mapped + memory.offset_bytes,
+				static_cast<size_t>(read_back.staging.desc.size_bytes));
+		try {
+			read_back.callback(bytes);
+		} catch (...) {
+			destroy(read_back.staging);
+			throw;
+		}
+		destroy(read_back.staging);
+	}
+}
+
+void VulkanDevice::drop_read_backs(uint64_t p_after_submission_number) {
+	while (!read_backs.empty() && read_backs.back().submission_number > p_after_submission_number) {
+		destroy(read_backs.back().staging);
+		read_backs.pop_back();
+	}
+}
+
+} // namespace gnomon
