@@ -1,5 +1,5 @@
 def get_dependencies():
-    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "shadows", "gltf_scene", "error_report", "desktop", "shader_reload"]
+    return ["core", "rendering_device", "scene", "mesh_tools", "render_graph", "renderer", "shadows", "gltf_scene", "masks", "desktop", "shader_reload"]
 
 
 def get_layer():

@@ -5,9 +5,9 @@
 #include "modules/editor/editor_document.h"
 #include "modules/editor/orbit_camera.h"
 #include "modules/editor/penumbra_guide.h"
-#include "modules/error_report/mask_image.h"
-#include "modules/error_report/mask_metrics.h"
-#include "modules/error_report/mask_timing.h"
+#include "modules/masks/mask_image.h"
+#include "modules/masks/mask_metrics.h"
+#include "modules/masks/mask_timing.h"
 #include "modules/renderer/renderer.h"
 
 #include <filesystem>

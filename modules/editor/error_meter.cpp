@@ -1,7 +1,7 @@
 #include "modules/editor/error_meter.h"
 
 #include "modules/core/text.h"
-#include "modules/error_report/mask_picture.h"
+#include "modules/masks/mask_picture.h"
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/shadow_registry.h"
 

@@ -2,7 +2,7 @@
 
 #include "modules/editor/background_truth.h"
 #include "modules/editor/editor_context.h"
-#include "modules/error_report/mask_timing.h"
+#include "modules/masks/mask_timing.h"
 
 namespace gnomon {
 

@@ -1,8 +1,5 @@
-import subprocess
-
-
 def get_dependencies():
-    return ["core", "scene", "mesh_tools"]
+    return ["core", "scene", "mesh_tools", "masks"]
 
 
 def get_layer():
@@ -10,21 +7,8 @@ def get_layer():
 
 
 def get_description():
-    return "Masks and their error against a truth; reports of error against run time"
+    return "Reports of error against run time, with what modules add to them"
 
 
 def can_disable():
-    return False  # the report and the editor's error panel are made of it
-
-
-def can_build(env):
-    return subprocess.run(["pkg-config", "--exists", "OpenEXR"]).returncode == 0
-
-
-def configure(env):
-    flags = env.ParseFlags("!pkg-config OpenEXR --cflags --libs")
-    for folder in flags["CPPPATH"]:
-        # A system folder: warnings in headers of others are not ours to fix.
-        env.Append(CCFLAGS=[("-isystem", folder)])
-    flags["CPPPATH"] = []
-    env.MergeFlags(flags)
+    return False  # the report is made of it

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "modules/core/property.h"
-#include "modules/error_report/mask_image.h"
 #include "modules/error_report/report.h"
+#include "modules/masks/mask_image.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <functional>

@@ -9,6 +9,11 @@ const char *get_status_name(ReportStatus p_status) {
 	return NAMES[static_cast<int>(p_status)];
 }
 
+const char *get_cause_name(ErrorCause p_cause) {
+	static const char *const NAMES[] = { "method", "rounding", "truth" };
+	return NAMES[static_cast<int>(p_cause)];
+}
+
 std::vector<size_t> Report::find_cells(size_t p_configuration) const {
 	std::vector<size_t> found;
 	for (size_t index = 0; index < cells.size(); ++index) {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "modules/error_report/mask_metrics.h"
-#include "modules/error_report/mask_timing.h"
-#include "modules/error_report/visibility_condition.h"
+#include "modules/masks/mask_metrics.h"
+#include "modules/masks/mask_timing.h"
 
 #include <glm/glm.hpp>
 
@@ -78,7 +77,12 @@ struct ReportConfiguration {
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
 	bool is_stability() const { return group == STABILITY_GROUP; }
-	bool has_truth() const { return is_matrix() || is_stability(); }
+	/// Of a curve of cost; everything else is measured against a truth.
+	bool is_scaling() const {
+		return group == TRIANGLES_GROUP || group == LIGHT_SIZE_GROUP || group == LIGHTS_GROUP ||
+				group == RESOLUTION_GROUP;
+	}
+	bool has_truth() const { return !is_scaling(); }
 };
 
 /// Over all receivers, and over those that see the whole disc above their own horizon.
@@ -87,7 +91,27 @@ struct ReportError {
 	MaskMetrics whole_light;
 };
 
-/// What else a point of a stability sweep is asked.
+/// Whose fault an error is.
+enum class ErrorCause {
+	METHOD,	  // exact arithmetic would leave it
+	ROUNDING, // the question itself changes as much when its input is rounded to float32
+	TRUTH,	  // the reference in float32 is off by as much
+};
+/// "method", "rounding", "truth".
+const char *get_cause_name(ErrorCause p_cause);
+
+/// How sensitive visibility is at some points, in double precision: means over the points.
+struct VisibilityCondition {
+	/// Change of v over the relative change of the receiver's place that makes it: |dv| rho / |dP|,
+	/// rho the distance to the light (directional: S).
+	double number = 0;
+	double rounding = 0;	// change of v when P moves by what float32 rounds away
+	double truth_error = 0; // |v in double - v of the reference|
+	double error = 0;		// of the technique
+	ErrorCause cause = ErrorCause::METHOD;
+};
+
+/// What else a point of a stability sweep is asked; a part of the report (ReportPart) fills it in.
 struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius: see
 	/// TemporalMetrics. None where the light has no place to move to.

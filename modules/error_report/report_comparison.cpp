@@ -1,7 +1,7 @@
 #include "modules/error_report/report_comparison.h"
 
 #include "modules/core/text.h"
-#include "modules/error_report/stability_curves.h"
+#include "modules/error_report/report_part.h"
 
 #include <nlohmann/json.hpp>
 
@@ -80,7 +80,7 @@ private:
 			return;
 		}
 		++comparison.compared_count;
-		compare_stability(p_old, p_new);
+		compare_part(p_old, p_new);
 		if (p_old.error && p_new.error) {
 			const MaskMetrics &before = p_old.error->all;
 			const MaskMetrics &after = p_new.error->all;
@@ -91,17 +91,16 @@ private:
 	}
 
 	/// What was drawn and is now refused, or became nonsense, and the other way round.
-	void compare_stability(const ReportCell &p_old, const ReportCell &p_new) {
-		if (!p_old.stability || !p_new.stability) {
+	void compare_part(const ReportCell &p_old, const ReportCell &p_new) {
+		const ReportPart *part = ReportPartRegistry::find_part(
+				new_report.configurations[p_new.configuration_index].group);
+		if (part == nullptr || !p_old.stability || !p_new.stability) {
 			return;
 		}
-		const auto is_bad = [](const ReportCell &p_cell) {
-			const StabilityState state = judge_stability(p_cell, {}, nullptr);
-			return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
-		};
-		if (is_bad(p_old) != is_bad(p_new)) {
-			add(p_new, "status", !is_bad(p_old), !is_bad(p_new), is_bad(p_new),
-					p_new.stability->refusal);
+		const bool was_bad = part->is_unusable(p_old);
+		const bool is_bad = part->is_unusable(p_new);
+		if (was_bad != is_bad) {
+			add(p_new, "status", !was_bad, !is_bad, is_bad, p_new.stability->refusal);
 		}
 	}
 

@@ -2,8 +2,8 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/error_report/report_part.h"
 #include "modules/error_report/report_ranking.h"
-#include "modules/error_report/stability_curves.h"
 
 #include <nlohmann/json.hpp>
 
@@ -164,7 +164,9 @@ Json to_json(const Report &p_report) {
 	json["ranking"] = to_json(rank_settings(p_report));
 	json["best_settings"] = to_json(rank_best_settings(p_report));
 	json["scaling"] = to_json(p_report, find_scaling_curves(p_report));
-	json["stability"] = to_json(find_stability_plots(p_report));
+	for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
+		json[info.id] = info.part->to_json(p_report);
+	}
 	return json;
 }
 

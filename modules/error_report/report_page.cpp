@@ -1,9 +1,9 @@
 #include "modules/error_report/report_page.h"
 
 #include "modules/core/error.h"
-#include "modules/error_report/mask_picture.h"
 #include "modules/error_report/page_files.h"
 #include "modules/error_report/report.h"
+#include "modules/masks/mask_picture.h"
 
 #include <nlohmann/json.hpp>
 

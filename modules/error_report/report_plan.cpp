@@ -3,8 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/error_report/question_hash.h"
+#include "modules/error_report/report_part.h"
 #include "modules/error_report/scaling_scenes.h"
-#include "modules/error_report/stability_plan.h"
 #include "modules/mesh_tools/topology.h"
 
 #include <algorithm>
@@ -69,11 +69,14 @@ public:
 		}
 	}
 
-	void add_stability() {
-		plan_stability(options, [this](ReportConfiguration p_configuration, ReportPlan::Ask p_ask) {
-			add_configuration(
-					std::move(p_configuration), std::move(p_ask), ExpensiveSettings::LEFT_OUT);
-		});
+	void add_parts() {
+		for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
+			info.part->plan(
+					options, [this](ReportConfiguration p_configuration, ReportPlan::Ask p_ask) {
+						add_configuration(std::move(p_configuration), std::move(p_ask),
+								ExpensiveSettings::LEFT_OUT);
+					});
+		}
 	}
 
 	ReportPlan finish() { return std::move(plan); }
@@ -285,7 +288,7 @@ ReportPlan make_report_plan(const ReportOptions &p_options,
 		planner.add_scene(scene);
 	}
 	planner.add_scaling();
-	planner.add_stability();
+	planner.add_parts();
 	return planner.finish();
 }
 

@@ -5,7 +5,6 @@
 #include "modules/error_report/report.h"
 #include "modules/error_report/report_scene.h"
 #include "modules/error_report/scaling_scenes.h"
-#include "modules/error_report/stability_sweeps.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,6 +13,14 @@
 #include <vector>
 
 namespace gnomon {
+
+/// How much of the stability sweeps a report draws; NONE where no module adds them.
+enum class StabilityExtent {
+	NONE,
+	QUICK, // the ends of each sweep and its centre, 64 x 64 pixels
+	FULL,
+};
+inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes"; // see ReportOptions::stability_scenes
 
 struct ReportOptions {
 	std::string project;

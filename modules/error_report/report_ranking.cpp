@@ -1,6 +1,6 @@
 #include "modules/error_report/report_ranking.h"
 
-#include "modules/error_report/mask_timing.h"
+#include "modules/masks/mask_timing.h"
 
 #include <nlohmann/json.hpp>
 

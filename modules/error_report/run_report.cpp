@@ -4,11 +4,10 @@
 #include "modules/core/files.h"
 #include "modules/core/log.h"
 #include "modules/core/progress.h"
-#include "modules/error_report/mask_picture.h"
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
-#include "modules/error_report/stability_curves.h"
-#include "modules/error_report/stability_run.h"
+#include "modules/error_report/report_part.h"
+#include "modules/masks/mask_picture.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask in a stability sweep
+const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
 
 /// The mask with the receivers that the list leaves out taken away.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_kept) {
@@ -156,8 +155,7 @@ private:
 		});
 		const bool needs_truth = configuration.has_truth() && !configuration.record.empty() &&
 				(!missing.empty() || configuration.status == ReportStatus::MISSING);
-		truth = {};
-		stability_truth = {};
+		truths.clear();
 		if (needs_truth) {
 			run_truth(p_index);
 		}
@@ -168,28 +166,24 @@ private:
 		}
 	}
 
-	const TracedTruth &get_truth(const ReportConfiguration &p_configuration) const {
-		return p_configuration.is_stability() ? stability_truth.still : truth;
-	}
-
 	void run_truth(size_t p_index) {
 		ReportConfiguration &configuration = report.configurations[p_index];
 		std::vector<uint8_t> image;
 		const std::optional<std::string> failure = find_failure([&] {
 			const MaskQuestion question = plan.questions[p_index]({});
-			if (configuration.is_stability()) {
-				stability_truth = trace_stability_truth(source, question, report.sample_count);
+			if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
+				truths = part->trace_truths(source, question, report.sample_count);
 			} else {
-				truth = source.trace_truth(question, report.sample_count);
+				truths.push_back(source.trace_truth(question, report.sample_count));
 			}
-			image = encode_truth_png(get_truth(configuration).mask);
+			image = encode_truth_png(truths.front().mask);
 		});
 		if (failure) {
 			configuration.status = ReportStatus::FAILED;
 			configuration.message = *failure;
 			log_error("Truth of ", configuration.id, ": ", *failure);
 		} else if (configuration.status == ReportStatus::MISSING) {
-			const TracedTruth &traced = get_truth(configuration);
+			const TracedTruth &traced = truths.front();
 			const MaskMetrics metrics = compute_mask_metrics(traced.mask, traced.mask);
 			configuration.status = ReportStatus::OK;
 			configuration.message.clear();
@@ -239,10 +233,8 @@ private:
 				plan.questions[r_cell.configuration_index](plan.settings[index]);
 		const ReportConfiguration &configuration =
 				report.configurations[r_cell.configuration_index];
-		if (configuration.is_stability()) {
-			const std::optional<size_t> center = find_stability_center(report, r_cell);
-			const MaskImage mask = run_stability_cell(source, question, stability_truth,
-					configuration.truth, center ? &report.cells[*center] : nullptr, r_cell);
+		if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
+			const MaskImage mask = part->run_cell(source, question, truths, report, index);
 			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MOST_SHOWN_PIXELS) {
 				r_image = encode_png(question.size_px, 1, compute_mask_pixels(mask));
 				r_cell.image = r_cell.record + ".png";
@@ -251,6 +243,7 @@ private:
 		}
 		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
 		if (configuration.has_truth()) {
+			const TracedTruth &truth = truths.front();
 			r_cell.error = ReportError{
 				compute_mask_metrics(truth.mask, measured_mask.mask),
 				compute_mask_metrics(restrict_mask(truth.mask, truth.sees_whole_light),
@@ -269,9 +262,8 @@ private:
 	const RunOptions &options;
 	Report report;
 	const ReportMachine machine;
-	StabilityTruth stability_truth; // where that is a point of a sweep
-	TracedTruth truth;				// of the configuration that is running
-	std::set<std::string> measured; // records of this run
+	std::vector<TracedTruth> truths; // of the configuration that is running, its own first
+	std::set<std::string> measured;	 // records of this run
 	size_t left_count = 0;
 	size_t done_count = 0;
 	Progress progress{ "Report" };

@@ -1,10 +1,10 @@
 // `gnomon compare`: the metrics of TECHNIQUES.md section 0, as JSON.
 
 #include "modules/core/error.h"
-#include "modules/error_report/mask_image.h"
-#include "modules/error_report/mask_metrics.h"
-#include "modules/error_report/mask_picture.h"
 #include "modules/main/commands.h"
+#include "modules/masks/mask_image.h"
+#include "modules/masks/mask_metrics.h"
+#include "modules/masks/mask_picture.h"
 
 #include <CLI/CLI.hpp>
 

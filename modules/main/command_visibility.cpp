@@ -3,10 +3,10 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
-#include "modules/error_report/mask_image.h"
-#include "modules/error_report/mask_picture.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
+#include "modules/masks/mask_image.h"
+#include "modules/masks/mask_picture.h"
 #include "modules/renderer/renderer.h"
 #include "modules/shadows/shadow_registry.h"
 

@@ -21,7 +21,7 @@ using namespace gnomon;
 
 /// Commands that some builds lack, and the module that they need.
 const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
-	{ "visibility", "error_report" }, { "compare", "error_report" }, { "report", "error_report" } };
+	{ "visibility", "masks" }, { "compare", "masks" }, { "report", "error_report" } };
 
 /// A command that this build lacks ends with the module's name, not with a riddle, and one that no
 /// build has with those that there are.

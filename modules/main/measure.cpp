@@ -1,7 +1,7 @@
 #include "modules/main/measure.h"
 
 #include "modules/core/progress.h"
-#include "modules/error_report/mask_image.h"
+#include "modules/masks/mask_image.h"
 #include "modules/mesh_tools/topology.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/error_report/mask_timing.h"
 #include "modules/main/optional_parts.h"
+#include "modules/masks/mask_timing.h"
 #include "modules/renderer/renderer.h"
 
 #include <cstdint>

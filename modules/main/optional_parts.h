@@ -16,9 +16,9 @@ struct OptionalParts {
 	/// Of desktop: shows the scene until its window is closed. See game_window.h.
 	RenderResult (*run_in_window)(Scene &r_scene, glm::uvec2 &r_size_px,
 			const RunOptions &p_options, const CommonOptions &p_common) = nullptr;
-	/// Of error_report: the mask in an EXR.
+	/// Of masks: the mask in an EXR.
 	std::shared_ptr<const TruthMask> (*load_truth)(const std::string &p_path) = nullptr;
-	/// Of error_report: measure_frame_time, see measure.h.
+	/// Of masks: measure_frame_time, see measure.h.
 	std::string (*measure_frame_time)(Renderer &r_renderer, RenderRequest p_request,
 			const SnapshotMaker &p_make_snapshot) = nullptr;
 

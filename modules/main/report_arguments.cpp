@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
+#include "modules/error_report/report_part.h"
 #include "modules/main/commands.h"
 #include "modules/shadows/mask_filter.h"
 
@@ -40,6 +41,37 @@ NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_fo
 		named.push_back({ name, file });
 	}
 	return named;
+}
+
+/// A build without the module that adds the sweeps draws none, and refuses requests for them.
+void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r_options) {
+	const std::string extent = p_arguments.stability.value_or("quick");
+	const ReportPart *part = ReportPartRegistry::find_part(STABILITY_GROUP);
+	if (part == nullptr) {
+		const bool is_requested = p_arguments.stability && extent != "none";
+		if (is_requested || !p_arguments.sweeps.empty()) {
+			throw UsageError(text("`gnomon report ", is_requested ? "--stability" : "--sweeps",
+					"` needs the module stability_report, which this build lacks. Build with ",
+					"module_stability_report_enabled=yes."));
+		}
+		r_options.stability = StabilityExtent::NONE;
+		return;
+	}
+	r_options.stability = extent == "none" ? StabilityExtent::NONE
+			: extent == "full"			   ? StabilityExtent::FULL
+										   : StabilityExtent::QUICK;
+	const std::vector<std::string> known = part->list_sweeps();
+	for (const std::string &sweep : p_arguments.sweeps) {
+		if (std::find(known.begin(), known.end(), sweep) == known.end()) {
+			std::string names;
+			for (const std::string &name : known) {
+				names += (names.empty() ? "" : ", ") + name;
+			}
+			throw UsageError(
+					text("--sweeps: there is no \"", sweep, "\", must be of ", names, "."));
+		}
+		r_options.sweeps.push_back(sweep);
+	}
 }
 
 } // namespace
@@ -94,20 +126,7 @@ ReportOptions make_report_options(
 	options.scaling = p_arguments.scaling == "none" ? ScalingExtent::NONE
 			: p_arguments.scaling == "full"			? ScalingExtent::FULL
 													: ScalingExtent::QUICK;
-	options.stability = p_arguments.stability == "none" ? StabilityExtent::NONE
-			: p_arguments.stability == "full"			? StabilityExtent::FULL
-														: StabilityExtent::QUICK;
-	for (const std::string &sweep : p_arguments.sweeps) {
-		if (find_stability_sweep(sweep) == nullptr) {
-			std::string known;
-			for (const StabilitySweep &other : get_stability_sweeps()) {
-				known += (known.empty() ? "" : ", ") + other.id;
-			}
-			throw UsageError(
-					text("--sweeps: there is no \"", sweep, "\", must be of ", known, "."));
-		}
-		options.sweeps.push_back(sweep);
-	}
+	read_stability_options(p_arguments, options);
 	return options;
 }
 

@@ -20,7 +20,7 @@ struct ReportArguments {
 	std::string size = "256x256";
 	uint32_t sample_count = 1024;
 	std::string scaling = "quick";
-	std::string stability = "quick";
+	std::optional<std::string> stability; // absent: "quick" where a module adds the sweeps
 	std::vector<std::string> sweeps;
 	double precision_percent = 5; // a third of what --against calls a change
 	std::string out;

@@ -3,7 +3,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/error_report/mask_metrics.h"
+#include "modules/masks/mask_metrics.h"
 #include "modules/renderer/tests/render_fixture.h"
 #include "modules/shadows/mask_filter.h"
 

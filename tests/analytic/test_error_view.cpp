@@ -1,7 +1,7 @@
 // The renderer's error view against the error picture of the same masks.
 
 #include "modules/core/error.h"
-#include "modules/error_report/mask_picture.h"
+#include "modules/masks/mask_picture.h"
 #include "modules/renderer/tests/render_fixture.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
-// fuzz: modules=error_report
+// fuzz: modules=masks
 // Any bytes as an OpenEXR mask. What is read can be written, and is then read alike.
-#include "modules/error_report/mask_image.h"
+#include "modules/masks/mask_image.h"
 
 #include "tests/fuzz/fuzz_target.h"
 

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""The smallest game: a program that loads a scene and draws it headless, without editor, report and window.
+"""Builds without modules. The smallest game: a program that loads a scene and draws it headless, without editor,
+report and window; and programs that lack the report or parts of it.
 
     test_minimal.py --plan           asks scons what it would build and from which files; compiles nothing
-    test_minimal.py [--jobs N]       builds it in a copy of the tree and runs it
+    test_minimal.py [--jobs N]       builds them in a copy of the tree and runs them
     test_minimal.py --write-sizes    builds it and writes the table of sizes in doc/getting_started.md
 
-Every other module is left out by module_<name>_enabled=no.
+What is missing is left out by module_<name>_enabled=no.
 """
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -21,8 +23,17 @@ PAGE = os.path.join(ROOT, "doc", "getting_started.md")
 # What a game needs; its one technique is the registry's default.
 ENGINE = ("core", "rendering_device", "rendering_device_vulkan", "scene", "mesh_tools", "render_graph")
 ENGINE += ("shadows", "renderer", "gltf_scene", "main")
-ABSENT_COMMANDS = {"edit": "editor", "visibility": "error_report", "compare": "error_report", "report": "error_report"}
+ABSENT_COMMANDS = {"edit": "editor", "visibility": "masks", "compare": "masks", "report": "error_report"}
 PROGRAM = "bin/gnomon"
+SCENE = os.path.join("demo_project", "scenes", "sphere.gltf")
+SMALL_REPORT = ("report", SCENE, "--size", "16x16", "--samples", "4", "--scaling", "none", "--out", "report")
+# Modules that are left out together; words that are refused then, and the module that the refusal names; words that work.
+PARTIAL_BUILDS = (
+    (("stability_report",), (*SMALL_REPORT, "--stability", "quick"), "stability_report", SMALL_REPORT),
+    (("stability_report",), (*SMALL_REPORT, "--sweeps", "scale"), "stability_report", SMALL_REPORT),
+    (("stability_report", "error_report"), SMALL_REPORT, "error_report", ("compare", "mask.exr", "mask.exr")),
+    (("stability_report", "error_report", "masks", "editor"), ("visibility", SCENE), "masks", ("techniques",)),
+)
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "layers"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "removal"))
@@ -87,6 +98,41 @@ def check_plan(results):
     results.check(whole > set(kept) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
 
 
+def check_partial_plans(results):
+    """Nothing of a module that is left out is compiled."""
+    for modules in sorted({modules for modules, *_ in PARTIAL_BUILDS}):
+        command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
+        planned = run(command + ["module_%s_enabled=no" % module for module in modules], ROOT)
+        output = planned.stdout + planned.stderr
+        results.check(planned.returncode == 0, "scons plans it without %s" % ", ".join(modules), output)
+        for module in modules:
+            found = re.search(r"(?m)^.*modules/%s/.*$" % module, planned.stdout)
+            results.check(not found, "nothing of %s is in it" % module, found.group() if found else "")
+
+
+def check_partial_programs(target, jobs, results):
+    for modules, refused, named, working in PARTIAL_BUILDS:
+        print("minimal: build without %s" % ", ".join(modules), flush=True)
+        built = build(target, jobs, ["module_%s_enabled=no" % module for module in modules])
+        if not results.check(built.returncode == 0, "it builds without %s" % ", ".join(modules), built.stdout + built.stderr):
+            continue
+        if "mask.exr" in working:
+            technique = find_default_technique()[1]
+            drawn = run([PROGRAM, "visibility", SCENE, "--technique", technique, "--out", "mask.exr"], target)
+            results.check(drawn.returncode == 0, "visibility works without %s" % ", ".join(modules), drawn.stderr)
+        done = run([PROGRAM, *working], target)
+        results.check(done.returncode == 0, "`%s` works" % " ".join(working), done.stderr)
+        if working == SMALL_REPORT:
+            with open(os.path.join(target, "report", "report.json"), encoding="utf-8") as file:
+                results.check("stability" not in json.load(file), "a report has no stability part")
+        absent = run([PROGRAM, *refused], target)
+        results.check(
+            absent.returncode == 2 and "module_%s_enabled=yes" % named in absent.stderr,
+            "`%s` names the module %s" % (" ".join(refused), named),
+            absent.stderr,
+        )
+
+
 def build(target, jobs, options):
     return run(["scons", "-Q", "-j%d" % jobs, "compiledb=no", "tests=no", PROGRAM] + options, target)
 
@@ -98,22 +144,21 @@ def get_stripped_size(program, folder):
 
 
 def check_program(target, technique, results):
-    scene = os.path.join("demo_project", "scenes", "sphere.gltf")
     picture = os.path.join(target, "picture.png")
-    words = ["run", scene, "--headless", "--size", "64x64", "--capture", picture, "--plan"]
+    words = ["run", SCENE, "--headless", "--size", "64x64", "--capture", picture, "--plan"]
     drawn = run([PROGRAM] + words, target)
     results.check(drawn.returncode == 0 and os.path.getsize(picture) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
     results.check("resolve: runs" in drawn.stdout, "its technique runs", drawn.stdout)
     listed = run([PROGRAM, "techniques"], target).stdout
     results.check(re.findall(r"(?m)^(\w+)(?: \(default\))?$", listed)[:1] == [technique], "it has one technique", listed)
     for command, module in ABSENT_COMMANDS.items():
-        absent = run([PROGRAM, command, scene], target)
+        absent = run([PROGRAM, command, SCENE], target)
         results.check(
             absent.returncode == 2 and "module_%s_enabled=yes" % module in absent.stderr,
             "`%s` names the module %s" % (command, module),
             absent.stderr,
         )
-    windowed = run([PROGRAM, "run", scene], target)
+    windowed = run([PROGRAM, "run", SCENE], target)
     results.check(windowed.returncode == 1 and "--headless" in windowed.stderr, "a window is refused", windowed.stderr)
     libraries = run(["ldd", PROGRAM], target).stdout
     for name in ("glfw", "OpenEXR", "embree"):
@@ -143,6 +188,9 @@ def check_build(results, jobs, writes_sizes):
     kept, options = list_options(module)
     with tempfile.TemporaryDirectory() as target:
         test_removal.copy_tree(target)
+        if not writes_sizes:
+            # First, since they are linked of objects that are there.
+            check_partial_programs(target, jobs, results)
         print("minimal: build", flush=True)
         # Objects that others made stay: the program is linked of what it needs alone.
         built = build(target, jobs, options)
@@ -173,6 +221,7 @@ def main():
     results = Results()
     if arguments.plan:
         check_plan(results)
+        check_partial_plans(results)
     else:
         check_build(results, arguments.jobs, arguments.write_sizes)
     print("%d passed, %d failed, 0 skipped" % (results.passed, results.failed))

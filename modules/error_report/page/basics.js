@@ -38,8 +38,7 @@
 		if (data.format !== "gnomon_report" || data.version !== 1) {
 			throw new Error(`The data is "${data.format}" version ${data.version}, must be "gnomon_report" version 1.`);
 		}
-		for (const key of ["configurations", "cells", "techniques", "ranking", "best_settings", "scaling", "stability",
-				"machines"]) {
+		for (const key of ["configurations", "cells", "techniques", "ranking", "best_settings", "scaling", "machines"]) {
 			data[key] = data[key] || [];
 		}
 		data.images = data.images || {};

@@ -224,8 +224,10 @@
 		report.fillLegend(document.getElementById("legend"));
 		const scenes = d3.groups(report.matrix, (item) => item.scene);
 		const sections = [makeRanking(data), report.makeBudget(data),
-			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data),
-			report.makeStability(data.stability, drawOnEverySize)];
+			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data)];
+		if (data.stability) { // absent where the build lacks that part of the report
+			sections.push(report.makeStability(data.stability, drawOnEverySize));
+		}
 		const against = report.makeAgainst(data.against);
 		if (against) {
 			sections.push(report.makeSection("against", "Against the other report", against));

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace gnomon {
+
+/// Everything of one kind that modules add when they start and remove when they stop, in the order
+/// of addition. Info has an `id`, its own within the kind. Main thread only.
+template <typename Info> class ExtensionRegistry {
+public:
+	/// An id that is present already is a programming error.
+	static void add(Info p_info) {
+		GNOMON_ASSERT(find(p_info.id) == nullptr, p_info.id, " is registered twice");
+		infos.push_back(std::move(p_info));
+	}
+	/// An id that is absent changes nothing.
+	static void remove(std::string_view p_id) {
+		std::erase_if(infos, [&](const Info &p_info) { return p_info.id == p_id; });
+	}
+	/// Null: nothing has that id. Valid until the next add or remove.
+	static const Info *find(std::string_view p_id) {
+		const auto found = std::find_if(
+				infos.begin(), infos.end(), [&](const Info &p_info) { return p_info.id == p_id; });
+		return found == infos.end() ? nullptr : &*found;
+	}
+	static const std::vector<Info> &get_all() { return infos; }
+
+private:
+	inline static std::vector<Info> infos;
+};
+
+} // namespace gnomon

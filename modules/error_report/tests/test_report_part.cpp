@@ -1,0 +1,86 @@
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_json.h"
+#include "modules/error_report/report_part.h"
+#include "modules/error_report/run_report.h"
+#include "modules/error_report/tests/scripted_masks.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace gnomon;
+
+namespace {
+
+const char *const PART_ID = "made_up";
+
+/// One configuration, whose cells get half of the truth for an answer.
+class MadeUpPart : public ReportPart {
+public:
+	std::vector<std::string> list_sweeps() const override { return {}; }
+	void plan(const ReportOptions &p_options, const Add &p_add) const override {
+		const auto scene = make_scripted_scenes(1)[0].scene;
+		const MaskQuestion question = { build_snapshot(
+												*scene, *scene->find_nodes<Camera3D>().front()),
+			"Light 1", p_options.size_px };
+		ReportConfiguration configuration;
+		configuration.id = "made_up/only";
+		configuration.group = PART_ID;
+		configuration.light = question.light;
+		p_add(configuration, [question](const PropertyValues &) { return question; });
+	}
+	std::vector<TracedTruth> trace_truths(MaskSource &r_source, const MaskQuestion &p_question,
+			uint32_t p_sample_count) const override {
+		return { r_source.trace_truth(p_question, p_sample_count) };
+	}
+	MaskImage run_cell(MaskSource & /*r_source*/, const MaskQuestion & /*p_question*/,
+			std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const override {
+		MaskImage mask = p_truths.front().mask;
+		for (float &visibility : mask.visibility) {
+			visibility *= 0.5f;
+		}
+		r_report.cells[p_cell].error = ReportError();
+		r_report.cells[p_cell].error->all = compute_mask_metrics(p_truths.front().mask, mask);
+		r_report.cells[p_cell].stability = ReportStability();
+		return mask;
+	}
+	bool is_unusable(const ReportCell & /*p_cell*/) const override { return false; }
+	nlohmann::ordered_json to_json(const Report &p_report) const override {
+		return p_report.cells.size();
+	}
+};
+
+struct RegisteredPart {
+	RegisteredPart() { ReportPartRegistry::add({ PART_ID, std::make_shared<MadeUpPart>() }); }
+	~RegisteredPart() { ReportPartRegistry::remove(PART_ID); }
+};
+
+} // namespace
+
+TEST_CASE("[ReportPart] a part that a module adds is planned, run and written under its id") {
+	const TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const RegisteredPart registered;
+	const ReportPlan plan =
+			make_report_plan(make_scripted_options(), {}, make_scripted_techniques());
+	REQUIRE(plan.report.configurations.size() == 1);
+	CHECK(plan.report.configurations[0].has_truth());
+	ScriptedMasks masks;
+	const Report report = run_report(plan, masks, store, {});
+	REQUIRE(report.cells.size() == 2);
+	for (const ReportCell &cell : report.cells) {
+		CHECK(cell.is_ok());
+		CHECK(cell.error->all.receiver.mae == doctest::Approx(0.5 * 3.5 / 8));
+		CHECK_FALSE(cell.image.empty());
+	}
+	CHECK(masks.truth_count == 1);
+	CHECK(masks.measure_count == 0); // the part draws, and times nothing
+	CHECK(to_json(report).at(PART_ID) == 2);
+}
+
+TEST_CASE("[ReportPart] a report without the part has neither its configurations nor its key") {
+	const ReportPlan plan =
+			make_report_plan(make_scripted_options(), {}, make_scripted_techniques());
+	CHECK(plan.report.configurations.empty());
+	CHECK_FALSE(to_json(plan.report).contains(PART_ID));
+	CHECK(ReportPartRegistry::find_part(PART_ID) == nullptr);
+}

@@ -1,0 +1,30 @@
+import subprocess
+
+
+def get_dependencies():
+    return ["core"]
+
+
+def get_layer():
+    return 1
+
+
+def get_description():
+    return "Masks as files and images, their error against a truth, and what they cost"
+
+
+def can_disable():
+    return False  # commands and the editor's error panel are made of it
+
+
+def can_build(env):
+    return subprocess.run(["pkg-config", "--exists", "OpenEXR"]).returncode == 0
+
+
+def configure(env):
+    flags = env.ParseFlags("!pkg-config OpenEXR --cflags --libs")
+    for folder in flags["CPPPATH"]:
+        # A system folder: warnings in headers of others are not ours to fix.
+        env.Append(CCFLAGS=[("-isystem", folder)])
+    flags["CPPPATH"] = []
+    env.MergeFlags(flags)

@@ -1,0 +1,181 @@
+#include "modules/masks/exr_header.h"
+
+#include "modules/core/error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+namespace gnomon {
+
+namespace {
+
+constexpr uint8_t MAGIC[] = { 0x76, 0x2f, 0x31, 0x01 };
+constexpr size_t FIRST_ATTRIBUTE = 8;			  // after magic, version and flags
+constexpr uint8_t DEEP_OR_MULTI_PART = 0x18;	  // of the second byte of version and flags
+constexpr size_t CHANNEL_BYTES = 16;			  // after its name
+constexpr int64_t MAX_LINES_IN_BLOCK = 256;		  // DWAB, the most of all compressions
+constexpr int64_t BYTES_PER_VALUE = 4;			  // at most: half, float or uint
+constexpr int64_t MAX_BLOCK_BYTES = 1 << 28;	  // lines or tiles that are unpacked together
+constexpr int64_t OFFSET_BYTES = sizeof(int64_t); // of each tile, in a table behind the header
+
+/// What OpenEXR reads by type, whatever length the file gives.
+struct KnownAttribute {
+	std::string_view name;
+	std::string_view type;
+	size_t size_bytes; // 0: any
+};
+constexpr KnownAttribute KNOWN[] = {
+	{ "channels", "chlist", 0 },
+	{ "compression", "compression", 1 },
+	{ "dataWindow", "box2i", 16 },
+	{ "displayWindow", "box2i", 16 },
+	{ "lineOrder", "lineOrder", 1 },
+	{ "pixelAspectRatio", "float", 4 },
+	{ "screenWindowCenter", "v2f", 8 },
+	{ "screenWindowWidth", "float", 4 },
+	{ "tiles", "tiledesc", 9 },
+};
+
+class HeaderWalk {
+public:
+	HeaderWalk(std::span<const uint8_t> p_bytes, const std::string &p_name) :
+			bytes(p_bytes), name(p_name) {}
+
+	std::vector<uint8_t> walk() {
+		if (!std::equal(std::begin(MAGIC), std::end(MAGIC), bytes.begin(),
+					bytes.begin() + std::ptrdiff_t(std::min(bytes.size(), std::size(MAGIC))))) {
+			fail("Mask ", name, ": not an OpenEXR file. Name one that `gnomon visibility` wrote.");
+		}
+		if (bytes.size() > FIRST_ATTRIBUTE && (bytes[5] & DEEP_OR_MULTI_PART) != 0) {
+			fail("Mask ", name, ": has several parts or deep pixels; a mask has one flat part.");
+		}
+		position = FIRST_ATTRIBUTE;
+		while (read_byte() != 0) {
+			--position;
+			read_attribute();
+		}
+		check_memory();
+		std::vector<uint8_t> header(bytes.begin(), bytes.begin() + std::ptrdiff_t(position));
+		for (const size_t type : unneeded_types) {
+			header[type] = '?';
+		}
+		return header;
+	}
+
+private:
+	uint8_t read_byte() {
+		if (position >= bytes.size()) {
+			fail_cut_short();
+		}
+		return bytes[position++];
+	}
+	[[noreturn]] void fail_cut_short() const {
+		fail("Mask ", name,
+				": not an OpenEXR file, or damaged, or cut short: its header goes beyond its ",
+				bytes.size(), " bytes. Write it again.");
+	}
+	std::string_view read_text() {
+		const size_t first = position;
+		while (read_byte() != 0) {
+		}
+		return { reinterpret_cast<const char *>(bytes.data()) + first, position - 1 - first };
+	}
+	uint32_t read_u32() {
+		uint32_t value = 0;
+		for (int shift = 0; shift < 32; shift += 8) {
+			value |= static_cast<uint32_t>(read_byte()) << shift;
+		}
+		return value;
+	}
+	int64_t read_i32() { return static_cast<int32_t>(read_u32()); }
+
+	void read_attribute() {
+		const std::string_view attribute = read_text();
+		const size_t type_position = position;
+		const std::string_view type = read_text();
+		const uint64_t length = read_u32();
+		if (length >= bytes.size() - position) { // the header ends with one more byte
+			fail_cut_short();
+		}
+		const size_t end = position + length;
+		const auto known = std::find_if(std::begin(KNOWN), std::end(KNOWN),
+				[&](const KnownAttribute &p_one) { return p_one.name == attribute; });
+		if (known == std::end(KNOWN)) {
+			if (!type.empty()) {
+				unneeded_types.push_back(type_position);
+			}
+		} else if (type != known->type || (known->size_bytes != 0 && length != known->size_bytes)) {
+			fail("Mask ", name, ": attribute ", attribute, " has ", length,
+					" bytes of another type than ", known->type,
+					" or of another size. Write it again.");
+		} else {
+			read_known(attribute, end);
+		}
+		position = end;
+	}
+	void read_known(std::string_view p_attribute, size_t p_end) {
+		if (p_attribute == "channels") {
+			channel_count = 0;
+			while (read_byte() != 0) {
+				--position;
+				read_text();
+				position += CHANNEL_BYTES;
+				++channel_count;
+			}
+			if (position != p_end) {
+				fail("Mask ", name, ": its list of channels is not as long as it says. ",
+						"Write it again.");
+			}
+		} else if (p_attribute == "dataWindow") {
+			const int64_t left = read_i32();
+			const int64_t top = read_i32();
+			width = read_i32() - left + 1;
+			height = read_i32() - top + 1;
+		} else if (p_attribute == "tiles") {
+			tile_width = read_u32();
+			tile_height = read_u32();
+		}
+	}
+	/// Sizes beyond what masks may have are refused by the caller, and by OpenEXR before it takes
+	/// memory for them; here all are below 2^32, so that only the last product may overflow.
+	void check_memory() const {
+		const bool has_tiles = tile_width > 0 && tile_height > 0;
+		const int64_t columns = std::max(width, tile_width);
+		const int64_t lines = has_tiles ? tile_height : MAX_LINES_IN_BLOCK;
+		const int64_t values = MAX_BLOCK_BYTES / BYTES_PER_VALUE;
+		if (columns > 0 && channel_count > 0 && lines > values / columns / channel_count) {
+			fail("Mask ", name, ": blocks of ", lines, " lines of ", columns, " pixels with ",
+					channel_count, " channels are too large, must be at most ", MAX_BLOCK_BYTES,
+					" bytes. Leave out channels, or use smaller tiles.");
+		}
+		if (has_tiles && width > 0 && height > 0) {
+			const int64_t tile_columns = (width + tile_width - 1) / tile_width;
+			const int64_t tile_rows = (height + tile_height - 1) / tile_height;
+			const int64_t table_entries = static_cast<int64_t>(bytes.size()) / OFFSET_BYTES;
+			if (tile_rows > table_entries / tile_columns) {
+				fail("Mask ", name, ": ", bytes.size(), " bytes cannot hold ", tile_columns, " x ",
+						tile_rows, " tiles. The file is damaged: write it again.");
+			}
+		}
+	}
+
+	std::span<const uint8_t> bytes;
+	const std::string &name;
+	size_t position = 0;
+	std::vector<size_t> unneeded_types; // where their names begin
+	int64_t channel_count = 0;
+	int64_t width = 0;
+	int64_t height = 0;
+	int64_t tile_width = 0;
+	int64_t tile_height = 0;
+};
+
+} // namespace
+
+std::vector<uint8_t> make_safe_exr_header(
+		std::span<const uint8_t> p_bytes, const std::string &p_name) {
+	return HeaderWalk(p_bytes, p_name).walk();
+}
+
+} // namespace gnomon

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "modules/core/png.h"
+#include "modules/masks/mask_image.h"
+
+#include "shared/heat_map_shared.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// 8-bit grey, 0 black .. 1 white, linear as stored (255 v rounded, clamped); no receiver is black.
+/// A value that is not finite is an Error; so is an empty image or an unwritable path.
+void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image);
+
+/// Result minus truth in the colours of shared/heat_map_shared.h, as the renderer's error view.
+/// Errors as in compute_mask_metrics.
+void save_error_png(
+		const std::filesystem::path &p_path, const MaskImage &p_truth, const MaskImage &p_result);
+
+/// The colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
+std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count);
+
+/// The pixels that the two functions above write: grey, and RGB.
+std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image);
+std::vector<uint8_t> compute_error_pixels(const MaskImage &p_truth, const MaskImage &p_result);
+
+} // namespace gnomon

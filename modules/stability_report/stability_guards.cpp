@@ -1,0 +1,114 @@
+#include "modules/stability_report/stability_draft.h"
+#include "modules/stability_report/stability_scenes.h"
+
+#include <functional>
+
+namespace gnomon {
+
+namespace {
+
+struct Guard {
+	const char *name;
+	std::function<void(StabilityDraft &)> change;
+};
+
+const std::vector<Guard> &get_guards() {
+	static const std::vector<Guard> GUARDS = {
+		{ "as it is", [](StabilityDraft &) {} },
+		{ "R = 0", [](StabilityDraft &r_draft) { r_draft.light_size_m = 0; } },
+		{ "R = 2 S",
+				[](StabilityDraft &r_draft) {
+					r_draft.light_size_m = 2 * StabilityDraft::SCENE_SIZE_M;
+				} },
+		{ "light on the receiver's plane",
+				[](StabilityDraft &r_draft) {
+					r_draft.light_position = { 2.5, 0, 1.7 };
+					r_draft.light_target = { 0, 0, 0 };
+				} },
+		{ "light below everything",
+				[](StabilityDraft &r_draft) {
+					r_draft.light_position = { 0.3, -5, 0.2 };
+					r_draft.light_target = { 0, 0, 0 };
+				} },
+		{ "light at a caster's corner",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box(
+							"corner", r_draft.light_position + glm::dvec3(0.3), glm::vec3(0.3f));
+				} },
+		{ "caster across the light's plane",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box("rod", r_draft.light_position + glm::dvec3(-0.35, 0, 0.3),
+							{ 0.05f, 1.2f, 0.05f });
+				} },
+		{ "sheet across the light's plane",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_mesh("sheet", make_sheet(),
+							r_draft.light_position + glm::dvec3(-0.35, 0, 0.3));
+				} },
+		{ "zero areas, slivers, duplicates, zero normals",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_mesh("odd", make_odd_mesh(), { 0.2, 1.6, 0.1 });
+				} },
+		{ "coincident casters",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box("twin", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
+				} },
+		{ "caster flush with its receiver",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box("flush", { 0.9, 0.2, 0.9 }, { 0.3f, 0.2f, 0.3f }, 0.3);
+				} },
+		{ "open sheet",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_mesh("sheet", make_sheet(), { 0.6, 1.5, 0 });
+				} },
+		{ "box turned inside out",
+				[](StabilityDraft &r_draft) {
+					r_draft.clear_casters();
+					r_draft.add_mesh("inside out", make_turned_box(0.4), { 0, 1.0, 0 });
+				} },
+		{ "no casters",
+				[](StabilityDraft &r_draft) {
+					r_draft.bodies.resize(1);
+					r_draft.bodies[0].casts_shadow = false;
+				} },
+		{ "no receivers",
+				[](StabilityDraft &r_draft) {
+					r_draft.camera_target = { -3.2, 40, 4.7 };
+				} },
+		{ "beam from behind the light's plane",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box("beam", { 0.3, 0.35, -0.2 }, { 60.0f, 0.3f, 0.5f });
+				} },
+		{ "ground of 75 S",
+				[](StabilityDraft &r_draft) {
+					r_draft.add_box("land", { 0, -0.6, 0 }, { 150.0f, 0.1f, 150.0f });
+				} },
+		{ "caster pressed flat",
+				[](StabilityDraft &r_draft) {
+					glm::dmat4 &place = r_draft.bodies[1].world_from_node;
+					place = glm::scale(place, glm::dvec3(1, 0, 1));
+				} },
+		{ "cone of 0.001 rad", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1e-3; } },
+		{ "cone of a half sphere", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1.5707963; } },
+	};
+	return GUARDS;
+}
+
+} // namespace
+
+const std::vector<const char *> &get_guard_names() {
+	static const std::vector<const char *> NAMES = [] {
+		std::vector<const char *> names;
+		for (const Guard &guard : get_guards()) {
+			names.push_back(guard.name);
+		}
+		return names;
+	}();
+	return NAMES;
+}
+
+void change_to_guard(StabilityDraft &r_draft, size_t p_index) {
+	get_guards().at(p_index).change(r_draft);
+}
+
+} // namespace gnomon

@@ -1,0 +1,212 @@
+#include "modules/stability_report/stability_run.h"
+
+#include "modules/core/error.h"
+#include "modules/error_report/light_variant.h"
+#include "modules/stability_report/double_visibility.h"
+#include "modules/stability_report/stability_curves.h"
+#include "modules/stability_report/visibility_condition.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace gnomon {
+
+namespace {
+
+const double MOTION_SHARE = 1e-3;					  // of R, a frame
+const uint64_t MOST_RAYS = uint64_t(1) << 30;		  // of a truth; some minutes of two cores
+const uint64_t MOST_MOVED_PIXELS = uint64_t(1) << 18; // that are traced a second time
+const uint32_t LEAST_SAMPLES = 16;
+const size_t CONDITION_POINT_COUNT = 16;
+const size_t CHECKED_RECEIVERS = 128; // of a truth, in double
+// Mean difference that 256 rays on a spiral and 1024 stratified ones do not have: about 0.004 in
+// penumbras.
+const double MOST_TRUTH_ERROR = 0.009;
+const double TRUTH_NOISE_ERRORS = 3.0;		// standard errors of a truth of fewer rays
+const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
+
+void check_values(const std::vector<MaskImage> &p_frames) {
+	size_t bad_count = 0;
+	for (const MaskImage &frame : p_frames) {
+		for (const float value : frame.visibility) {
+			bad_count += value >= 0.0f && value <= 1.0f ? 0 : 1; // also counts NaN
+		}
+	}
+	if (bad_count > 0) {
+		fail(bad_count, " values of the mask are not finite or outside 0..1.");
+	}
+}
+
+double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
+	uint64_t wrong_count = 0;
+	uint64_t receiver_count = 0;
+	for (size_t index = 0; index < p_truth.visibility.size(); ++index) {
+		if (!p_truth.is_receiver(index)) {
+			continue;
+		}
+		++receiver_count;
+		const float truth = p_truth.visibility[index];
+		if (truth <= 0.002f || truth >= 0.998f) {
+			wrong_count += std::abs(p_mask.visibility[index] - truth) > 0.5f ? 1 : 0;
+		}
+	}
+	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
+}
+
+/// The pixels that are worst, as points to be asked in double.
+std::vector<ConditionPoint> find_worst_points(const TracedTruth &p_truth, const MaskImage &p_mask) {
+	std::vector<ConditionPoint> points;
+	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
+		if (p_truth.mask.is_receiver(index) && index < p_truth.positions.size()) {
+			const double truth = p_truth.mask.visibility[index];
+			points.push_back({ p_truth.positions[index], p_truth.normals[index], truth,
+					std::abs(double(p_mask.visibility[index]) - truth) });
+		}
+	}
+	const size_t count = std::min(points.size(), CONDITION_POINT_COUNT);
+	std::partial_sort(points.begin(), points.begin() + long(count), points.end(),
+			[](const ConditionPoint &p_first, const ConditionPoint &p_second) {
+				return p_first.error > p_second.error;
+			});
+	points.resize(count);
+	return points;
+}
+
+/// The reference traces in float32. Where that is not enough for the question, the truth is traced
+/// anew in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
+enum class DoubleTruth { WHERE_NEEDED, ALWAYS };
+void mend_truth(const MaskQuestion &p_question, DoubleTruth p_when, TracedTruth &r_truth) {
+	MaskImage &mask = r_truth.mask;
+	std::vector<size_t> receivers;
+	for (size_t index = 0; index < mask.visibility.size(); ++index) {
+		if (mask.is_receiver(index)) {
+			receivers.push_back(index);
+		}
+	}
+	if (receivers.empty() || r_truth.positions.size() != mask.visibility.size()) {
+		return;
+	}
+	const DoubleVisibility exact(*p_question.scene, get_light(*p_question.scene, p_question.light));
+	const auto compute = [&](size_t p_index) {
+		return exact.compute(
+				p_question.scene->camera.position_world + glm::dvec3(r_truth.positions[p_index]),
+				r_truth.normals[p_index]);
+	};
+	// Shadows that are missing show anywhere, blurred ones in penumbras, of which there may be few.
+	std::vector<size_t> soft;
+	std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(soft), [&](size_t p_index) {
+		return mask.visibility[p_index] > 0.002f && mask.visibility[p_index] < 0.998f;
+	});
+	const auto compute_error = [&](const std::vector<size_t> &p_pixels) {
+		const size_t step = std::max<size_t>(1, p_pixels.size() / CHECKED_RECEIVERS);
+		double sum = 0;
+		size_t count = 0;
+		for (size_t index = step / 2; index < p_pixels.size(); index += step, ++count) {
+			sum += std::abs(compute(p_pixels[index]) - double(mask.visibility[p_pixels[index]]));
+		}
+		return count == 0 ? 0.0 : sum / double(count);
+	};
+	const double most = std::max(MOST_TRUTH_ERROR, TRUTH_NOISE_ERRORS * r_truth.standard_error);
+	if (p_when == DoubleTruth::WHERE_NEEDED && compute_error(receivers) <= most &&
+			compute_error(soft) <= most) {
+		return;
+	}
+	for (const size_t index : receivers) {
+		mask.visibility[index] = float(compute(index));
+	}
+	r_truth.is_double = true;
+	r_truth.standard_error = DOUBLE_STANDARD_ERROR;
+}
+
+} // namespace
+
+MaskQuestion move_light(const MaskQuestion &p_question) {
+	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
+	for (LightSnapshot &light : scene->lights) {
+		if (light.name != p_question.light) {
+			continue;
+		}
+		const double radius = light.get_disc_radius();
+		if (light.type == LightType::DIRECTIONAL) {
+			const double angle = MOTION_SHARE * (radius > 0 ? std::atan(radius) : MOTION_SHARE);
+			const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, light.world_from_light[1]);
+			light.world_from_light = glm::dmat3(turn) * light.world_from_light;
+		} else {
+			const double least = MOTION_SHARE * scene->scene_size_m;
+			light.position_world +=
+					MOTION_SHARE * (radius > 0 ? radius : least) * light.world_from_light[0];
+		}
+	}
+	MaskQuestion moved = p_question;
+	moved.scene = scene;
+	return moved;
+}
+
+std::vector<TracedTruth> trace_stability_truths(
+		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) {
+	const uint64_t pixel_count = uint64_t(p_question.size_px.x) * p_question.size_px.y;
+	const uint32_t sample_count = static_cast<uint32_t>(std::clamp<uint64_t>(
+			MOST_RAYS / pixel_count, std::min(LEAST_SAMPLES, p_sample_count), p_sample_count));
+	std::vector<TracedTruth> truths;
+	truths.push_back(r_source.trace_truth(p_question, sample_count));
+	if (pixel_count > MOST_MOVED_PIXELS) {
+		return truths;
+	}
+	mend_truth(p_question, DoubleTruth::WHERE_NEEDED, truths[0]);
+	const MaskQuestion moved = move_light(p_question);
+	truths.push_back(r_source.trace_truth(moved, sample_count));
+	if (truths[0].is_double) {
+		mend_truth(moved, DoubleTruth::ALWAYS, truths[1]);
+	}
+	return truths;
+}
+
+MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_question,
+		std::span<const TracedTruth> p_truths, const ReportTruth &p_reported,
+		const ReportCell *p_center, ReportCell &r_cell) {
+	const TracedTruth &still = p_truths.front();
+	const TracedTruth *moved = p_truths.size() > 1 ? &p_truths[1] : nullptr;
+	ReportStability stability;
+	std::vector<MaskQuestion> questions = { p_question };
+	if (moved != nullptr) {
+		questions.push_back(move_light(p_question));
+	}
+	DrawnMasks drawn;
+	try {
+		drawn = r_source.draw(questions, r_cell.technique);
+	} catch (const DeviceLost &) {
+		throw; // no answer: the run ends, and goes on with --resume
+	} catch (const Error &error) {
+		stability.refusal = error.what();
+		r_cell.stability = stability;
+		return {};
+	}
+	stability.warnings = drawn.warnings;
+	if (drawn.validation_message_count > 0) {
+		fail(drawn.validation_message_count, " validation messages.");
+	}
+	check_values(drawn.frames);
+	const MaskImage &mask = drawn.frames.front();
+	r_cell.error = ReportError{ compute_mask_metrics(still.mask, mask), {} };
+	r_cell.error->whole_light = r_cell.error->all;
+	stability.wrong_share = compute_wrong_share(still.mask, mask);
+	if (moved != nullptr && still.mask.receiver == moved->mask.receiver) {
+		const MaskImage truths[] = { still.mask, moved->mask };
+		stability.temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
+	}
+	r_cell.stability = stability;
+	ReportCell judged = r_cell;
+	judged.status = ReportStatus::OK;
+	const StabilityState state = judge_stability(judged, p_reported, p_center);
+	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
+		r_cell.stability->condition = compute_visibility_condition(*p_question.scene,
+				get_light(*p_question.scene, p_question.light), find_worst_points(still, mask));
+	}
+	const bool is_worth_seeing = state == StabilityState::NONSENSE || p_center == &r_cell;
+	return is_worth_seeing ? std::move(drawn.frames.front()) : MaskImage();
+}
+
+} // namespace gnomon

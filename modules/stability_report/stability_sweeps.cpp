@@ -1,0 +1,122 @@
+#include "modules/stability_report/stability_sweeps.h"
+
+#include "modules/core/error.h"
+#include "modules/error_report/scaling_scenes.h"
+#include "modules/stability_report/stability_scenes.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+const uint32_t QUICK_SIZE_PX = 64;
+const uint32_t FULL_SIZE_PX = 128;
+
+const std::vector<LightType> ALL = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };
+const std::vector<LightType> PLACED = { LightType::SPOT, LightType::OMNI };
+const std::vector<LightType> SPOT = { LightType::SPOT };
+
+std::vector<StabilitySweep> build_sweeps() {
+	std::vector<StabilitySweep> sweeps = {
+		{ "light_size", "light radius, S", ALL,
+				{ 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1 }, 0.05,
+				{ 1e-6, 0.05, 0.75 } },
+		{ "depth_range", "far : near", PLACED, { 10, 100, 1e3, 1e4, 1e5, 1e6, 1e7 }, 10,
+				{ 10, 1e4, 1e7 } },
+		{ "near_caster", "distance of a caster before the light, R", PLACED,
+				{ 20, 10, 7, 5, 4, 3, 2, 1.5, 1.1 }, 10, { 10, 3, 1.1 } },
+		{ "scale", "size of the scene, times", ALL, { 1e-3, 0.01, 0.1, 1, 10, 100, 1e3 }, 1,
+				{ 1e-3, 1, 1e3 } },
+		{ "offset", "distance from the origin, m", ALL, { 0, 1, 100, 1e3, 1e4, 1e5, 1e6 }, 0,
+				{ 0, 1e5, 1e6 } },
+		{ "slope", "angle of the receiver to the light, degrees", ALL,
+				{ 0, 30, 45, 60, 75, 85, 88, 89, 89.9, 89.99 }, 60, { 60, 85, 89.99 } },
+		{ "gap", "gap between caster and receiver, S", ALL,
+				{ 1, 0.5, 0.2, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6 }, 0.1, { 1, 0.1, 1e-6 } },
+		{ "thickness", "thickness of the caster, S", ALL, { 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 0 },
+				0.01, { 0.1, 0.01, 0 } },
+		{ "aspect", "aspect ratio of triangles", ALL, { 1, 10, 100, 1e3, 1e4, 1e5, 1e6 }, 1,
+				{ 1, 1e3, 1e6 } },
+		{ "end_on", "angle of a rod's edges to the light, degrees", ALL,
+				{ 30, 10, 3, 1, 0.3, 0.1, 0.01, 1e-3, 1e-4, 0 }, 10, { 10, 0.1, 0 } },
+		{ "layers", "casters behind one another", ALL, { 1, 2, 3, 4, 8, 16, 32, 64 }, 2,
+				{ 2, 16, 64 } },
+		{ "fin_width", "penumbra widths r = t, S", SPOT,
+				{ 0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 10, 100 }, 0.05, { 0.05, 1, 100 } },
+		{ "inside", "distance of the light below a caster, S (negative: inside)", PLACED,
+				{ 0.25, 0.1, 0.05, 0.02, 0.01, 1e-3, 0, -1e-3, -0.01, -0.05, -0.1 }, 0.1,
+				{ 0.1, 0, -0.1 } },
+		{ TRIANGLES_GROUP, "triangles", SPOT, { 1e3, 1e4, 3e4, 1e5, 5e5, 2e6 }, 3e4, { 1e3, 3e4 } },
+		{ LIGHTS_GROUP, "lights", SPOT, { 1, 4, 16, 64, 256 }, 1, { 1, 4 } },
+		{ RESOLUTION_GROUP, "width and height of the mask, pixels", SPOT,
+				{ 16, 32, 64, 128, 256, 512, 1024, 2048, 4096 }, 128, { 16, 128 } },
+	};
+	StabilitySweep guards = { "guards", "hostile scenes", ALL, {}, 0, {} };
+	for (const char *name : get_guard_names()) {
+		guards.values.push_back(double(guards.labels.size()));
+		guards.labels.push_back(name);
+	}
+	guards.quick_values = guards.values;
+	sweeps.push_back(std::move(guards));
+	sweeps.push_back({ PROJECT_SCENES_SWEEP, "scenes of the project", ALL, {}, -1, {}, {}, true });
+	return sweeps;
+}
+
+bool is_generated_knot(const StabilitySweep &p_sweep) {
+	return p_sweep.id == TRIANGLES_GROUP || p_sweep.id == LIGHTS_GROUP;
+}
+
+} // namespace
+
+std::string StabilitySweep::describe_value(double p_value) const {
+	if (!labels.empty()) {
+		return labels.at(static_cast<size_t>(p_value));
+	}
+	return format_number(p_value);
+}
+
+const std::vector<StabilitySweep> &get_stability_sweeps() {
+	static const std::vector<StabilitySweep> SWEEPS = build_sweeps();
+	return SWEEPS;
+}
+
+const StabilitySweep *find_stability_sweep(const std::string &p_id) {
+	for (const StabilitySweep &sweep : get_stability_sweeps()) {
+		if (sweep.id == p_id) {
+			return &sweep;
+		}
+	}
+	return nullptr;
+}
+
+uint32_t get_stability_size_px(StabilityExtent p_extent) {
+	return p_extent == StabilityExtent::QUICK ? QUICK_SIZE_PX : FULL_SIZE_PX;
+}
+
+StabilityCase make_stability_case(
+		const StabilitySweep &p_sweep, LightType p_type, double p_value, StabilityExtent p_extent) {
+	StabilityCase result;
+	result.light = STABILITY_LIGHT_NAME;
+	result.size_px = glm::uvec2(get_stability_size_px(p_extent));
+	if (is_generated_knot(p_sweep)) {
+		ScalingScene description;
+		description.light_size_m = 0.2;
+		if (p_sweep.id == TRIANGLES_GROUP) {
+			description.triangle_count = static_cast<uint32_t>(p_value);
+		} else {
+			description.triangle_count = 1000;
+			description.light_count = static_cast<uint32_t>(p_value);
+		}
+		result.scene = make_scaling_scene(description);
+		result.light = "Light 1";
+		return result;
+	}
+	if (p_sweep.id == RESOLUTION_GROUP) {
+		result.size_px = glm::uvec2(static_cast<uint32_t>(p_value));
+	}
+	result.scene = make_stability_scene(p_sweep.id, p_type, p_value);
+	return result;
+}
+
+} // namespace gnomon

@@ -1,0 +1,314 @@
+#include "modules/core/files.h"
+#include "modules/core/tests/temporary_folder.h"
+#include "modules/error_report/report_json.h"
+#include "modules/error_report/run_report.h"
+#include "modules/error_report/tests/scripted_masks.h"
+#include "modules/stability_report/stability_curves.h"
+#include "modules/stability_report/stability_run.h"
+#include "modules/stability_report/stability_sweeps.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+using namespace gnomon;
+
+namespace {
+
+bool contains(const std::vector<double> &p_values, double p_value) {
+	return std::find(p_values.begin(), p_values.end(), p_value) != p_values.end();
+}
+
+ReportOptions make_options(const std::vector<std::string> &p_sweeps) {
+	ReportOptions options = make_scripted_options();
+	options.stability = StabilityExtent::QUICK;
+	options.sweeps = p_sweeps;
+	return options;
+}
+
+Report run(const ReportOptions &p_options, ScriptedMasks &r_masks) {
+	const TemporaryFolder folder;
+	RecordStore store(folder.path);
+	return run_report(
+			make_report_plan(p_options, {}, make_scripted_techniques()), r_masks, store, {});
+}
+
+/// One technique's points of one sweep of the light's size, with these errors.
+Report make_light_size_report(const std::vector<double> &p_errors) {
+	Report report;
+	report.techniques.push_back({ "soft", "Soft", "Test", "#ff0000", false });
+	const StabilitySweep &sweep = *find_stability_sweep("light_size");
+	for (size_t index = 0; index < p_errors.size(); ++index) {
+		ReportConfiguration configuration;
+		configuration.group = STABILITY_GROUP;
+		configuration.sweep = sweep.id;
+		configuration.light_type = "spot";
+		configuration.value = sweep.values.at(index);
+		report.configurations.push_back(configuration);
+		ReportCell cell;
+		cell.configuration_index = index;
+		cell.technique = "soft";
+		cell.status = ReportStatus::OK;
+		cell.error = ReportError();
+		cell.error->all.receiver.pixel_count = 1000;
+		cell.error->all.penumbra = { 500, p_errors[index], 0, 0, 0 };
+		cell.stability = ReportStability();
+		report.cells.push_back(cell);
+	}
+	return report;
+}
+
+} // namespace
+
+TEST_CASE("[Stability] sweeps have their centre and their quick values, and scenes for all") {
+	std::set<std::string> ids;
+	for (const StabilitySweep &sweep : get_stability_sweeps()) {
+		CAPTURE(sweep.id);
+		CHECK(ids.insert(sweep.id).second);
+		CHECK(find_stability_sweep(sweep.id) == &sweep);
+		if (sweep.has_project_scenes) {
+			CHECK(sweep.values.empty());
+			continue;
+		}
+		CHECK(contains(sweep.values, sweep.center));
+		CHECK(contains(sweep.quick_values, sweep.center));
+		CHECK_FALSE(sweep.quantity.empty());
+		for (const double value : sweep.quick_values) {
+			CHECK(contains(sweep.values, value));
+			for (const LightType type : sweep.types) {
+				const StabilityCase point =
+						make_stability_case(sweep, type, value, StabilityExtent::QUICK);
+				const auto snapshot =
+						build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
+				REQUIRE(snapshot->find_light(point.light) != nullptr);
+				CHECK(snapshot->find_light(point.light)->type == type);
+				CHECK(point.size_px.x > 0);
+			}
+		}
+	}
+	CHECK(find_stability_sweep("no such sweep") == nullptr);
+}
+
+TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every place moved") {
+	const auto snap = [](const char *p_sweep, double p_value) {
+		const StabilityCase point = make_stability_case(
+				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, StabilityExtent::QUICK);
+		return build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
+	};
+	const auto start = snap("scale", 1);
+	const auto large = snap("scale", 1e3);
+	CHECK(large->scene_size_m == doctest::Approx(1e3 * start->scene_size_m));
+	CHECK(large->lights[0].light_size_m == doctest::Approx(1e3 * start->lights[0].light_size_m));
+	CHECK(large->camera.near_m == doctest::Approx(1e3 * start->camera.near_m));
+	CHECK(glm::distance(large->lights[0].position_world, 1e3 * start->lights[0].position_world) <
+			1e-6);
+	const auto moved = snap("offset", 1e6);
+	const glm::dvec3 way = moved->camera.position_world - start->camera.position_world;
+	CHECK(glm::length(way) == doctest::Approx(1e6));
+	CHECK(glm::distance(moved->lights[0].position_world - way, start->lights[0].position_world) <
+			1e-8);
+	for (size_t index = 0; index < start->instances.size(); ++index) {
+		CHECK(glm::distance(glm::dvec3(moved->instances[index].world_from_node[3]) - way,
+					  glm::dvec3(start->instances[index].world_from_node[3])) < 1e-8);
+	}
+}
+
+TEST_CASE("[Stability] the light moves by a thousandth of its radius, and only that light") {
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		const StabilityCase point =
+				make_stability_case(get_stability_sweeps()[0], type, 0.05, StabilityExtent::QUICK);
+		const MaskQuestion question = { build_snapshot(*point.scene,
+												*point.scene->find_nodes<Camera3D>().front()),
+			point.light, point.size_px };
+		const MaskQuestion moved = move_light(question);
+		const LightSnapshot &before = question.scene->lights[0];
+		const LightSnapshot &after = moved.scene->lights[0];
+		if (type == LightType::DIRECTIONAL) {
+			const double angle = std::acos(std::min(
+					1.0, glm::dot(before.get_direction_world(), after.get_direction_world())));
+			CHECK(angle ==
+					doctest::Approx(1e-3 * std::atan(before.get_disc_radius())).epsilon(0.01));
+		} else {
+			CHECK(glm::distance(before.position_world, after.position_world) ==
+					doctest::Approx(1e-3 * before.light_size_m));
+		}
+		CHECK(moved.scene->camera.position_world == question.scene->camera.position_world);
+	}
+}
+
+TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on either side") {
+	// Values 1e-6 .. 1, the centre 0.05 is the seventh of 13.
+	std::vector<double> errors(13, 0.01);
+	errors[2] = 0.03;
+	errors[10] = 0.021;
+	errors[12] = 0.03;
+	const Report report = make_light_size_report(errors);
+	const std::vector<StabilityPlot> plots = find_stability_plots(report);
+	REQUIRE(plots.size() == 1);
+	REQUIRE(plots[0].curves.size() == 1);
+	const StabilityCurve &curve = plots[0].curves[0];
+	CHECK(curve.break_before == 1e-4);
+	CHECK(curve.break_after == 0.5);
+	CHECK(curve.points[6].state == StabilityState::OK);
+	CHECK(curve.points[10].state == StabilityState::DOUBLED);
+	CHECK(curve.points[11].state == StabilityState::OK);
+	const nlohmann::ordered_json json = to_json(plots);
+	CHECK(json[0]["series"][0]["break_after"] == "0.5");
+	CHECK(json[0]["series"][0]["points"][10]["state"] == "doubled");
+	// What no picture of 8 bits shows is no break.
+	CHECK_FALSE(find_stability_plots(make_light_size_report({ 0, 0, 0, 0, 0, 0, 1e-5, 1e-3 }))[0]
+						.curves[0]
+						.break_after);
+}
+
+TEST_CASE("[Stability] nonsense, refusals and failures are told apart") {
+	Report report = make_light_size_report({ 0.01, 0.01 });
+	ReportCell &cell = report.cells[0];
+	const auto judge = [&] { return judge_stability(cell, {}, &report.cells[1]); };
+	CHECK(judge() == StabilityState::OK);
+	cell.stability->wrong_share = 0.05;
+	CHECK(judge() == StabilityState::NONSENSE);
+	cell.stability->refusal = "too large";
+	CHECK(judge() == StabilityState::REFUSED);
+	cell.status = ReportStatus::FAILED;
+	CHECK(judge() == StabilityState::FAILED);
+	cell.status = ReportStatus::MISSING;
+	CHECK(judge() == StabilityState::MISSING);
+}
+
+TEST_CASE("[Stability] a run measures every point, and keeps what it found") {
+	ScriptedMasks masks;
+	masks.warnings = { "that is wide" };
+	const Report report = run(make_options({ "light_size", "guards" }), masks);
+	CHECK(report.count(ReportStatus::OK) > 40);
+	CHECK(report.count(ReportStatus::FAILED) == 0);
+	CHECK(report.count(ReportStatus::MISSING) == 0);
+	for (const ReportCell &cell : report.cells) {
+		REQUIRE(cell.stability);
+		CHECK(cell.error);
+		CHECK(cell.stability->warnings == masks.warnings);
+		CHECK(cell.stability->temporal_rmse == 0.0); // scripted: nothing moves
+	}
+	// The file says the same, and is read again.
+	const TemporaryFolder folder;
+	const auto path = folder.path / "report.json";
+	save_file_atomically(path, dump_json(to_json(report)));
+	const Report read = load_report(path);
+	CHECK(to_json(read) == to_json(report));
+}
+
+TEST_CASE("[Stability] values that are no visibility, and validation messages, fail the point") {
+	for (const float value : { std::numeric_limits<float>::quiet_NaN(), -0.01f, 1.01f }) {
+		ScriptedMasks masks;
+		masks.spoiled_value = value;
+		const Report report = run(make_options({ "scale" }), masks);
+		for (const ReportCell &cell : report.cells) {
+			CHECK(cell.status == ReportStatus::FAILED);
+			CHECK(cell.message.find("not finite or outside 0..1") != std::string::npos);
+		}
+	}
+	ScriptedMasks noisy;
+	noisy.validation_message_count = 3;
+	const Report report = run(make_options({ "scale" }), noisy);
+	CHECK(report.cells.front().status == ReportStatus::FAILED);
+	CHECK(report.cells.front().message == "3 validation messages.");
+}
+
+TEST_CASE("[Stability] a technique that refuses is no failure, and its message is kept") {
+	ScriptedMasks masks;
+	masks.failing_technique = "soft";
+	const Report report = run(make_options({ "scale" }), masks);
+	CHECK(report.count(ReportStatus::FAILED) == 0);
+	for (const ReportCell &cell : report.cells) {
+		CHECK(cell.stability->refusal == (cell.technique == "soft" ? "the device is sad" : ""));
+		CHECK(cell.error.has_value() == (cell.technique != "soft"));
+	}
+	CHECK(find_stability_plots(report)[0].curves[1].points[0].state == StabilityState::REFUSED);
+}
+
+TEST_CASE("[Stability] a lost device is no refusal: the run ends, and a resume measures the rest") {
+	const TemporaryFolder folder;
+	RecordStore store(folder.path);
+	const ReportPlan plan =
+			make_report_plan(make_options({ "scale" }), {}, make_scripted_techniques());
+	ScriptedMasks masks;
+	masks.lose_after_drawn_count = 2;
+	CHECK_THROWS_AS(run_report(plan, masks, store, {}), DeviceLost);
+	ScriptedMasks rest;
+	const Report report = run_report(plan, rest, store, { true, 0, 1 });
+	CHECK(report.count(ReportStatus::OK) > 5);
+	CHECK(report.count(ReportStatus::MISSING) == 0);
+	CHECK(rest.draw_count == plan.report.cells.size() - 2);
+	for (const ReportCell &cell : report.cells) {
+		CHECK(cell.stability->refusal.empty());
+	}
+}
+
+TEST_CASE("[Stability] shards take whole curves, whose centres they need") {
+	const ReportPlan plan = make_report_plan(
+			make_options({ "light_size", "scale", "offset" }), {}, make_scripted_techniques());
+	std::map<std::pair<std::string, std::string>, std::set<size_t>> shards;
+	for (uint32_t shard = 0; shard < 3; ++shard) {
+		const TemporaryFolder folder;
+		RecordStore store(folder.path);
+		ScriptedMasks masks;
+		const Report report = run_report(plan, masks, store, { false, shard, 3 });
+		for (const ReportCell &cell : report.cells) {
+			const ReportConfiguration &at = report.configurations[cell.configuration_index];
+			if (cell.is_ok()) {
+				shards[{ at.sweep, at.light_type }].insert(shard);
+			}
+		}
+	}
+	CHECK(shards.size() == 5);
+	for (const auto &[curve, own] : shards) {
+		CHECK(own.size() == 1);
+	}
+}
+
+TEST_CASE("[Stability] scenes of the project are drawn with each of their lights, as they are") {
+	ReportOptions options = make_options({ PROJECT_SCENES_SWEEP });
+	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} },
+		{ "gone", nullptr, "the file is not there" },
+		{ "hall", make_scaling_scene({ 1100, 1, 0.3 }), {} } };
+	ScriptedMasks masks;
+	const Report report = run(options, masks);
+	REQUIRE(report.configurations.size() == 4);
+	CHECK(report.configurations[0].id == "stability/scenes/spot/yard/Light 1");
+	CHECK(report.configurations[1].light == "Light 2");
+	CHECK(report.configurations[1].light_size_m == doctest::Approx(0.4));
+	CHECK(report.configurations[2].message == "the file is not there");
+	CHECK(report.configurations[2].status == ReportStatus::FAILED);
+	CHECK(report.configurations[3].light_size_m == doctest::Approx(0.3));
+	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and truths
+
+	// Without a centre an error alone is no break; nonsense still is.
+	const std::vector<StabilityPlot> plots = find_stability_plots(report);
+	REQUIRE(plots.size() == 1);
+	REQUIRE(plots[0].curves.size() == 2);
+	std::vector<std::string> labels;
+	for (const StabilityPoint &point : plots[0].curves[0].points) {
+		CHECK(point.state == StabilityState::OK);
+		labels.push_back(point.label);
+	}
+	CHECK(labels == std::vector<std::string>{ "yard/Light 1", "yard/Light 2", "hall/Light 1" });
+	const nlohmann::ordered_json json = to_json(plots);
+	CHECK(json[0]["has_cases"] == true);
+	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
+}
+
+TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is asked for") {
+	ReportOptions options = make_options({ "scale" });
+	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} } };
+	for (const ReportConfiguration &configuration :
+			make_report_plan(options, {}, make_scripted_techniques()).report.configurations) {
+		CHECK(configuration.sweep == "scale");
+	}
+	options.stability = StabilityExtent::NONE;
+	options.sweeps = {};
+	CHECK(make_report_plan(options, {}, make_scripted_techniques()).report.configurations.empty());
+}

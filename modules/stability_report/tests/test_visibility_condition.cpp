@@ -1,0 +1,83 @@
+#include "modules/stability_report/double_visibility.h"
+#include "modules/stability_report/stability_sweeps.h"
+#include "modules/stability_report/visibility_condition.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace gnomon;
+
+namespace {
+
+/// A wide plate at a height above the origin whose edge lies at x = 0, and a light above it.
+struct HalfPlane {
+	SceneSnapshot scene;
+
+	explicit HalfPlane(double p_radius_m, const glm::dvec3 &p_offset = glm::dvec3(0.0)) {
+		scene.scene_size_m = 4.0;
+		InstanceSnapshot plate;
+		plate.mesh = make_mesh("plate",
+				{ { 0, 0, -100 }, { 0, 0, 100 }, { 100, 0, 100 }, { 100, 0, -100 } }, {},
+				{ 0, 1, 2, 0, 2, 3 });
+		plate.world_from_node[3] = glm::dvec4(p_offset + glm::dvec3(0, 1, 0), 1.0);
+		plate.bounds_world = transform_bounds(plate.mesh->bounds_node, plate.world_from_node);
+		scene.instances.push_back(plate);
+		LightSnapshot light;
+		light.position_world = p_offset + glm::dvec3(0, 2, 0);
+		light.light_size_m = float(p_radius_m);
+		scene.lights.push_back(light);
+		scene.camera.position_world = p_offset;
+	}
+	const LightSnapshot &get_light() const { return scene.lights[0]; }
+};
+
+const glm::dvec3 UP(0, 1, 0);
+
+} // namespace
+
+TEST_CASE("[Condition] visibility in double is the share of the disc beside a half plane") {
+	const HalfPlane small(0.2);
+	const DoubleVisibility exact(small.scene, small.get_light());
+	CHECK(exact.compute({ -1, 0, 0 }, UP) == 1.0);
+	CHECK(exact.compute({ 1, 0, 0 }, UP) == 0.0);
+	// The edge halves the way from the receiver: at x the light is hidden beyond -x.
+	for (const double x : { -0.15, -0.05, 0.0, 0.1 }) {
+		const double d = -x / 0.2; // of the disc's centre, over R
+		const double seen = (std::acos(-d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
+		CHECK(exact.compute({ x, 0, 0 }, UP) == doctest::Approx(seen).epsilon(0.04));
+	}
+	// Far from the origin nothing is lost.
+	const glm::dvec3 offset(3e6, -2e6, 1e6);
+	const HalfPlane far(0.2, offset);
+	CHECK(DoubleVisibility(far.scene, far.get_light())
+					.compute(offset + glm::dvec3(-0.05, 0, 0), UP) ==
+			exact.compute({ -0.05, 0, 0 }, UP));
+}
+
+TEST_CASE("[Condition] the number is the slope of visibility, and tells rounding from method") {
+	// Soft: v changes by about 1 over 0.4 m, 2 m from the light.
+	const HalfPlane soft(0.2);
+	const ConditionPoint point = { { -0.01f, 0, 0 }, UP, 0.53, 0.3 };
+	const VisibilityCondition smooth =
+			compute_visibility_condition(soft.scene, soft.get_light(), { &point, 1 });
+	CHECK(smooth.number < 100);
+	CHECK(smooth.rounding < 0.02);
+	CHECK(smooth.truth_error < 0.03);
+	CHECK(smooth.error == 0.3);
+	CHECK(smooth.cause == ErrorCause::METHOD);
+	// So sharp that rounding alone moves a receiver from light to shadow.
+	const HalfPlane sharp(1e-7);
+	const ConditionPoint edge = { { -1e-7f, 0, 0 }, UP, 1.0, 1.0 };
+	const VisibilityCondition stiff =
+			compute_visibility_condition(sharp.scene, sharp.get_light(), { &edge, 1 });
+	CHECK(stiff.number > 1e5);
+	CHECK(stiff.rounding == 1.0);
+	CHECK(stiff.cause == ErrorCause::ROUNDING);
+	// A reference that says dark where all is lit.
+	const ConditionPoint lied = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
+	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &lied, 1 }).cause ==
+			ErrorCause::TRUTH);
+	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), {}).error == 0.0);
+}
