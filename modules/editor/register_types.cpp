@@ -1,9 +1,19 @@
 #include "modules/editor/register_types.h"
 
+#include "modules/editor/command_edit.h"
+
 namespace gnomon {
 
-// Nothing to register: run_editor makes its panels when it is called.
-void initialize_editor_module(ModuleLevel) {}
-void uninitialize_editor_module(ModuleLevel) {}
+void initialize_editor_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		CommandRegistry::add({ "edit", &add_edit_command });
+	}
+}
+
+void uninitialize_editor_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		CommandRegistry::remove("edit");
+	}
+}
 
 } // namespace gnomon

@@ -44,7 +44,7 @@ void print_properties(const PropertyList &p_list) {
 	}
 }
 
-void list_techniques(bool p_as_json) {
+void list_techniques(bool p_as_json, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
@@ -67,7 +67,7 @@ void list_techniques(bool p_as_json) {
 	print_properties(Light3D::get_property_list());
 }
 
-void list_filters(bool p_as_json) {
+void list_filters(bool p_as_json, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
 		const PropertyList &properties = MaskFilterRegistry::get_light_properties(info.id);
@@ -84,7 +84,7 @@ void list_filters(bool p_as_json) {
 	}
 }
 
-void list_modules(bool p_as_json) {
+void list_modules(bool p_as_json, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		list.push_back({ { "name", module.name }, { "description", module.description },
@@ -132,22 +132,45 @@ void print_info(bool p_as_json, const CommonOptions &p_common) {
 	}
 }
 
+struct ListCommand {
+	const char *id;
+	const char *description;
+	void (*print)(bool p_as_json, const CommonOptions &p_common);
+};
+const ListCommand LIST_COMMANDS[] = {
+	{ "techniques", "Shadow techniques and their properties", &list_techniques },
+	{ "filters", "Mask filters, which run after every technique, and their properties",
+			&list_filters },
+	{ "modules", "Modules of this build", &list_modules },
+	{ "info", "Devices, CPU, cache", &print_info },
+};
+
+void add_list_command(const ListCommand &p_list, CLI::App &r_app, CommonOptions &r_common) {
+	static bool as_json = false;
+	CLI::App *command = r_app.add_subcommand(p_list.id, p_list.description);
+	command->add_flag("--json", as_json, "As JSON");
+	command->add_option("--device", r_common.device, "Index or part of the name");
+	command->add_flag("--validation", r_common.validation, "Validation layers on");
+	command->callback([&p_list, &r_common] { p_list.print(as_json, r_common); });
+}
+
 } // namespace
 
-void add_list_commands(CLI::App &r_app, CommonOptions &r_common) {
-	static bool as_json = false;
-	const auto add = [&](const char *p_name, const char *p_description, auto p_function) {
-		CLI::App *command = r_app.add_subcommand(p_name, p_description);
-		command->add_flag("--json", as_json, "As JSON");
-		command->add_option("--device", r_common.device, "Index or part of the name");
-		command->add_flag("--validation", r_common.validation, "Validation layers on");
-		command->callback(p_function);
-	};
-	add("techniques", "Shadow techniques and their properties", [] { list_techniques(as_json); });
-	add("filters", "Mask filters, which run after every technique, and their properties",
-			[] { list_filters(as_json); });
-	add("modules", "Modules of this build", [] { list_modules(as_json); });
-	add("info", "Devices, CPU, cache", [&r_common] { print_info(as_json, r_common); });
+void register_list_commands() {
+	int help_order = 0;
+	for (const ListCommand &list : LIST_COMMANDS) {
+		CommandRegistry::add({ list.id,
+				[&list](CLI::App &r_app, CommonOptions &r_common) {
+					add_list_command(list, r_app, r_common);
+				},
+				++help_order });
+	}
+}
+
+void unregister_list_commands() {
+	for (const ListCommand &list : LIST_COMMANDS) {
+		CommandRegistry::remove(list.id);
+	}
 }
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 // `gnomon report`: error against run time of every technique over a project's scenes.
 
+#include "modules/core/command_registry.h"
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"
@@ -11,6 +12,7 @@
 #include "modules/error_report/report_ranking.h"
 #include "modules/error_report/run_report.h"
 #include "modules/main/commands.h"
+#include "modules/main/optional_parts.h"
 #include "modules/main/rendered_masks.h"
 #include "modules/main/report_arguments.h"
 
@@ -234,8 +236,14 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	});
 }
 
-const OptionalCommand command_report(&add_report_command);
-
 } // namespace
+
+void initialize_error_report_part() {
+	CommandRegistry::add({ "report", &add_report_command });
+}
+
+void uninitialize_error_report_part() {
+	CommandRegistry::remove("report");
+}
 
 } // namespace gnomon

@@ -5,7 +5,7 @@
 #include "modules/core/log.h"
 #include "modules/core/png.h"
 #include "modules/main/commands.h"
-#include "modules/main/optional_parts.h"
+#include "modules/main/run_part.h"
 
 #include <CLI/CLI.hpp>
 
@@ -56,8 +56,9 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 		request.wants_image = false;
 		request.may_keep = options.is_still;
 		save_file_atomically(options.time,
-				OptionalParts::get().measure_frame_time(
-						renderer, request, [&] { return build_snapshot(r_scene, camera); }));
+				RunPartRegistry::find(MASKS_PART)->measure_frame_time(renderer, request, [&] {
+					return build_snapshot(r_scene, camera);
+				}));
 	}
 }
 
@@ -69,7 +70,7 @@ void run(const CommonOptions &p_common) {
 		}
 	}
 	if (!truth_path.empty()) {
-		options.truth = OptionalParts::get().load_truth(truth_path);
+		options.truth = RunPartRegistry::find(MASKS_PART)->load_truth(truth_path);
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene);
 	for (const std::string &setting : options.settings) {
@@ -81,12 +82,11 @@ void run(const CommonOptions &p_common) {
 	}
 	if (options.is_headless) {
 		run_headless(*scene, size_px, p_common);
-	} else if (OptionalParts::get().run_in_window == nullptr) {
+	} else if (const RunPart *desktop = RunPartRegistry::find(DESKTOP_PART); desktop == nullptr) {
 		fail("This build has no window, as it lacks the module desktop. Use --headless, or build ",
 				"with module_desktop_enabled=yes.");
 	} else {
-		const RenderResult result =
-				OptionalParts::get().run_in_window(*scene, size_px, options, p_common);
+		const RenderResult result = desktop->run_in_window(*scene, size_px, options, p_common);
 		save_capture(result, size_px);
 	}
 }
@@ -109,11 +109,9 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");
-	if (OptionalParts::get().load_truth != nullptr) {
+	if (RunPartRegistry::find(MASKS_PART) != nullptr) {
 		command->add_option("--truth", truth_path,
 				"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
-	}
-	if (OptionalParts::get().measure_frame_time != nullptr) {
 		CLI::Option *time =
 				command->add_option("--time", options.time,
 							   "Writes the times of 20 frames after 5 to warm up as JSON")

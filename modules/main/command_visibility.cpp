@@ -135,6 +135,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	}
 }
 
+} // namespace
+
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	static VisibilityOptions options;
 	CLI::App *command = r_app.add_subcommand("visibility", "One light's mask, and what it cost");
@@ -177,9 +179,5 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
 	command->callback([&r_common] { run_visibility(options, r_common); });
 }
-
-const OptionalCommand command_visibility(&add_visibility_command);
-
-} // namespace
 
 } // namespace gnomon

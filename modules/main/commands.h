@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/command_registry.h"
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
@@ -10,35 +11,16 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace gnomon {
 
 inline constexpr const char *PROGRAM_VERSION = "0.1.0";
 
-/// Options of every command.
-struct CommonOptions {
-	std::string device;
-	bool validation = false;
-};
-
-/// A command of a module that a build may lack: its file makes one of these, and main adds it where
-/// the file is there.
-class OptionalCommand {
-public:
-	using Add = void (*)(CLI::App &r_app, CommonOptions &r_common);
-	explicit OptionalCommand(Add p_add) { get_all().push_back(p_add); }
-	static std::vector<Add> &get_all() {
-		static std::vector<Add> all;
-		return all;
-	}
-};
-
-// Each adds its command to the command line; when it is chosen, it runs inside CLI11's parse.
+// See CommandInfo::add.
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
-void add_list_commands(CLI::App &r_app, CommonOptions &r_common);
+void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);
+// `techniques`, `filters`, `modules` and `info`.
+void register_list_commands();
+void unregister_list_commands();
 
 /// A whole number of digits alone; false for any other text.
 bool parse_whole(std::string_view p_text, uint32_t &r_value);

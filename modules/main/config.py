@@ -3,8 +3,8 @@ def get_dependencies():
 
 
 def get_optional_dependencies():
-    # Without them: no window; no visibility and compare; no report; no edit. See SCsub.
-    return ["desktop", "masks", "error_report", "editor"]
+    # Without them: no window; no visibility, and no --truth and --time of run; no report. See SCsub.
+    return ["desktop", "masks", "error_report"]
 
 
 def get_layer():

@@ -5,6 +5,7 @@
 #include "modules/main/fly_camera.h"
 #include "modules/main/optional_parts.h"
 #include "modules/main/overlay_text.h"
+#include "modules/main/run_part.h"
 #include "modules/shadows/shadow_registry.h"
 
 #include <GLFW/glfw3.h>
@@ -187,13 +188,12 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	return result;
 }
 
-namespace {
+void initialize_desktop_part() {
+	RunPartRegistry::add({ DESKTOP_PART, &run_in_window });
+}
 
-[[maybe_unused]] const bool is_registered = [] {
-	OptionalParts::get().run_in_window = &run_in_window;
-	return true;
-}();
-
-} // namespace
+void uninitialize_desktop_part() {
+	RunPartRegistry::remove(DESKTOP_PART);
+}
 
 } // namespace gnomon

@@ -1,19 +1,24 @@
 // The program's entry: reads the command line, starts the modules, runs one command.
 // Exit codes: 0 done, 1 failed, 2 wrong usage. Errors are one line on stderr.
 
+#include "modules/core/command_registry.h"
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
 #include "modules/main/commands.h"
+#include "modules/main/register_types.h"
 #include "modules/rendering_device/rendering_device.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -48,15 +53,24 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 	}
 }
 
+/// As --help lists them.
+std::vector<CommandInfo> list_commands() {
+	std::vector<CommandInfo> commands = CommandRegistry::get_all();
+	std::sort(commands.begin(), commands.end(),
+			[](const CommandInfo &p_first, const CommandInfo &p_second) {
+				return std::tie(p_first.help_order, p_first.id) <
+						std::tie(p_second.help_order, p_second.id);
+			});
+	return commands;
+}
+
 int run_program(int p_argument_count, char **p_arguments) {
 	CLI::App app("Gnomon: soft shadows that are measured against the exact ones.", "gnomon");
 	app.require_subcommand(1);
 	app.set_version_flag("--version", std::string("gnomon ") + PROGRAM_VERSION);
 	CommonOptions common;
-	add_run_command(app, common);
-	add_list_commands(app, common);
-	for (const OptionalCommand::Add add : OptionalCommand::get_all()) {
-		add(app, common);
+	for (const CommandInfo &command : list_commands()) {
+		command.add(app, common);
 	}
 	if (p_argument_count > 1) {
 		check_command(app, p_arguments[1]);
@@ -86,6 +100,8 @@ int main(int p_argument_count, char **p_arguments) {
 	try {
 		register_modules();
 		ModuleRegistry::initialize(ModuleLevel::FEATURES);
+		initialize_main_module(
+				ModuleLevel::FEATURES); // not in the registry: tests link all but main
 		result = run_program(p_argument_count, p_arguments);
 	} catch (const UsageError &error) {
 		log_error(error.what());
@@ -93,6 +109,7 @@ int main(int p_argument_count, char **p_arguments) {
 	} catch (const std::exception &error) {
 		log_error(describe_failure(error));
 	}
+	uninitialize_main_module(ModuleLevel::FEATURES);
 	ModuleRegistry::uninitialize();
 	if (has_device_hung()) {
 		std::fflush(nullptr);

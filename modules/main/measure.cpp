@@ -1,7 +1,6 @@
 #include "modules/main/measure.h"
 
 #include "modules/core/progress.h"
-#include "modules/masks/mask_image.h"
 #include "modules/mesh_tools/topology.h"
 
 #include <nlohmann/json.hpp>
@@ -21,18 +20,6 @@ const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the sh
 
 constexpr uint32_t WARM_UP_COUNT = 5;
 constexpr uint32_t MEASURED_COUNT = 20;
-
-std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
-	MaskImage image = load_mask_exr(p_path);
-	return std::make_shared<TruthMask>(
-			image.size_px, std::move(image.visibility), std::move(image.receiver));
-}
-
-[[maybe_unused]] const bool is_registered = [] {
-	OptionalParts::get().load_truth = &load_truth;
-	OptionalParts::get().measure_frame_time = &measure_frame_time;
-	return true;
-}();
 
 /// The passes of the light, or of every light, without its name.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
@@ -85,7 +72,7 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 namespace {
 
 std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
-		uint32_t p_count, const OptionalParts::SnapshotMaker &p_make_snapshot) {
+		uint32_t p_count, const RunPart::SnapshotMaker &p_make_snapshot) {
 	Progress progress("Measuring");
 	const MaskTiming timing =
 			measure_mask_timing(r_renderer, p_request, { p_warm_up_count, p_count, p_count, 0, 0 },
@@ -135,7 +122,7 @@ std::string measure_mask_time(
 }
 
 std::string measure_frame_time(Renderer &r_renderer, RenderRequest p_request,
-		const OptionalParts::SnapshotMaker &p_make_snapshot) {
+		const RunPart::SnapshotMaker &p_make_snapshot) {
 	return measure_time(
 			r_renderer, std::move(p_request), WARM_UP_COUNT, MEASURED_COUNT, p_make_snapshot);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/main/optional_parts.h"
+#include "modules/main/run_part.h"
 #include "modules/masks/mask_timing.h"
 #include "modules/renderer/renderer.h"
 
@@ -34,6 +34,6 @@ std::string measure_mask_time(
 /// Likewise of a whole picture, all lights in it. p_make_snapshot: reads the tree of nodes, each
 /// frame anew, as a game does.
 std::string measure_frame_time(Renderer &r_renderer, RenderRequest p_request,
-		const OptionalParts::SnapshotMaker &p_make_snapshot);
+		const RunPart::SnapshotMaker &p_make_snapshot);
 
 } // namespace gnomon

@@ -1,9 +1,25 @@
 #include "modules/main/register_types.h"
 
+#include "modules/core/command_registry.h"
+#include "modules/main/commands.h"
+#include "modules/main/optional_parts.h"
+
 namespace gnomon {
 
-// Nothing to register: main.cpp is where the program begins.
-void initialize_main_module(ModuleLevel) {}
-void uninitialize_main_module(ModuleLevel) {}
+void initialize_main_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		CommandRegistry::add({ "run", &add_run_command, 0 });
+		register_list_commands();
+		initialize_optional_parts();
+	}
+}
+
+void uninitialize_main_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		uninitialize_optional_parts();
+		unregister_list_commands();
+		CommandRegistry::remove("run");
+	}
+}
 
 } // namespace gnomon

@@ -1,9 +1,19 @@
 #include "modules/masks/register_types.h"
 
+#include "modules/masks/command_compare.h"
+
 namespace gnomon {
 
-// Nothing to register: functions that commands, the report and the editor call.
-void initialize_masks_module(ModuleLevel) {}
-void uninitialize_masks_module(ModuleLevel) {}
+void initialize_masks_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		CommandRegistry::add({ "compare", &add_compare_command });
+	}
+}
+
+void uninitialize_masks_module(ModuleLevel p_level) {
+	if (p_level == ModuleLevel::FEATURES) {
+		CommandRegistry::remove("compare");
+	}
+}
 
 } // namespace gnomon

@@ -1,7 +1,8 @@
 // `gnomon edit`: the editor's window.
 
+#include "modules/editor/command_edit.h"
+
 #include "modules/editor/editor_window.h"
-#include "modules/main/commands.h"
 
 #include <CLI/CLI.hpp>
 
@@ -12,6 +13,8 @@ namespace gnomon {
 namespace {
 
 EditorOptions options;
+
+} // namespace
 
 void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	CLI::App *command = r_app.add_subcommand("edit", "Opens a project or a scene in the editor");
@@ -34,9 +37,5 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 		run_editor(options);
 	});
 }
-
-const OptionalCommand command_edit(&add_edit_command);
-
-} // namespace
 
 } // namespace gnomon

@@ -1,7 +1,8 @@
 // `gnomon compare`: the metrics of TECHNIQUES.md section 0, as JSON.
 
+#include "modules/masks/command_compare.h"
+
 #include "modules/core/error.h"
-#include "modules/main/commands.h"
 #include "modules/masks/mask_image.h"
 #include "modules/masks/mask_metrics.h"
 #include "modules/masks/mask_picture.h"
@@ -19,6 +20,8 @@ struct CompareOptions {
 	std::string result;
 	std::string heatmap;
 };
+
+} // namespace
 
 void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	static CompareOptions options;
@@ -38,9 +41,5 @@ void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 		std::printf("%s\n", to_json(metrics).c_str());
 	});
 }
-
-const OptionalCommand command_compare(&add_compare_command);
-
-} // namespace
 
 } // namespace gnomon

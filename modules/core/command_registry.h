@@ -1,0 +1,33 @@
+#pragma once
+
+#include "modules/core/extension_registry.h"
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon {
+
+/// Options of every command.
+struct CommonOptions {
+	std::string device; // index or part of the name; empty: the best
+	bool validation = false;
+};
+
+struct CommandInfo {
+	static constexpr int LAST = 100;
+
+	std::string id; // its word on the command line
+	/// Called once, before the command line is read: adds the subcommand. When that is chosen, it
+	/// runs inside CLI11's parse.
+	std::function<void(CLI::App &r_app, CommonOptions &r_common)> add;
+	int help_order = LAST; // in --help, rising; those of equal order by id
+};
+
+/// The commands of this build. Modules add theirs at ModuleLevel::FEATURES.
+class CommandRegistry : public ExtensionRegistry<CommandInfo> {};
+
+} // namespace gnomon

@@ -1,0 +1,34 @@
+// What main can do with the module masks.
+
+#include "modules/core/command_registry.h"
+#include "modules/main/commands.h"
+#include "modules/main/measure.h"
+#include "modules/main/optional_parts.h"
+#include "modules/main/run_part.h"
+#include "modules/masks/mask_image.h"
+
+namespace gnomon {
+
+namespace {
+
+const char *const COMMAND = "visibility";
+
+std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
+	MaskImage image = load_mask_exr(p_path);
+	return std::make_shared<TruthMask>(
+			image.size_px, std::move(image.visibility), std::move(image.receiver));
+}
+
+} // namespace
+
+void initialize_masks_part() {
+	CommandRegistry::add({ COMMAND, &add_visibility_command });
+	RunPartRegistry::add({ MASKS_PART, nullptr, &load_truth, &measure_frame_time });
+}
+
+void uninitialize_masks_part() {
+	RunPartRegistry::remove(MASKS_PART);
+	CommandRegistry::remove(COMMAND);
+}
+
+} // namespace gnomon
