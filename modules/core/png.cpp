@@ -2,14 +2,13 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/limits.h"
 
 #include <stb/stb_image_write.h>
 
 namespace gnomon {
 
 namespace {
-
-constexpr uint32_t MAX_SIZE_PX = 16384;
 
 void append_bytes(void *r_bytes, void *p_data, int p_count) {
 	const uint8_t *data = static_cast<const uint8_t *>(p_data);
@@ -21,9 +20,9 @@ void append_bytes(void *r_bytes, void *p_data, int p_count) {
 
 std::vector<uint8_t> encode_png(
 		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels) {
-	if (p_size_px.x < 1 || p_size_px.y < 1 || p_size_px.x > MAX_SIZE_PX ||
-			p_size_px.y > MAX_SIZE_PX) {
-		fail("the size is ", p_size_px.x, " x ", p_size_px.y, ", must be 1..", MAX_SIZE_PX,
+	if (p_size_px.x < 1 || p_size_px.y < 1 || p_size_px.x > MAX_IMAGE_SIZE_PX ||
+			p_size_px.y > MAX_IMAGE_SIZE_PX) {
+		fail("the size is ", p_size_px.x, " x ", p_size_px.y, ", must be 1..", MAX_IMAGE_SIZE_PX,
 				" on each side.");
 	}
 	const size_t row_bytes = static_cast<size_t>(p_size_px.x) * p_channel_count;

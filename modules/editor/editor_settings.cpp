@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/limits.h"
 #include "modules/core/log.h"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const uint32_t LEAST_WINDOW_PX = 320;
-const uint32_t GREATEST_WINDOW_PX = 16384;
 const uint32_t GREATEST_SAMPLE_COUNT = 65536;
 const uint32_t GREATEST_AUTOSAVE_S = 600;
 
@@ -44,8 +44,8 @@ EditorSettings read_settings(const Json &p_json) {
 				 { "right", &layout.right }, { "bottom", &layout.bottom } }) {
 		read(p_json, name, *share, EditorLayout::LEAST_SHARE, EditorLayout::GREATEST_SHARE);
 	}
-	read(p_json, "window_width", settings.window_size_px.x, LEAST_WINDOW_PX, GREATEST_WINDOW_PX);
-	read(p_json, "window_height", settings.window_size_px.y, LEAST_WINDOW_PX, GREATEST_WINDOW_PX);
+	read(p_json, "window_width", settings.window_size_px.x, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
+	read(p_json, "window_height", settings.window_size_px.y, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
 	read(p_json, "tab", settings.tab);
 	read(p_json, "truth_rays", settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
 	read(p_json, "shows_penumbra", settings.shows_penumbra);

@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_materials.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/gltf_scene/gltf_light_writer.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@ namespace gnomon {
 
 namespace {
 
-const double MAX_LENGTH_M = 1e4;
 const double MAX_EMISSIVE_CD_M2 = 1e9; // the sun's disc
 const char TRANSMISSION[] = "KHR_materials_transmission";
 const char VOLUME[] = "KHR_materials_volume";

@@ -45,6 +45,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
 	for (uint32_t index = 0; index < frame_count; ++index) {
 		request.wants_image = index + 1 == frame_count;
+		request.wants_graph = request.wants_image && !options.dot.empty();
 		result = renderer.render(request);
 	}
 	save_capture(result, p_size_px);

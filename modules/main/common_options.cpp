@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
 #include "modules/core/project_scene.h"
@@ -17,7 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint32_t MAX_SIZE_PX = 16384;
 const char *const DEFAULT_SIZE = "512x512";
 
 const PropertyInfo *find_property(const std::string &p_name) {
@@ -52,10 +52,10 @@ glm::uvec2 parse_size(const std::string &p_text) {
 	const bool is_valid = cross != std::string::npos &&
 			parse_whole(std::string_view(p_text).substr(0, cross), size_px.x) &&
 			parse_whole(std::string_view(p_text).substr(cross + 1), size_px.y);
-	if (!is_valid || size_px.x < 1 || size_px.y < 1 || size_px.x > MAX_SIZE_PX ||
-			size_px.y > MAX_SIZE_PX) {
+	if (!is_valid || size_px.x < 1 || size_px.y < 1 || size_px.x > MAX_IMAGE_SIZE_PX ||
+			size_px.y > MAX_IMAGE_SIZE_PX) {
 		throw UsageError(text("--size is \"", p_text, "\", must be WIDTHxHEIGHT with 1..",
-				MAX_SIZE_PX, " each, for example 512x512."));
+				MAX_IMAGE_SIZE_PX, " each, for example 512x512."));
 	}
 	return size_px;
 }

@@ -1,6 +1,7 @@
 #include "modules/main/report_arguments.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
 #include "modules/error_report/report_part.h"
@@ -16,8 +17,6 @@ namespace gnomon {
 namespace fs = std::filesystem;
 
 namespace {
-
-const double MAX_LIGHT_SIZE_M = 1e4;
 
 LightType parse_light_type(const std::string &p_name) {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
@@ -102,9 +101,9 @@ ReportOptions make_report_options(
 	options.program = describe_program();
 	options.filter_hash = compute_filter_hash();
 	for (const double size_m : p_arguments.sizes_m) {
-		if (!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LIGHT_SIZE_M) {
-			throw UsageError(text("--sizes: ", size_m, " must be 0..", MAX_LIGHT_SIZE_M,
-					" m, the light's radius."));
+		if (!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LENGTH_M) {
+			throw UsageError(text(
+					"--sizes: ", size_m, " must be 0..", MAX_LENGTH_M, " m, the light's radius."));
 		}
 		auto &sizes_m = options.sizes_m;
 		if (std::find(sizes_m.begin(), sizes_m.end(), size_m) == sizes_m.end()) {

@@ -97,7 +97,7 @@ void check_channel(
 }
 
 void check_size(int64_t p_width, int64_t p_height, const std::string &p_name) {
-	const int64_t limit = MaskImage::MAX_SIZE_PX;
+	const int64_t limit = MAX_IMAGE_SIZE_PX;
 	if (p_width < 1 || p_height < 1 || p_width > limit || p_height > limit) {
 		fail("Mask ", p_name, ": the size is ", p_width, " x ", p_height, ", must be 1..", limit,
 				" on each side.");
@@ -168,16 +168,16 @@ MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p
 	// Held against the header before OpenEXR takes memory for a line.
 	static std::once_flag once;
 	std::call_once(once, [] {
-		Imf::Header::setMaxImageSize(MaskImage::MAX_SIZE_PX, MaskImage::MAX_SIZE_PX);
-		Imf::Header::setMaxTileSize(MaskImage::MAX_SIZE_PX, MaskImage::MAX_SIZE_PX);
+		Imf::Header::setMaxImageSize(MAX_IMAGE_SIZE_PX, MAX_IMAGE_SIZE_PX);
+		Imf::Header::setMaxTileSize(MAX_IMAGE_SIZE_PX, MAX_IMAGE_SIZE_PX);
 	});
 	try {
 		return decode(p_bytes, p_name);
 	} catch (const Error &) {
 		throw;
 	} catch (const std::exception &exception) {
-		fail("Mask ", p_name, ": not a readable OpenEXR file of at most ", MaskImage::MAX_SIZE_PX,
-				" x ", MaskImage::MAX_SIZE_PX, " pixels: ", exception.what(), ". Write it again.");
+		fail("Mask ", p_name, ": not a readable OpenEXR file of at most ", MAX_IMAGE_SIZE_PX, " x ",
+				MAX_IMAGE_SIZE_PX, " pixels: ", exception.what(), ". Write it again.");
 	}
 }
 

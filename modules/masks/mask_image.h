@@ -1,5 +1,7 @@
 #pragma once
 
+#include "modules/core/limits.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -13,7 +15,6 @@ namespace gnomon {
 /// What a technique answers for one light: one value per camera pixel, rows from the top.
 struct MaskImage {
 	/// Per side; a larger file is refused before memory is taken for it.
-	static constexpr uint32_t MAX_SIZE_PX = 16384;
 
 	glm::uvec2 size_px = glm::uvec2(0u);
 	std::vector<float> visibility; // linear, 0 hidden .. 1 lit; 0 where there is no receiver
@@ -24,12 +25,14 @@ struct MaskImage {
 };
 
 /// Writes an OpenEXR file of two float32 channels, "Y" = visibility and "receiver", ZIP compressed;
-/// whole or not at all. An empty image, one above MAX_SIZE_PX and an unwritable path are an Error.
+/// whole or not at all. An empty image, one above MAX_IMAGE_SIZE_PX and an unwritable path are an
+/// Error.
 void save_mask_exr(const std::filesystem::path &p_path, const MaskImage &p_image);
 
 /// Reads what save_mask_exr writes. Other channels are ignored and half floats widened. A file that
 /// is missing, damaged or cut short, lacks a channel (named in the text), stores one at a lower
-/// resolution or is larger than MAX_SIZE_PX: an Error naming the file. Values are not checked here.
+/// resolution or is larger than MAX_IMAGE_SIZE_PX: an Error naming the file. Values are not checked
+/// here.
 MaskImage load_mask_exr(const std::filesystem::path &p_path);
 
 /// The same for bytes in memory; p_name stands for the file in messages.

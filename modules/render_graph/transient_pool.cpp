@@ -1,5 +1,7 @@
 #include "modules/render_graph/transient_pool.h"
 
+#include "modules/core/limits.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -10,7 +12,6 @@ namespace {
 // A frame shape per debug view and per set of left-out passes; more would only hold memory.
 constexpr size_t MAX_KEPT_ENTRIES = 3;
 // A shape that is not used in so many frames will not come again soon.
-constexpr uint64_t KEPT_FRAMES = 60;
 
 bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;

@@ -1,6 +1,7 @@
 #include "modules/renderer/renderer.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 #include "modules/render_graph/read_back.h"
 #include "modules/renderer/gbuffer.h"
 #include "modules/renderer/lighting.h"
@@ -13,11 +14,10 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t MAX_SIZE_PX = 16384;
-
 void check_request(const RenderRequest &p_request, const RenderingDevice &p_device) {
 	GNOMON_ASSERT(p_request.scene, "a frame needs a scene");
-	const uint32_t limit_px = std::min(MAX_SIZE_PX, p_device.get_features().max_texture_size_px);
+	const uint32_t limit_px =
+			std::min(MAX_IMAGE_SIZE_PX, p_device.get_features().max_texture_size_px);
 	const glm::uvec2 size_px = p_request.size_px;
 	if (size_px.x < 1 || size_px.y < 1 || size_px.x > limit_px || size_px.y > limit_px) {
 		fail("Size is ", size_px.x, "x", size_px.y, ", must be 1x1..", limit_px, "x", limit_px,
@@ -236,7 +236,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	}
 	result.commands = device.get_command_counts() - counts_before;
 	result.wall_ms = frame.graph.get_wall_ms();
-	result.dot = frame.graph.to_dot();
+	result.dot = p_request.wants_graph ? frame.graph.to_dot() : std::string();
 	result.unaliased_bytes = frame.graph.get_unaliased_bytes();
 	result.aliased_bytes = frame.graph.get_aliased_bytes();
 	if (!result.depth_texels.empty()) {

@@ -40,6 +40,7 @@ struct RenderRequest {
 	/// technique or the lights while looking at one.
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
+	bool wants_graph = false; // RenderResult::dot
 	/// Gets the picture too, when it is there: RGBA8_UNORM, of the frame's size, COPY_TARGET.
 	TextureRID picture_target;
 	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
@@ -71,7 +72,7 @@ struct RenderResult : MaskValues {
 	std::vector<uint8_t> depth_texels;	  // as HostSurfaces has them, with the surfaces
 	std::vector<uint8_t> normal_texels;
 	CommandCounts commands;		  // draws and dispatches of the frame
-	std::string dot;			  // the frame's graph for Graphviz
+	std::string dot;			  // the frame's graph for Graphviz, when it was asked for
 	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 

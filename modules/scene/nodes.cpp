@@ -1,6 +1,7 @@
 #include "modules/scene/nodes.h"
 
 #include "modules/core/error.h"
+#include "modules/core/limits.h"
 
 #include <algorithm>
 
@@ -62,7 +63,7 @@ const char *get_light_type_name(LightType p_type) {
 const PropertyList &Light3D::get_property_list() {
 	static const PropertyList list = [] {
 		PropertyList made;
-		made.add({ "light_size", PropertyType::FLOAT, 0.1, "0,10000,0.01",
+		made.add({ "light_size", PropertyType::FLOAT, 0.1, LENGTH_HINT,
 				"Radius R of a point or spot light, the size of its luminous disc. 0 makes a point "
 				"with a hard shadow; a directional light ignores it.",
 				"m", "Light" });
@@ -80,11 +81,11 @@ const PropertyList &Light3D::get_property_list() {
 				"is "
 				"not in this build falls back with a warning and stays stored.",
 				"", "Shadow" });
-		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
+		made.add({ "penumbra_outer_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Outer penumbra width r, how far the soft edge reaches out of the hard shadow. -1 "
 				"derives it from the light's size; 0 leaves the outer part out.",
 				"m", "Shadow", "-1" });
-		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, "0,10000,0.01",
+		made.add({ "penumbra_inner_width", PropertyType::FLOAT, -1.0, LENGTH_HINT,
 				"Inner penumbra width t, how far the soft edge reaches into the hard shadow. -1 "
 				"derives it from the light's size; 0 leaves the inner part out.",
 				"m", "Shadow", "-1" });

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/limits.h"
 
 #include <cmath>
 
@@ -12,7 +13,6 @@ namespace {
 const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
 // Volume of the unit axes' parallelepiped below which an orientation is rounding noise.
 const double FLATTEST_AXES = 1e-9;
-const float MAX_WIDTH_M = 1e4f; // of r and t, as their properties say
 
 bool is_finite(const glm::dmat4 &p_matrix) {
 	for (int column = 0; column < 4; ++column) {
@@ -194,7 +194,7 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	casts_shadow = std::get<bool>(read_property(*this, "shadow_enabled"));
 	technique_id = std::get<std::string>(read_property(*this, "shadow_technique"));
 	const float derived_m = type == LightType::DIRECTIONAL
-			? std::min(get_disc_radius() * static_cast<float>(p_scene_size_m), MAX_WIDTH_M)
+			? std::min(get_disc_radius() * static_cast<float>(p_scene_size_m), float(MAX_LENGTH_M))
 			: light_size_m;
 	const auto decide_width = [&](const char *p_property, float &r_width_m, bool &r_is_derived) {
 		r_width_m = read_float(*this, p_property);

@@ -34,7 +34,7 @@ void ShadowJitteredPcf::get_quality_settings(
 	}
 }
 
-void ShadowJitteredPcf::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowJitteredPcf::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("jittered_pcf_map_size")));

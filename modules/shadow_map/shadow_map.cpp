@@ -27,7 +27,7 @@ void ShadowMap::get_light_properties(PropertyList &r_list) const {
 			"", "Shadow map" });
 }
 
-void ShadowMap::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowMap::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("shadow_map_size")));

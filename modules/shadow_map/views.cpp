@@ -35,12 +35,12 @@ void Views::get_quality_settings(
 	r_settings.push_back({ "64 views", { { "views_count", int64_t(64) } }, true });
 }
 
-void Views::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void Views::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_map_size")));
 	const uint32_t count = get_count(p_light, p_properties);
-	const double nearest_m = compute_nearest_distance_m(p_light, p_scene);
+	const double nearest_m = compute_nearest_distance_m(p_light, p_scene.scene);
 	for (uint32_t index = 0; index < count; ++index) {
 		const LightSnapshot point = make_light_point(p_light, index, count, nearest_m);
 		const std::vector<LightView> views = build_light_views(point, p_scene, size_px, 1);

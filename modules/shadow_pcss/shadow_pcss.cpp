@@ -31,7 +31,7 @@ void ShadowPcss::get_quality_settings(
 	}
 }
 
-void ShadowPcss::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowPcss::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const uint32_t size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("pcss_map_size")));

@@ -43,7 +43,7 @@ void ShadowPenumbraFins::get_quality_settings(
 					{ "penumbra_inner_width", inner_width_m } } });
 }
 
-void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =
 			read_fins_view_settings(id, has_inner_half, p_light, p_properties);

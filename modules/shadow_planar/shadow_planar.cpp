@@ -9,7 +9,7 @@ namespace gnomon {
 
 void ShadowPlanar::get_light_properties(PropertyList & /*r_list*/) const {}
 
-void ShadowPlanar::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowPlanar::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues & /*p_properties*/, std::vector<LightView> &r_views) const {
 	r_views = build_listing_views(p_light, p_scene);
 }

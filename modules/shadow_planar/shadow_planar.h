@@ -14,7 +14,7 @@ namespace gnomon {
 class ShadowPlanar : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
-	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;

@@ -17,7 +17,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 }
 
 // Which cameras stand at the light: the casters of each are culled to it.
-void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const auto size_px =
 			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("template_map_size")));

@@ -23,7 +23,7 @@ void ShadowVolume::get_quality_settings(
 	r_settings.push_back({ "robust", { { id + "_robust", std::string("always") } } });
 }
 
-void ShadowVolume::get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+void ShadowVolume::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues & /*p_properties*/, std::vector<LightView> &r_views) const {
 	const uint32_t border_px = 1;
 	r_views = build_light_views(p_light, p_scene, CULLING_MAP_SIZE_PX, border_px);

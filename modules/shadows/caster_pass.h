@@ -41,8 +41,7 @@ std::vector<uint32_t> collect_casters(
 // For techniques that draw nothing from the light, but have to know which casters matter.
 
 /// Views for ShadowTechnique::get_light_views that only list casters.
-std::vector<LightView> build_listing_views(
-		const LightSnapshot &p_light, const SceneSnapshot &p_scene);
+std::vector<LightView> build_listing_views(const LightSnapshot &p_light, const LightScene &p_scene);
 /// Leaves out all of the light's views, and returns their casters, ascending.
 std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
 

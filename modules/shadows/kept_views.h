@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/limits.h"
 #include "modules/shadows/shadow_technique.h"
 
 #include <vector>
@@ -29,15 +30,12 @@ public:
 	bool is_all_empty() const { return is_empty; }
 	/// What is kept may go: no view has casters, or for long the camera saw no receiver in any.
 	bool may_forget() const {
-		return is_empty && (unseen_views == 0 || unseen_frame_count >= LONGEST_UNSEEN_FRAMES);
+		return is_empty && (unseen_views == 0 || unseen_frame_count >= KEPT_FRAMES);
 	}
 	/// Views that were not left out, ascending.
 	const std::vector<uint32_t> &get_wanted_views() const { return wanted_views; }
 
 private:
-	/// A camera that turns away often turns back; as LightShadows does with whole lights.
-	static constexpr uint32_t LONGEST_UNSEEN_FRAMES = 60;
-
 	uint32_t unseen_frame_count = 0;	// in which nothing but receivers was missing
 	std::vector<uint64_t> drawn_hashes; // per view; 0 = nothing of use is kept
 	uint32_t empty_views = 0;

@@ -41,15 +41,15 @@ template <typename Function> void for_each_corner(const Bounds &p_bounds, Functi
 	}
 }
 
-LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+LightView build_directional_view(const LightSnapshot &p_light, const LightScene &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
 	LightView view;
 	view.is_orthographic = true;
 	view.size_px = glm::uvec2(p_map_size_px);
 	const glm::dmat3 &axes = p_light.world_from_light;
-	Bounds bounds = p_scene.compute_caster_bounds();
+	Bounds bounds = p_scene.caster_bounds_world;
 	if (bounds.is_empty()) {
-		bounds.add(p_scene.camera.position_world);
+		bounds.add(p_scene.scene.camera.position_world);
 	}
 	const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
 	view.view_from_world = make_view(axes[0], -axes[1], -axes[2], centre);
@@ -57,7 +57,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const SceneSnapsh
 	for_each_corner(bounds, [&](const glm::dvec3 &p_corner) {
 		seen.add(glm::dvec3(view.view_from_world * glm::dvec4(p_corner, 1.0)));
 	});
-	const double margin_m = 1e-3 * p_scene.scene_size_m + p_caster_margin_m;
+	const double margin_m = 1e-3 * p_scene.scene.scene_size_m + p_caster_margin_m;
 	// Origin on the near plane: depths are then positive and as small as can be.
 	view.view_from_world[3].z += margin_m - seen.minimum.z;
 	view.near_m = 0.0f;
@@ -163,7 +163,7 @@ glm::dvec2 LightView::compute_distance_range_m(const InstanceSnapshot &p_instanc
 			p_instance.mesh->bounds_node, view_from_world * p_instance.world_from_node);
 }
 
-std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m) {
 	if (p_light.type == LightType::DIRECTIONAL) {
 		return { build_directional_view(
@@ -173,7 +173,7 @@ std::vector<LightView> build_light_views(const LightSnapshot &p_light, const Sce
 	LightView view;
 	view.size_px = glm::uvec2(p_map_size_px);
 	view.caster_margin_m = p_caster_margin_m;
-	view.near_m = static_cast<float>(NEAR_PER_SCENE_SIZE * p_scene.scene_size_m);
+	view.near_m = static_cast<float>(NEAR_PER_SCENE_SIZE * p_scene.scene.scene_size_m);
 	const float widening = widen_for_border(p_map_size_px, p_border_px);
 	if (p_light.type == LightType::SPOT && p_light.outer_cone_rad <= MAX_SINGLE_VIEW_RAD) {
 		view.view_from_world = make_view(axes[0], -axes[1], -axes[2], p_light.position_world);

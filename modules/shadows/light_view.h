@@ -47,12 +47,24 @@ private:
 			const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const;
 };
 
+/// A scene as a technique sees it for one light.
+struct LightScene {
+	const SceneSnapshot &scene;
+	Bounds caster_bounds_world; // of those that cast a shadow for it; empty without
+
+	LightScene(const SceneSnapshot &p_scene, const Bounds &p_caster_bounds_world) :
+			scene(p_scene), caster_bounds_world(p_caster_bounds_world) {}
+	/// With all casters of the scene.
+	LightScene(const SceneSnapshot &p_scene) :
+			LightScene(p_scene, p_scene.compute_caster_bounds()) {}
+};
+
 /// Views that together hold everything the light reaches: 1 for a spot up to 60 degrees and for a
 /// directional light (fitted to the casters), 6 for omni and wider spots (those that the cone
 /// misses included, so that a view's index is its axis). A perspective view has border_px texels
 /// beyond the light's field on each side, so that a filter of that radius never leaves the map.
 /// p_caster_margin_m: how far a technique widens the casters; a directional view holds that too.
-std::vector<LightView> build_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m = 0.0f);
 
 /// The light in camera-relative space, as the shaders read it.

@@ -15,7 +15,8 @@ namespace gnomon {
 
 namespace {
 
-CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, bool p_may_cull) {
+CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts,
+		const LightView &p_view, bool p_may_cull) {
 	CasterList casters;
 	// Field by field: the struct has padding.
 	uint64_t hash = compute_value_hash(p_view.view_from_world, 1);
@@ -25,7 +26,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, b
 	hash = compute_value_hash(p_view.far_m, hash);
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];
-		if (!instance.casts_shadow || (p_may_cull && !p_view.may_see(instance))) {
+		if (p_casts[index] == 0 || (p_may_cull && !p_view.may_see(instance))) {
 			continue;
 		}
 		casters.instances.push_back(index);
@@ -33,6 +34,17 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const LightView &p_view, b
 	}
 	casters.content_hash = hash;
 	return casters;
+}
+
+/// Of those that cast.
+Bounds compute_bounds(const SceneSnapshot &p_scene, const CasterFlags &p_casts) {
+	Bounds bounds;
+	for (size_t index = 0; index < p_scene.instances.size(); ++index) {
+		if (p_casts[index] != 0) {
+			bounds.add(p_scene.instances[index].bounds_world);
+		}
+	}
+	return bounds;
 }
 
 std::string describe_forced(const LightSnapshot &p_light, const TranslucentCasters &p_casters) {
@@ -207,13 +219,13 @@ void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t 
 			size_px, push);
 }
 
-ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work, const SceneSnapshot &p_scene,
+ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		std::span<const LightView> p_views, std::span<const CasterList> p_casters,
 		bool p_wants_debug_views) const {
 	return {
 		.device = system.device,
 		.meshes = *system.meshes,
-		.scene = p_scene,
+		.scene = *scene,
 		.light = p_work.light,
 		.properties = p_work.properties,
 		.views = p_views,
@@ -233,8 +245,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work, const Scene
 }
 
 RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
-	const ShadowTechnique::Inputs inputs =
-			make_inputs(p_work, *scene, {}, {}, p_work.wants_debug_views);
+	const ShadowTechnique::Inputs inputs = make_inputs(p_work, {}, {}, p_work.wants_debug_views);
 	TechniquePlan filter_plan(plan);
 	for (size_t index = 0; index < system.filters.size(); ++index) {
 		const MaskFilterInfo &info = MaskFilterRegistry::get_all()[index];
@@ -251,24 +262,24 @@ RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
 }
 
 RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_technique,
-		const SceneSnapshot &p_scene, const std::string &p_run) {
+		const CasterFlags &p_casts, const std::string &p_run) {
 	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
 	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
 	std::vector<LightView> views;
-	r_technique.get_light_views(p_work.light, p_scene, p_work.properties, views);
+	r_technique.get_light_views(
+			p_work.light, { *scene, compute_bounds(*scene, p_casts) }, p_work.properties, views);
 	std::vector<CasterList> casters;
 	for (LightView &view : views) {
 		if (r_technique.asks_receivers_alone()) {
 			fit_to_receivers(
-					view, p_work.lit_receivers, compute_fit_reach_m(view, p_work.light, p_scene));
+					view, p_work.lit_receivers, compute_fit_reach_m(view, p_work.light, *scene));
 		}
-		casters.push_back(cull_casters(p_scene, view, options.may_leave_out));
+		casters.push_back(cull_casters(*scene, p_casts, view, options.may_leave_out));
 		// What is shown itself is seen, receivers or not.
 		casters.back().has_receivers =
 				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
 	}
-	const ShadowTechnique::Inputs inputs =
-			make_inputs(p_work, p_scene, views, casters, wants_debug_views);
+	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
 	r_technique.plan(inputs, technique_plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
 		if (technique_plan.is_light_view_left_out(index)) {
@@ -299,8 +310,8 @@ RGTexture ShadowFrame::add_translucent_casters(
 		const std::string name = text("translucent ", index + 1);
 		graph.set_pass_prefix(text(p_work.light.name, ": ", name, ": "));
 		ShadowSystem::Slot &slot = system.get_slot({ p_work.light.name, index + 1 }, p_work.info);
-		slot.scene = make_opaque_scene(*scene, p_casters, &group);
-		const RGTexture both = add_technique(p_work, *slot.technique, *slot.scene, name);
+		const RGTexture both = add_technique(
+				p_work, *slot.technique, find_opaque_casters(*scene, p_casters, &group), name);
 		const RGTexture tinted = create_mask(graph, size_px, Format::RGBA16_SFLOAT);
 		add_compute_pass(graph, "tint",
 				system.device.get_compute_pipeline(
@@ -333,7 +344,6 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));
 	const Work work = { p_light, *choice.info, properties, p_lit, r_shadow, p_wants_debug_views };
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
-	slot.scene.reset();
 	for (const BrokenLimit &limit : slot.limits.find_broken(
 				 *scene, p_light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
@@ -347,12 +357,10 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();
 	});
-	if (translucent.is_empty()) {
-		mask = add_technique(work, *slot.technique, *scene, "");
-	} else {
+	mask = add_technique(
+			work, *slot.technique, find_opaque_casters(*scene, translucent, nullptr), "");
+	if (!translucent.is_empty()) {
 		system.warn_once(describe_forced(p_light, translucent));
-		slot.scene = make_opaque_scene(*scene, translucent, nullptr);
-		mask = add_technique(work, *slot.technique, *slot.scene, "");
 		mask = add_translucent_casters(work, translucent, mask);
 	}
 	mask = add_filters(work, mask);

@@ -91,12 +91,11 @@ private:
 	RGTexture add_normals_pass();
 	RGTexture add_shadow(const LightSnapshot &p_light, const VisibleReceivers &p_lit,
 			LightShadow &r_shadow, bool p_wants_debug_views);
-	ShadowTechnique::Inputs make_inputs(const Work &p_work, const SceneSnapshot &p_scene,
-			std::span<const LightView> p_views, std::span<const CasterList> p_casters,
-			bool p_wants_debug_views) const;
+	ShadowTechnique::Inputs make_inputs(const Work &p_work, std::span<const LightView> p_views,
+			std::span<const CasterList> p_casters, bool p_wants_debug_views) const;
 	/// p_run: empty for the opaque casters, else the name of the translucent ones.
 	RGTexture add_technique(const Work &p_work, ShadowTechnique &r_technique,
-			const SceneSnapshot &p_scene, const std::string &p_run);
+			const CasterFlags &p_casts, const std::string &p_run);
 	RGTexture add_translucent_casters(
 			const Work &p_work, const TranslucentCasters &p_casters, RGTexture p_opaque);
 	RGTexture add_filters(const Work &p_work, RGTexture p_mask);

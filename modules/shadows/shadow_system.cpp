@@ -1,15 +1,9 @@
 #include "modules/shadows/shadow_system.h"
 
+#include "modules/core/limits.h"
 #include "modules/core/log.h"
 
 namespace gnomon {
-
-namespace {
-
-// A light that turns away and comes back soon finds its maps; one that stays away holds no memory.
-constexpr uint64_t KEPT_FRAMES = 60;
-
-} // namespace
 
 ShadowSystem::ShadowSystem(RenderingDevice &p_device, std::shared_ptr<MeshStore> p_meshes) :
 		device(p_device),

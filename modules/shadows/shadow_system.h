@@ -41,8 +41,6 @@ private:
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
 		LightLimits limits;
-		/// Of the last frame, where casters are translucent: other than the frame's own.
-		std::shared_ptr<const SceneSnapshot> scene;
 		uint64_t last_frame = 0; // in which it was asked for
 	};
 	/// Of a light: 0, and 1 + i for its group i of translucent casters.

@@ -127,9 +127,8 @@ public:
 			std::vector<QualitySetting> & /*r_settings*/) const {}
 	/// Called once a frame with p_properties as in Inputs. Leave empty when nothing is rendered
 	/// from the light.
-	virtual void get_light_views(const LightSnapshot & /*p_light*/,
-			const SceneSnapshot & /*p_scene*/, const PropertyValues & /*p_properties*/,
-			std::vector<LightView> & /*r_views*/) const {}
+	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
+			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
 	/// True: directional views may be narrowed to what the camera sees and what lies a penumbra
 	/// beside it, since the technique asks its maps about receivers alone.
 	virtual bool asks_receivers_alone() const { return false; }

@@ -106,20 +106,19 @@ TranslucentCasters find_translucent_casters(
 	return casters;
 }
 
-std::shared_ptr<const SceneSnapshot> make_opaque_scene(const SceneSnapshot &p_scene,
-		const TranslucentCasters &p_casters, const TranslucentGroup *p_group) {
-	auto scene = std::make_shared<SceneSnapshot>(p_scene);
-	for (size_t index = 0; index < p_casters.is_translucent.size(); ++index) {
-		if (p_casters.is_translucent[index] != 0) {
-			scene->instances[index].casts_shadow = false;
-		}
+CasterFlags find_opaque_casters(const SceneSnapshot &p_scene, const TranslucentCasters &p_casters,
+		const TranslucentGroup *p_group) {
+	CasterFlags casts(p_scene.instances.size());
+	for (size_t index = 0; index < casts.size(); ++index) {
+		const bool is_translucent = !p_casters.is_empty() && p_casters.is_translucent[index] != 0;
+		casts[index] = p_scene.instances[index].casts_shadow && !is_translucent ? 1 : 0;
 	}
 	if (p_group != nullptr) {
 		for (const uint32_t index : p_group->instances) {
-			scene->instances[index].casts_shadow = true;
+			casts[index] = 1;
 		}
 	}
-	return scene;
+	return casts;
 }
 
 } // namespace gnomon

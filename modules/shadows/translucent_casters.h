@@ -28,9 +28,12 @@ struct TranslucentCasters {
 TranslucentCasters find_translucent_casters(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
-/// The scene as a technique sees it that knows opaque casters only: those that are, and the group's
-/// as if they were (null: none). The other translucent ones cast nothing.
-std::shared_ptr<const SceneSnapshot> make_opaque_scene(const SceneSnapshot &p_scene,
-		const TranslucentCasters &p_casters, const TranslucentGroup *p_group);
+/// By instance: 1 where it casts a shadow.
+using CasterFlags = std::vector<uint8_t>;
+
+/// What a technique sees that knows opaque casters only: those that are opaque, and the group's as
+/// if they were (null: none). The other translucent ones cast nothing.
+CasterFlags find_opaque_casters(const SceneSnapshot &p_scene, const TranslucentCasters &p_casters,
+		const TranslucentGroup *p_group);
 
 } // namespace gnomon

@@ -13,7 +13,7 @@ class NothingSeen : public ShadowTechnique {
 public:
 	static inline VolumeMaker maker = VolumeMaker::COMPUTE;
 
-	void get_light_views(const LightSnapshot &p_light, const SceneSnapshot &p_scene,
+	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues & /*p_properties*/,
 			std::vector<LightView> &r_views) const override {
 		r_views = build_listing_views(p_light, p_scene);
