@@ -12,7 +12,6 @@ namespace {
 std::mutex log_mutex;
 LogSink log_sink;
 std::atomic<LogLevel> lowest_level = LogLevel::INFO;
-std::atomic<unsigned> line_counts[3];
 
 } // namespace
 
@@ -25,12 +24,7 @@ void set_log_level(LogLevel p_level) {
 	lowest_level = p_level;
 }
 
-unsigned get_log_count(LogLevel p_level) {
-	return line_counts[static_cast<int>(p_level)];
-}
-
 void write_log(LogLevel p_level, const std::string &p_line) {
-	++line_counts[static_cast<int>(p_level)];
 	if (p_level < lowest_level) {
 		return;
 	}

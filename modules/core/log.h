@@ -20,8 +20,6 @@ void forward_log(const LogSink &p_sink, LogLevel p_level, const std::string &p_l
 /// Lines below this level are dropped. Default INFO.
 void set_log_level(LogLevel p_level);
 void write_log(LogLevel p_level, const std::string &p_line);
-/// How many lines of this level were written since the program began, dropped ones included.
-unsigned get_log_count(LogLevel p_level);
 
 template <typename... Arguments> void log_info(const Arguments &...p_arguments) {
 	write_log(LogLevel::INFO, text(p_arguments...));

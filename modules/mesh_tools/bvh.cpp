@@ -1,7 +1,5 @@
 #include "modules/mesh_tools/bvh.h"
 
-#include "modules/core/error.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +14,6 @@ constexpr int BIN_COUNT = 16;
 /// Unlucky boxes (sizes that double each time) peel off one by one; below this depth halves are
 /// taken instead, so that the traversal's stack is bounded.
 constexpr int MAX_SAH_DEPTH = 32;
-constexpr size_t STACK_SIZE = 128; // MAX_SAH_DEPTH + 32 halvings of 2^32 items, and room
 
 double get_half_area(const Bounds &p_bounds) {
 	if (p_bounds.is_empty()) {
@@ -37,23 +34,6 @@ glm::dvec3 get_centre(const Bounds &p_box) {
 	const glm::dvec3 limit(1e150);
 	return 0.5 * glm::clamp(p_box.minimum, -limit, limit) +
 			0.5 * glm::clamp(p_box.maximum, -limit, limit);
-}
-
-bool overlaps(const Bounds &p_left, const Bounds &p_right) {
-	return p_left.minimum.x <= p_right.maximum.x && p_right.minimum.x <= p_left.maximum.x &&
-			p_left.minimum.y <= p_right.maximum.y && p_right.minimum.y <= p_left.maximum.y &&
-			p_left.minimum.z <= p_right.maximum.z && p_right.minimum.z <= p_left.maximum.z;
-}
-
-/// False when the box is wholly behind the plane.
-bool reaches_front(const Bounds &p_box, const glm::dvec4 &p_plane) {
-	double side = p_plane.w;
-	for (int axis = 0; axis < 3; ++axis) {
-		if (p_plane[axis] != 0) { // 0 times infinity is not a number
-			side += p_plane[axis] * (p_plane[axis] > 0 ? p_box.maximum : p_box.minimum)[axis];
-		}
-	}
-	return !(side < 0);
 }
 
 struct BuildItem {
@@ -173,56 +153,9 @@ Bvh::Bvh(std::span<const Bounds> p_boxes) {
 		stack.push_back({ left, work.begin, middle, work.depth + 1 });
 	}
 	items.reserve(build.size());
-	boxes.reserve(build.size());
 	for (const BuildItem &item : build) {
 		items.push_back(item.index);
-		boxes.push_back(item.box);
 	}
-}
-
-template <typename Test> void Bvh::find(const Test &p_test, std::vector<uint32_t> &r_items) const {
-	if (nodes.empty()) {
-		return;
-	}
-	const size_t begin = r_items.size();
-	std::array<uint32_t, STACK_SIZE> stack{};
-	size_t depth = 0;
-	stack[depth++] = 0;
-	while (depth > 0) {
-		const Node &node = nodes[stack[--depth]];
-		if (!p_test(node.bounds)) {
-			continue;
-		}
-		for (uint32_t i = node.first; i < node.first + node.item_count; ++i) {
-			if (p_test(boxes[i])) {
-				r_items.push_back(items[i]);
-			}
-		}
-		if (node.item_count == 0) {
-			GNOMON_ASSERT(depth + 2 <= STACK_SIZE, "tree of ", nodes.size(), " nodes is too deep");
-			stack[depth++] = node.first + 1;
-			stack[depth++] = node.first;
-		}
-	}
-	std::sort(r_items.begin() + static_cast<ptrdiff_t>(begin), r_items.end());
-}
-
-void Bvh::find_in_box(const Bounds &p_box, std::vector<uint32_t> &r_items) const {
-	if (is_usable(p_box)) {
-		find([&](const Bounds &p_bounds) { return overlaps(p_bounds, p_box); }, r_items);
-	}
-}
-
-void Bvh::find_in_planes(
-		std::span<const glm::dvec4> p_planes, std::vector<uint32_t> &r_items) const {
-	find(
-			[&](const Bounds &p_bounds) {
-				return std::all_of(
-						p_planes.begin(), p_planes.end(), [&](const glm::dvec4 &p_plane) {
-							return reaches_front(p_bounds, p_plane);
-						});
-			},
-			r_items);
 }
 
 } // namespace gnomon

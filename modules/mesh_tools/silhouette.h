@@ -40,11 +40,4 @@ int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is
 /// the world. A light that is not finite has no silhouette and faces nothing.
 Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
-/// The same edges as the shaders find, bit for bit: silhouette_inc.glsl in C++, float32 in the same
-/// order. Indices into MeshTopology::edges, ascending. Boundary edges always; edges whose faces are
-/// turned differently. In general position these are the edges of build_silhouette; where the light
-/// lies in a face's plane up to rounding, they may differ.
-std::vector<uint32_t> find_silhouette_edges(
-		const MeshTopology &p_topology, const glm::vec4 &p_light_node);
-
 } // namespace gnomon

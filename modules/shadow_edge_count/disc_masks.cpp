@@ -1,6 +1,5 @@
 #include "modules/shadow_edge_count/disc_masks.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -8,8 +7,6 @@
 namespace gnomon {
 
 namespace {
-
-const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
 /// The bits of a number below p_count, a power of two, the other way round.
 uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
@@ -20,7 +17,7 @@ uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	return reversed;
 }
 
-/// The middle of a bin of diamond angles, see find_direction; not unit.
+/// The middle of a bin of diamond angles, see count_masks_inc.glsl; not unit.
 glm::dvec2 compute_bin_center(uint32_t p_bin) {
 	const double angle = 4.0 * (p_bin + 0.5) / DiscMasks::DIRECTION_COUNT;
 	const double x = angle < 2.0 ? 1.0 - std::abs(angle - 1.0) : std::abs(angle - 3.0) - 1.0;
@@ -36,32 +33,6 @@ glm::dvec2 DiscMasks::compute_sample(uint32_t p_index) const {
 	const double radius = std::sqrt((reverse_bits(number, count) + 0.5) / count);
 	const double angle = 2.0 * std::numbers::pi * (number + 0.5) / count;
 	return radius * glm::dvec2(std::cos(angle), std::sin(angle));
-}
-
-uint32_t DiscMasks::find_sector(const glm::dvec2 &p_direction) const {
-	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
-	const double place = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
-	return static_cast<uint32_t>(place) % SAMPLE_COUNT;
-}
-
-uint64_t DiscMasks::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const {
-	const auto before = [](uint32_t p_place) { return (uint64_t(1) << p_place) - 1; };
-	const uint32_t from = find_sector(p_from);
-	const uint32_t to = find_sector(p_to);
-	const uint64_t between = before(from) ^ before(to);
-	return from > to ? ~between : between;
-}
-
-uint32_t DiscMasks::find_direction(const glm::dvec2 &p_direction) {
-	// The diamond angle y / (|x| + |y|) needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x.
-	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
-	const double share = sum > 0 ? p_direction.y / sum : 0.0;
-	const double angle = p_direction.x >= 0 ? 1.0 + share : 3.0 - share;
-	return static_cast<uint32_t>(angle * (DIRECTION_COUNT / 4)) % DIRECTION_COUNT;
-}
-
-uint32_t DiscMasks::find_offset(double p_offset) {
-	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
 }
 
 DiscMasks::DiscMasks(uint32_t p_turn, uint32_t p_turn_count) :

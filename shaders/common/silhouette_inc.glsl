@@ -1,5 +1,5 @@
 // Is an edge a silhouette as seen from the light? One expression for every shader and for the CPU
-// (find_silhouette_edges in mesh_tools/silhouette.h): float32, each product and sum rounded once,
+// (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h): float32, each product and sum rounded once,
 // corners in an order that does not depend on who asks. So all find the same edges, bit for bit.
 #ifndef SILHOUETTE_INC_GLSL
 #define SILHOUETTE_INC_GLSL

@@ -1,6 +1,7 @@
 // The silhouette edges that a geometry shader finds are those of the CPU, bit for bit.
 
 #include "modules/mesh_tools/silhouette.h"
+#include "modules/mesh_tools/tests/silhouette_edges.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
 #include "modules/rendering_device/tests/device_fixture.h"
 #include "modules/shadows/gpu_topology.h"

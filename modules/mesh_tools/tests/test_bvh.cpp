@@ -1,4 +1,4 @@
-#include "modules/mesh_tools/bvh.h"
+#include "modules/mesh_tools/tests/bvh_queries.h"
 
 #include <doctest/doctest.h>
 
@@ -73,18 +73,16 @@ std::vector<uint32_t> find_by_brute_force(
 TEST_CASE("[Bvh] finds the boxes that overlap a box, as brute force does") {
 	for (const size_t count : { 1, 2, 5, 64, 1000 }) {
 		const std::vector<Bounds> boxes = make_boxes(static_cast<uint32_t>(count), count);
-		const Bvh bvh(boxes);
+		const BvhQueries bvh(boxes);
 		for (const Bounds &query : make_boxes(99, 50)) {
-			std::vector<uint32_t> found;
-			bvh.find_in_box(query, found);
-			CHECK(found == find_by_brute_force(boxes, query));
+			CHECK(bvh.find_in_box(query) == find_by_brute_force(boxes, query));
 		}
 	}
 }
 
 TEST_CASE("[Bvh] finds the boxes that reach into a frustum, as brute force does") {
 	const std::vector<Bounds> boxes = make_boxes(3, 500);
-	const Bvh bvh(boxes);
+	const BvhQueries bvh(boxes);
 	std::mt19937 random(11);
 	std::normal_distribution<double> normal;
 	for (int i = 0; i < 50; ++i) {
@@ -94,9 +92,7 @@ TEST_CASE("[Bvh] finds the boxes that reach into a frustum, as brute force does"
 					glm::normalize(glm::dvec3(normal(random), normal(random), normal(random))),
 					2 * normal(random));
 		}
-		std::vector<uint32_t> found;
-		bvh.find_in_planes(planes, found);
-		CHECK(found == find_by_brute_force(boxes, planes));
+		CHECK(bvh.find_in_planes(planes) == find_by_brute_force(boxes, planes));
 	}
 }
 
@@ -107,14 +103,10 @@ TEST_CASE("[Bvh] boxes in one place, in a row of growing sizes, or without size 
 		boxes.push_back(make_box(
 				glm::dvec3(std::pow(1.9, i) * 1e-40), glm::dvec3(std::pow(1.9, i) * 1e-40)));
 	}
-	const Bvh bvh(boxes);
-	std::vector<uint32_t> found;
-	bvh.find_in_box(make_box(glm::dvec3(-1), glm::dvec3(1e200)), found);
-	CHECK(found.size() == boxes.size());
-	found.clear();
+	const BvhQueries bvh(boxes);
+	CHECK(bvh.find_in_box(make_box(glm::dvec3(-1), glm::dvec3(1e200))).size() == boxes.size());
 	const Bounds query = make_box(glm::dvec3(0.5), glm::dvec3(0.5));
-	bvh.find_in_box(query, found);
-	CHECK(found == find_by_brute_force(boxes, query));
+	CHECK(bvh.find_in_box(query) == find_by_brute_force(boxes, query));
 }
 
 TEST_CASE("[Bvh] empty and NaN boxes are never found, infinite ones are") {
@@ -125,21 +117,17 @@ TEST_CASE("[Bvh] empty and NaN boxes are never found, infinite ones are") {
 	for (const Bounds &box : make_boxes(5, 20)) {
 		boxes.push_back(box);
 	}
-	const Bvh bvh(boxes);
-	std::vector<uint32_t> found;
+	const BvhQueries bvh(boxes);
 	const Bounds query = make_box(glm::dvec3(0.2), glm::dvec3(0.4));
-	bvh.find_in_box(query, found);
+	std::vector<uint32_t> found = bvh.find_in_box(query);
 	CHECK(found == find_by_brute_force(boxes, query));
 	CHECK(found[0] == 2);
-	found.clear();
 	const std::vector<glm::dvec4> planes = { { 1, 0, 0, 0 }, { 0, -1, 0, 0.5 } };
-	bvh.find_in_planes(planes, found);
+	found = bvh.find_in_planes(planes);
 	CHECK(found[0] == 2);
 	CHECK(found[1] == 3);
 
-	std::vector<uint32_t> nothing;
-	Bvh().find_in_box(query, nothing);
-	Bvh(std::vector<Bounds>{ Bounds() }).find_in_planes(planes, nothing);
-	bvh.find_in_box(Bounds(), nothing);
-	CHECK(nothing.empty());
+	CHECK(BvhQueries({}).find_in_box(query).empty());
+	CHECK(BvhQueries({ Bounds() }).find_in_planes(planes).empty());
+	CHECK(bvh.find_in_box(Bounds()).empty());
 }

@@ -60,7 +60,7 @@ private:
 
 class Counter {
 public:
-	Counter(const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const DiscMasks> p_masks) :
+	Counter(const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const DiscLookup> p_masks) :
 			space(p_space), r(p_r), receiver(p_space, p_r), masks(p_masks), counts(p_masks.size()) {
 		for (auto &samples : counts) {
 			samples.fill(0);
@@ -175,7 +175,7 @@ private:
 				std::numbers::pi;
 		const glm::dvec2 beyond = p_side > 0 ? glm::dvec2(u.y, -u.x) : glm::dvec2(-u.y, u.x);
 		for (size_t index = 0; index < masks.size(); ++index) {
-			const DiscMasks &table = masks[index];
+			const DiscLookup &table = masks[index];
 			const uint64_t mask = table.get_mask(beyond, distance) &
 					(p_side > 0 ? table.get_wedge(p_a, p_b) : table.get_wedge(p_b, p_a));
 			for (uint32_t sample = 0; sample < DiscMasks::SAMPLE_COUNT; ++sample) {
@@ -187,7 +187,7 @@ private:
 	const CountSpace &space;
 	const glm::dvec3 r;
 	const Receiver receiver;
-	const std::span<const DiscMasks> masks;
+	const std::span<const DiscLookup> masks;
 	double area = 0; // of the disc's
 	std::vector<std::array<int, DiscMasks::SAMPLE_COUNT>> counts;
 };
@@ -289,7 +289,7 @@ int count_solids_in_double(
 
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
-		std::span<const DiscMasks> p_masks) {
+		std::span<const DiscLookup> p_masks) {
 	Counter counter(p_space, p_r, p_masks);
 	const Crossings crossings = count_crossings(p_space, p_r, p_faces);
 	if (p_space.disc_radius > 0) {

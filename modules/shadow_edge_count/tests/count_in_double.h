@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/mesh_tools/topology.h"
-#include "modules/shadow_edge_count/disc_masks.h"
+#include "modules/shadow_edge_count/tests/disc_lookup.h"
 
 #include <glm/glm.hpp>
 
@@ -65,6 +65,6 @@ int count_solids_in_double(
 /// p_edges: all that may matter to it. p_masks: of 64 points of the light each.
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
-		std::span<const DiscMasks> p_masks);
+		std::span<const DiscLookup> p_masks);
 
 } // namespace gnomon

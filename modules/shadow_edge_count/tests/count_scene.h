@@ -115,7 +115,7 @@ public:
 	const std::vector<CountEdge> &get_edges() const { return casters.edges; }
 	const std::vector<CountFace> &get_faces() const { return casters.faces; }
 	const CountSpace &get_space() const { return space; }
-	const std::vector<DiscMasks> &get_masks() const { return masks; }
+	const std::vector<DiscLookup> &get_masks() const { return masks; }
 
 private:
 	struct Object {
@@ -149,7 +149,7 @@ private:
 	CountSpace space;
 	glm::dmat4 view_from_world = glm::dmat4(1.0);
 	CountedCasters casters;
-	std::vector<DiscMasks> masks;
+	std::vector<DiscLookup> masks;
 	std::vector<glm::dvec3> triangles; // world, three per face
 };
 

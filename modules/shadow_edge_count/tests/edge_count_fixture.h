@@ -87,7 +87,7 @@ private:
 	glm::dmat4 light_from_world = glm::dmat4(1.0);
 	CountSpace space;
 	CountedCasters casters;
-	std::vector<DiscMasks> masks;
+	std::vector<DiscLookup> masks;
 };
 
 /// How far a mask is from what it should be.

@@ -1,4 +1,4 @@
-#include "modules/shadow_edge_count/disc_masks.h"
+#include "modules/shadow_edge_count/tests/disc_lookup.h"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ TEST_CASE("[EdgeCount] each ring and each sector of the disc has one point of al
 		std::vector<uint32_t> rings(count, 0);
 		std::vector<uint32_t> sectors(count, 0);
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
-			const DiscMasks masks(turn, turn_count);
+			const DiscLookup masks(turn, turn_count);
 			for (uint32_t index = 0; index < DiscMasks::SAMPLE_COUNT; ++index) {
 				const glm::dvec2 point = masks.compute_sample(index);
 				++rings.at(size_t(glm::dot(point, point) * count));
@@ -43,7 +43,7 @@ TEST_CASE("[EdgeCount] a wedge has the points between its directions, in each tu
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
 			CAPTURE(turn_count);
 			CAPTURE(turn);
-			const DiscMasks masks(turn, turn_count);
+			const DiscLookup masks(turn, turn_count);
 			for (uint32_t pair = 0; pair < 500; ++pair) {
 				const double from = std::fmod(pair * 0.7548776662, 1.0) * two_pi;
 				// An edge is seen under less than half a circle.

@@ -1,4 +1,4 @@
-#include "modules/mesh_tools/silhouette.h"
+#include "modules/mesh_tools/tests/silhouette_edges.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
 

@@ -1,0 +1,41 @@
+#include "modules/shadow_edge_count/tests/disc_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gnomon {
+
+namespace {
+
+const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
+
+} // namespace
+
+uint32_t DiscLookup::find_sector(const glm::dvec2 &p_direction) const {
+	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
+	const double place = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
+	return static_cast<uint32_t>(place) % SAMPLE_COUNT;
+}
+
+uint64_t DiscLookup::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const {
+	const auto before = [](uint32_t p_place) { return (uint64_t(1) << p_place) - 1; };
+	const uint32_t from = find_sector(p_from);
+	const uint32_t to = find_sector(p_to);
+	const uint64_t between = before(from) ^ before(to);
+	return from > to ? ~between : between;
+}
+
+uint32_t DiscLookup::find_direction(const glm::dvec2 &p_direction) {
+	// The diamond angle y / (|x| + |y|) needs no arc tangent: 0 at -y, 1 at +x, 2 at +y, 3 at -x.
+	const double sum = std::abs(p_direction.x) + std::abs(p_direction.y);
+	const double share = sum > 0 ? p_direction.y / sum : 0.0;
+	const double angle = p_direction.x >= 0 ? 1.0 + share : 3.0 - share;
+	return static_cast<uint32_t>(angle * (DIRECTION_COUNT / 4)) % DIRECTION_COUNT;
+}
+
+uint32_t DiscLookup::find_offset(double p_offset) {
+	return static_cast<uint32_t>(OFFSET_COUNT * std::clamp(p_offset, 0.0, 0.9999));
+}
+
+} // namespace gnomon
