@@ -26,6 +26,11 @@ bool shares_memory(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
 }
 
+uint64_t compute_size_bytes(const TextureDesc &p_desc) {
+	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * p_desc.layer_count *
+			get_texel_size_bytes(p_desc.format);
+}
+
 } // namespace
 
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
@@ -56,39 +61,43 @@ uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
 	return total_bytes;
 }
 
-std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_requests,
-		std::vector<std::vector<uint32_t>> &r_predecessors) {
+std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_requests,
+		SharedKinds p_kinds, std::vector<std::vector<uint32_t>> &r_predecessors) {
 	struct Slot {
-		uint32_t owner = 0; // the request whose buffer it is
+		uint32_t owner = 0; // the request whose resource it is
 		uint32_t last = 0;	// the request that used it last
 	};
-	std::vector<uint32_t> order;
-	for (uint32_t index = 0; index < p_requests.size(); ++index) {
-		if (!p_requests[index].is_texture) {
-			order.push_back(index);
-		}
-	}
+	std::vector<uint32_t> order(p_requests.size());
+	std::iota(order.begin(), order.end(), 0u);
 	std::stable_sort(order.begin(), order.end(), [&](uint32_t p_left, uint32_t p_right) {
 		return p_requests[p_left].first_pass < p_requests[p_right].first_pass;
 	});
-	const auto is_alike = [](BufferDesc p_left, const BufferDesc &p_right) {
-		p_left.name = p_right.name;
-		return p_left == p_right;
+	const auto may_share = [&](const TransientRequest &p_request) {
+		// What the host maps is ordered by submissions, not by barriers: each has its own.
+		return p_request.is_texture ? p_kinds == SharedKinds::BUFFERS_AND_TEXTURES
+									: p_request.buffer.memory == MemoryKind::GPU;
+	};
+	const auto is_alike = [](TransientRequest p_left, const TransientRequest &p_right) {
+		p_left.texture.name = p_right.texture.name;
+		p_left.buffer.name = p_right.buffer.name;
+		return p_left.is_texture == p_right.is_texture &&
+				(p_left.is_texture ? p_left.texture == p_right.texture
+								   : p_left.buffer == p_right.buffer);
 	};
 	std::vector<Slot> slots;
 	std::vector<uint32_t> owners(p_requests.size());
 	for (const uint32_t index : order) {
 		const TransientRequest &request = p_requests[index];
-		// What the host maps is ordered by submissions, not by barriers: each has its own.
-		const auto free_slot = request.buffer.memory != MemoryKind::GPU
-				? slots.end()
-				: std::find_if(slots.begin(), slots.end(), [&](const Slot &p_slot) {
-					  return is_alike(p_requests[p_slot.owner].buffer, request.buffer) &&
-							  p_requests[p_slot.last].last_pass < request.first_pass;
-				  });
+		owners[index] = index;
+		if (!may_share(request)) {
+			continue;
+		}
+		const auto free_slot = std::find_if(slots.begin(), slots.end(), [&](const Slot &p_slot) {
+			return is_alike(p_requests[p_slot.owner], request) &&
+					p_requests[p_slot.last].last_pass < request.first_pass;
+		});
 		if (free_slot == slots.end()) {
 			slots.push_back({ index, index });
-			owners[index] = index;
 			continue;
 		}
 		r_predecessors[index].push_back(free_slot->last);
@@ -115,18 +124,56 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 					return p_left->last_use < p_right->last_use;
 				}));
 	}
+	entries.push_back(make_entry(p_requests));
+	entries.back()->last_use = use_count;
+	return entries.back()->placement;
+}
+
+std::unique_ptr<TransientPool::Entry> TransientPool::make_entry(
+		const std::vector<TransientRequest> &p_requests) {
 	auto entry = std::make_unique<Entry>();
 	entry->requests = p_requests;
-	entry->last_use = use_count;
 	TransientPlacement &placement = entry->placement;
 	placement.textures.resize(p_requests.size());
 	placement.buffers.resize(p_requests.size());
 	placement.predecessors.resize(p_requests.size());
 
-	std::vector<PlacedBlock> blocks;
-	std::vector<uint32_t> block_requests;
+	const bool has_aliased_memory = device.get_features().aliased_memory;
+	const std::vector<uint32_t> owners = share_resources(p_requests,
+			has_aliased_memory ? SharedKinds::BUFFERS : SharedKinds::BUFFERS_AND_TEXTURES,
+			placement.predecessors);
 	for (uint32_t index = 0; index < p_requests.size(); ++index) {
 		const TransientRequest &request = p_requests[index];
+		const bool is_owner = owners[index] == index;
+		if (!request.is_texture && is_owner) {
+			entry->buffers.emplace_back(device, device.create_buffer(request.buffer));
+			placement.buffers[index] = entry->buffers.back().get();
+		} else if (request.is_texture && !has_aliased_memory) {
+			const uint64_t bytes = compute_size_bytes(request.texture);
+			placement.unaliased_bytes += bytes;
+			if (is_owner) {
+				entry->textures.emplace_back(device, device.create_texture(request.texture));
+				placement.textures[index] = entry->textures.back().get();
+				placement.aliased_bytes += bytes;
+			}
+		}
+	}
+	for (uint32_t index = 0; index < p_requests.size(); ++index) {
+		placement.textures[index] = placement.textures[owners[index]];
+		placement.buffers[index] = placement.buffers[owners[index]];
+	}
+	if (has_aliased_memory) {
+		place_textures(*entry);
+	}
+	return entry;
+}
+
+void TransientPool::place_textures(Entry &r_entry) {
+	TransientPlacement &placement = r_entry.placement;
+	std::vector<PlacedBlock> blocks;
+	std::vector<uint32_t> block_requests;
+	for (uint32_t index = 0; index < r_entry.requests.size(); ++index) {
+		const TransientRequest &request = r_entry.requests[index];
 		if (!request.is_texture) {
 			continue;
 		}
@@ -136,29 +183,17 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 		block_requests.push_back(index);
 		placement.unaliased_bytes += needs.size_bytes;
 	}
-	const std::vector<uint32_t> slots = share_buffers(p_requests, placement.predecessors);
-	for (uint32_t index = 0; index < p_requests.size(); ++index) {
-		if (!p_requests[index].is_texture && slots[index] == index) {
-			entry->buffers.emplace_back(device, device.create_buffer(p_requests[index].buffer));
-			placement.buffers[index] = entry->buffers.back().get();
-		}
-	}
-	for (uint32_t index = 0; index < p_requests.size(); ++index) {
-		if (!p_requests[index].is_texture) {
-			placement.buffers[index] = placement.buffers[slots[index]];
-		}
-	}
 	placement.aliased_bytes = place_blocks(blocks);
 	if (!blocks.empty()) {
-		entry->memory = OwnedMemory(device,
+		r_entry.memory = OwnedMemory(device,
 				device.create_texture_memory("transient textures", placement.aliased_bytes));
 	}
 	for (size_t index = 0; index < blocks.size(); ++index) {
 		const uint32_t request = block_requests[index];
-		entry->textures.emplace_back(device,
-				device.create_placed_texture(p_requests[request].texture, entry->memory.get(),
-						blocks[index].offset_bytes));
-		placement.textures[request] = entry->textures.back().get();
+		r_entry.textures.emplace_back(device,
+				device.create_placed_texture(r_entry.requests[request].texture,
+						r_entry.memory.get(), blocks[index].offset_bytes));
+		placement.textures[request] = r_entry.textures.back().get();
 		for (size_t other = 0; other < blocks.size(); ++other) {
 			if (blocks[other].last_pass < blocks[index].first_pass &&
 					shares_memory(blocks[index], blocks[other])) {
@@ -166,8 +201,6 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 			}
 		}
 	}
-	entries.push_back(std::move(entry));
-	return entries.back()->placement;
 }
 
 } // namespace gnomon

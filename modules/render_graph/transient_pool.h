@@ -24,8 +24,8 @@ struct TransientPlacement {
 	std::vector<BufferRID> buffers;
 	/// Requests whose memory request i takes over (all lived before it).
 	std::vector<std::vector<uint32_t>> predecessors;
-	uint64_t unaliased_bytes = 0;
-	uint64_t aliased_bytes = 0;
+	uint64_t unaliased_bytes = 0; // of the textures, as if none shared memory
+	uint64_t aliased_bytes = 0;	  // of the textures, as placed
 };
 
 /// A block that lives during some passes and needs an offset.
@@ -40,11 +40,12 @@ struct PlacedBlock {
 /// first, each at the lowest free offset. Returns the size of the whole.
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks);
 
-/// For each request of a buffer the request whose buffer it gets: its own, or one of the same size,
-/// usage and memory that was done with before. r_predecessors, one list per request, gets those
-/// that had it before. Entries of textures mean nothing. Buffers that the host maps are not shared.
-std::vector<uint32_t> share_buffers(const std::vector<TransientRequest> &p_requests,
-		std::vector<std::vector<uint32_t>> &r_predecessors);
+enum class SharedKinds { BUFFERS, BUFFERS_AND_TEXTURES };
+/// For each request the one whose resource it gets: its own, or one with the same description but
+/// for the name that was done with before. r_predecessors, one list per request, gets those that
+/// had it before. Buffers that the host maps, and kinds that are not shared, get their own.
+std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_requests,
+		SharedKinds p_kinds, std::vector<std::vector<uint32_t>> &r_predecessors);
 
 /// Keeps the transient resources of the last few frame shapes, so that a frame like an earlier one
 /// allocates nothing. What many frames did not use is freed.
@@ -59,11 +60,15 @@ private:
 	struct Entry {
 		std::vector<TransientRequest> requests;
 		TransientPlacement placement;
-		OwnedMemory memory;
+		OwnedMemory memory; // where textures alias it
 		std::vector<OwnedTexture> textures;
 		std::vector<OwnedBuffer> buffers;
 		uint64_t last_use = 0;
 	};
+
+	std::unique_ptr<Entry> make_entry(const std::vector<TransientRequest> &p_requests);
+	/// All textures in one block of memory, those that do not live at the same time over another.
+	void place_textures(Entry &r_entry);
 
 	RenderingDevice &device;
 	std::vector<std::unique_ptr<Entry>> entries;

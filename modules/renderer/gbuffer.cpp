@@ -10,11 +10,8 @@ namespace gnomon {
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &p_meshes,
 		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,
 		uint32_t &r_drawn_count) {
-	if (!p_device.get_features().geometry_shader) {
-		fail("Device \"", p_device.get_info().name, "\" cannot read a primitive's index in the ",
-				"fragment stage (feature geometryShader). Choose another one with --device; ",
-				"`gnomon info` lists them.");
-	}
+	// The corners of a face are found by the primitive's index.
+	const bool has_face_normals = p_device.get_features().geometry_shader;
 	const auto create = [&](const char *p_name, Format p_format) {
 		const TextureUsage target = p_format == Format::D32_SFLOAT ? TextureUsage::DEPTH_ATTACHMENT
 																   : TextureUsage::COLOR_ATTACHMENT;
@@ -24,7 +21,9 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	GBuffer gbuffer;
 	gbuffer.depth = create("camera depth", Format::D32_SFLOAT);
 	gbuffer.base_color = create("base colour", Format::RGBA8_SRGB);
-	gbuffer.geometric_normal = create("geometric normal", Format::R32_UINT);
+	if (has_face_normals) {
+		gbuffer.geometric_normal = create("geometric normal", Format::R32_UINT);
+	}
 	gbuffer.shading_normal = create("shading normal", Format::R32_UINT);
 	gbuffer.material = create("material", Format::RGBA16_SFLOAT);
 	gbuffer.emissive = create("emissive", Format::RGBA16_SFLOAT);
@@ -32,11 +31,15 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 	RasterPipelineDesc desc;
 	desc.name = "G-buffer";
 	desc.vertex_shader = "renderer/gbuffer.vert";
-	desc.fragment_shader = "renderer/gbuffer.frag";
+	desc.fragment_shader =
+			has_face_normals ? "renderer/gbuffer.frag" : "renderer/gbuffer_without_faces.frag";
 	desc.attributes = get_position_normal_attributes();
 	desc.vertex_strides_bytes = { sizeof(glm::vec3), sizeof(glm::vec3) };
-	desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::R32_UINT,
-		Format::RGBA16_SFLOAT, Format::RGBA16_SFLOAT };
+	desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::RGBA16_SFLOAT,
+		Format::RGBA16_SFLOAT };
+	if (has_face_normals) {
+		desc.color_formats.push_back(Format::R32_UINT);
+	}
 	desc.depth_compare = CompareOp::GREATER;
 	PipelineRID pipelines[2][2]; // mirrored, double-sided; made when first needed
 	const auto get_pipeline = [&](bool p_is_mirrored, bool p_is_double_sided) {
@@ -76,25 +79,30 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 				get_pipeline(instance.is_mirrored(), material.is_double_sided) });
 	}
 	r_drawn_count = static_cast<uint32_t>(draws.size());
-	r_graph.add_pass("G-buffer")
-			.reads(p_frame, Access::UNIFORM_READ)
+	PassBuilder pass = r_graph.add_pass("G-buffer");
+	pass.reads(p_frame, Access::UNIFORM_READ)
 			.color(gbuffer.base_color)
-			.color(gbuffer.geometric_normal)
 			.color(gbuffer.shading_normal)
 			.color(gbuffer.material)
-			.color(gbuffer.emissive)
-			.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
-			.execute([draws = std::move(draws), p_frame](PassContext &p_context) {
+			.color(gbuffer.emissive);
+	if (has_face_normals) {
+		pass.color(gbuffer.geometric_normal);
+	}
+	pass.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
+			.execute([draws = std::move(draws), p_frame, has_face_normals](PassContext &p_context) {
 				CommandList &commands = p_context.commands;
 				for (const Draw &draw : draws) {
 					const BufferRID vertices[] = { draw.mesh->positions.get(),
 						draw.mesh->normals.get() };
+					std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME,
+							p_context.get(p_frame) } };
+					if (has_face_normals) {
+						bindings.emplace_back(
+								GBUFFER_BINDING_POSITIONS, draw.mesh->positions.get());
+						bindings.emplace_back(GBUFFER_BINDING_INDICES, draw.mesh->indices.get());
+					}
 					commands.bind_pipeline(draw.pipeline);
-					commands.bind_resources({
-							{ GBUFFER_BINDING_FRAME, p_context.get(p_frame) },
-							{ GBUFFER_BINDING_POSITIONS, draw.mesh->positions.get() },
-							{ GBUFFER_BINDING_INDICES, draw.mesh->indices.get() },
-					});
+					commands.bind_resources(bindings);
 					commands.push_constants(draw.push);
 					commands.bind_vertex_buffers(vertices);
 					commands.bind_index_buffer(draw.mesh->indices.get());

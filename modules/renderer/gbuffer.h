@@ -10,7 +10,7 @@ namespace gnomon {
 struct GBuffer {
 	RGTexture depth;			// D32_SFLOAT, reversed
 	RGTexture base_color;		// RGBA8_SRGB
-	RGTexture geometric_normal; // R32_UINT
+	RGTexture geometric_normal; // R32_UINT; empty without DeviceFeatures::geometry_shader
 	RGTexture shading_normal;	// R32_UINT
 	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness
 								// (-1 - roughness for Phong's model), metallic

@@ -42,8 +42,12 @@ struct DeviceInfo {
 
 /// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
 /// push constants, and 32-bit depth that shaders read.
+/// Geometry shaders, aliased memory, conditional rendering and depth bounds make frames faster;
+/// without them the masks are the same.
 struct DeviceFeatures {
+	/// Geometry shaders, and the primitive's index in fragment shaders.
 	bool geometry_shader = false;
+	bool aliased_memory = false; // create_texture_memory, create_placed_texture
 	bool depth_clamp = false;
 	bool depth_bounds = false;
 	bool conditional_rendering = false;
@@ -134,7 +138,8 @@ public:
 	/// Mapped memory of an UPLOAD or READBACK buffer, valid as long as the buffer.
 	virtual uint8_t *get_mapped(BufferRID p_buffer) = 0;
 
-	// Aliased memory, for the render graph: textures placed in one block of memory.
+	// Aliased memory, for the render graph: textures placed in one block of memory. Needs
+	// DeviceFeatures::aliased_memory.
 	struct PlacementNeeds {
 		uint64_t size_bytes = 0;
 		uint64_t alignment_bytes = 1;

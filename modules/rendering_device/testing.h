@@ -10,6 +10,7 @@ namespace gnomon {
 /// Features that a device is to lack, though it may have them.
 struct PretendedLimits {
 	bool geometry_shader = false;
+	bool aliased_memory = false;
 	bool depth_clamp = false;
 	bool depth_bounds = false;
 	bool fragment_stores = false;

@@ -127,6 +127,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options, const PretendedLim
 
 	const VkPhysicalDeviceFeatures &enabled = wanted.v10.features;
 	features.geometry_shader = enabled.geometryShader;
+	features.aliased_memory = !p_limits.aliased_memory;
 	features.depth_clamp = enabled.depthClamp;
 	features.depth_bounds = enabled.depthBounds;
 	features.conditional_rendering = wanted.conditional.conditionalRendering;

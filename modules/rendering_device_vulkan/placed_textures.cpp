@@ -19,6 +19,7 @@ VkMemoryRequirements compute_image_needs(VkDevice p_device, const VkImageCreateI
 
 RenderingDevice::PlacementNeeds VulkanDevice::compute_placement_needs(const TextureDesc &p_desc) {
 	fail_if_lost();
+	GNOMON_ASSERT(features.aliased_memory, "texture '", p_desc.name, "' cannot be placed");
 	check_texture_limits(p_desc);
 	const VkMemoryRequirements needs = compute_image_needs(device, make_image_info(p_desc));
 	return { needs.size, needs.alignment };
@@ -26,6 +27,7 @@ RenderingDevice::PlacementNeeds VulkanDevice::compute_placement_needs(const Text
 
 MemoryRID VulkanDevice::create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) {
 	fail_if_lost();
+	GNOMON_ASSERT(features.aliased_memory, "memory '", p_name, "' cannot be shared");
 	GNOMON_ASSERT(p_size_bytes > 0, "memory '", p_name, "' has no bytes");
 	// The types that colour, storage and depth images agree on.
 	const TextureDesc samples[] = {

@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/render_graph/fill_pass.h"
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
 #include "modules/rendering_device/testing.h"
@@ -15,10 +16,10 @@ struct GraphFixture {
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<TransientPool> pool;
 
-	GraphFixture() {
+	explicit GraphFixture(const PretendedLimits &p_limits = {}) {
 		DeviceOptions options;
 		options.validation = true;
-		device = create_rendering_device(options);
+		device = create_limited_rendering_device(options, p_limits);
 		pool = std::make_unique<TransientPool>(*device);
 	}
 };
@@ -86,8 +87,10 @@ TEST_CASE("[GPU][RenderGraph] values pass through a chain of copies in every mod
 	}
 }
 
-TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool keeps it") {
-	GraphFixture fixture;
+namespace {
+
+void check_chain(const PretendedLimits &p_limits) {
+	GraphFixture fixture(p_limits);
 	uint64_t used_bytes = 0;
 	for (int frame = 0; frame < 3; ++frame) {
 		RenderGraph graph(*fixture.device, *fixture.pool);
@@ -109,6 +112,37 @@ TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool kee
 		}
 		used_bytes = fixture.device->get_memory_use().used_bytes;
 	}
+}
+
+} // namespace
+
+TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool keeps it") {
+	check_chain({});
+}
+
+TEST_CASE("[GPU][RenderGraph] without aliased memory alike textures of a chain are one") {
+	check_chain({ .aliased_memory = true });
+}
+
+TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
+	GraphFixture fixture;
+	const size_t word_count = 1000; // no multiple of a workgroup
+	RenderGraph graph(*fixture.device, *fixture.pool);
+	const RGBuffer words = graph.create_buffer({ "words", word_count * sizeof(uint32_t),
+			BufferUsage::STORAGE | BufferUsage::COPY_SOURCE });
+	add_fill_pass(graph, *fixture.device, "fill", words, 7);
+	std::vector<uint32_t> found(word_count);
+	graph.add_pass("read")
+			.reads(words, Access::COPY_READ)
+			.keep()
+			.execute([&](PassContext &p_context) {
+				p_context.get_device().read_back(
+						p_context.get(words), [&](std::span<const uint8_t> p_bytes) {
+							std::memcpy(found.data(), p_bytes.data(), p_bytes.size());
+						});
+			});
+	graph.execute(RenderGraph::Mode::WAIT);
+	CHECK(found == std::vector<uint32_t>(word_count, 7));
 }
 
 TEST_CASE("[GPU][RenderGraph] a pass whose result nobody uses does not run, nor do its sources") {

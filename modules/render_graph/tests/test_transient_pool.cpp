@@ -71,7 +71,8 @@ TEST_CASE("[TransientPool] buffers alike that live one after the other are one, 
 		request(2, 3, small), request(3, 6, small), request(6, 7, large), request(0, 1, mapped),
 		request(2, 3, mapped), TransientRequest() };
 	std::vector<std::vector<uint32_t>> predecessors(requests.size());
-	const std::vector<uint32_t> owners = share_buffers(requests, predecessors);
+	const std::vector<uint32_t> owners =
+			share_resources(requests, SharedKinds::BUFFERS, predecessors);
 	CHECK(owners[1] == 1);
 	CHECK(owners[2] == 2); // begins in the pass in which the first one ends
 	CHECK(owners[3] == 1);
@@ -82,4 +83,25 @@ TEST_CASE("[TransientPool] buffers alike that live one after the other are one, 
 	CHECK(owners[4] == 4);
 	CHECK(owners[5] == 5);
 	CHECK(owners[6] == 6);
+}
+
+TEST_CASE("[TransientPool] textures alike are one where memory has no aliases, others are not") {
+	const auto request = [](uint32_t p_first, uint32_t p_last, const TextureDesc &p_desc) {
+		TransientRequest made;
+		made.texture = p_desc;
+		made.first_pass = p_first;
+		made.last_pass = p_last;
+		return made;
+	};
+	const TextureDesc small = { .name = "small", .size_px = glm::uvec2(8) };
+	const TextureDesc alike = { .name = "another name", .size_px = glm::uvec2(8) };
+	const TextureDesc array = { .name = "array", .size_px = glm::uvec2(8), .is_array = true };
+	const std::vector<TransientRequest> requests = { request(0, 1, small), request(1, 2, alike),
+		request(2, 3, alike), request(3, 4, array) };
+	std::vector<std::vector<uint32_t>> predecessors(requests.size());
+	CHECK(share_resources(requests, SharedKinds::BUFFERS, predecessors) ==
+			std::vector<uint32_t>{ 0, 1, 2, 3 });
+	CHECK(share_resources(requests, SharedKinds::BUFFERS_AND_TEXTURES, predecessors) ==
+			std::vector<uint32_t>{ 0, 1, 0, 3 });
+	CHECK(predecessors[2] == std::vector<uint32_t>{ 0 });
 }

@@ -234,3 +234,23 @@ TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
 	CHECK(rough > 4.0f * fine);
 	CHECK(fixture.render_mask(scene, ShadowRegistry::find_default()->id).standard_error == 0.0f);
 }
+
+TEST_CASE("[GPU][Renderer] without geometry shaders a picture differs at edges only") {
+	RenderFixture fixture;
+	RenderFixture limited("", { .geometry_shader = true });
+	SmallScene scene;
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(64);
+	request.wants_image = true;
+	request.technique_override = ShadowRegistry::get_all().at(0).id;
+	const RenderResult expected = fixture.renderer->render(request);
+	const RenderResult found = limited.renderer->render(request);
+	REQUIRE(found.image.size() == expected.image.size());
+	CHECK(found.plan.to_text().find("normals from depth") != std::string::npos);
+	size_t different_count = 0;
+	for (size_t byte = 0; byte < found.image.size(); ++byte) {
+		different_count += std::abs(int(found.image[byte]) - int(expected.image[byte])) > 2;
+	}
+	CHECK(different_count < found.image.size() / 50);
+}

@@ -79,6 +79,19 @@ TEST_CASE(
 	CHECK(contains(error, "VK_GNOMON_imaginary"));
 }
 
+TEST_CASE("[GPU][RenderingDevice] a device denies the features that it is to lack") {
+	const DeviceFixture fixture({},
+			{ .geometry_shader = true,
+					.aliased_memory = true,
+					.depth_bounds = true,
+					.conditional_rendering = true });
+	const DeviceFeatures &features = fixture.device->get_features();
+	CHECK_FALSE(features.geometry_shader);
+	CHECK_FALSE(features.aliased_memory);
+	CHECK_FALSE(features.depth_bounds);
+	CHECK_FALSE(features.conditional_rendering);
+}
+
 TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses their pipelines") {
 	DeviceFixture fixture({}, { .geometry_shader = true });
 	CHECK_FALSE(fixture.device->get_features().geometry_shader);

@@ -137,11 +137,10 @@ struct MaskFixture {
 		RenderGraph graph(*device, *transients);
 		ShadowFrame frame(*shadows, graph, result.plan, p_request.scene, p_request.size_px,
 				{ p_request.technique_override, p_request.may_leave_out, p_request.may_keep });
-		const HostSurfaces drawn = add_surface_pass(
-				graph, *shadows, *p_request.scene, p_request.size_px, frame.get_constants());
-		frame.set_surfaces(
-				{ drawn.depth, p_request.has_normals ? drawn.geometric_normal : RGTexture(),
-						p_request.has_materials ? drawn.material : RGTexture() });
+		const HostSurfaces drawn = add_surface_pass(graph, *shadows, *p_request.scene,
+				p_request.size_px, frame.get_constants(), p_request.has_normals);
+		frame.set_surfaces({ drawn.depth, drawn.geometric_normal,
+				p_request.has_materials ? drawn.material : RGTexture() });
 		const HostSurfaces &surfaces = frame.get_surfaces();
 		std::map<std::string, MaskReadback> readbacks;
 		std::vector<uint8_t> debug_texels;

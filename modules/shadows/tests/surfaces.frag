@@ -13,8 +13,8 @@ layout(push_constant) uniform Push {
 	vec4 material;
 };
 
-layout(location = 0) out uint out_normal;
-layout(location = 1) out vec4 out_material;
+layout(location = 0) out vec4 out_material;
+layout(location = 1) out uint out_normal;
 
 vec3 load_position(uint p_corner) {
 	const uint base = 3u * indices[3u * uint(gl_PrimitiveID) + p_corner];

@@ -1,0 +1,12 @@
+#version 460
+// surfaces.frag without normals, for devices that tell no fragment its primitive.
+layout(push_constant) uniform Push {
+	mat4 camera_relative_from_node;
+	vec4 material;
+};
+
+layout(location = 0) out vec4 out_material;
+
+void main() {
+	out_material = material;
+}

@@ -1,0 +1,61 @@
+// What a device may lack changes no mask.
+
+#include "modules/shadows/tests/each_technique.h"
+
+using namespace gnomon;
+
+namespace {
+
+/// Three lights at once, so that transient textures have memory to share, and two frames, so that
+/// what is kept between frames is used. Two of them draw from 1 view, one from 6.
+std::map<std::string, MaskValues> render_lights(
+		MaskFixture &r_fixture, const std::string &p_technique) {
+	SmallScene scene(LightType::SPOT);
+	Light3D &omni = scene.add_light("Omni", LightType::OMNI, { -1.5, 3.5, 1.0 }, { 0, 0.3, 0 });
+	Light3D &sun =
+			scene.add_light("Sun", LightType::DIRECTIONAL, { 0.5, 4.0, -1.0 }, { 0, 0.3, 0 });
+	for (Light3D *light : { scene.light, &omni, &sun }) {
+		make_cheap(*light);
+	}
+	MaskRequest request;
+	request.scene = scene.snap();
+	request.size_px = glm::uvec2(48);
+	request.technique_override = p_technique;
+	request.has_normals = false; // all that a device without geometry shaders has
+	r_fixture.render(request);
+	return r_fixture.render(request).masks;
+}
+
+void check_each_technique(const PretendedLimits &p_limits) {
+	MaskFixture able;
+	MaskFixture limited("", p_limits);
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		const auto expected = render_lights(able, p_info.id);
+		const auto found = render_lights(limited, p_info.id);
+		REQUIRE(found.size() == 3);
+		for (const auto &[light, mask] : found) {
+			CAPTURE(light);
+			CHECK(count_receivers(mask) > 0);
+			CHECK(mask.receiver == expected.at(light).receiver);
+			CHECK(mask.visibility == expected.at(light).visibility);
+		}
+	});
+}
+
+} // namespace
+
+TEST_CASE("[GPU][Techniques] without geometry shaders every technique has the same masks") {
+	check_each_technique({ .geometry_shader = true });
+}
+
+TEST_CASE("[GPU][Techniques] without aliased memory every technique has the same masks") {
+	check_each_technique({ .aliased_memory = true });
+}
+
+TEST_CASE("[GPU][Techniques] without conditional rendering every technique has the same masks") {
+	check_each_technique({ .conditional_rendering = true });
+}
+
+TEST_CASE("[GPU][Techniques] without depth bounds every technique has the same masks") {
+	check_each_technique({ .depth_bounds = true });
+}

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common/depth_inc.glsl"
+#include "common/normal_inc.glsl"
+#include "renderer/gbuffer_inc.glsl"
+
+// gbuffer.frag for devices that tell no fragment its primitive: without the geometric normal, for which
+// derivatives would not do at grazing angles.
+layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame {
+	FrameConstants frame;
+};
+layout(push_constant) uniform Push {
+	InstancePush instance;
+};
+
+layout(location = 0) in vec3 in_normal;
+layout(location = 0) out vec4 out_base_color;
+layout(location = 1) out uint out_shading_normal;
+layout(location = 2) out vec4 out_material;
+layout(location = 3) out vec4 out_emissive;
+
+void main() {
+	// Only where the mesh has no normals, and for the side that is seen.
+	const vec3 position = position_from_depth(frame, ivec2(gl_FragCoord.xy), gl_FragCoord.z);
+	const vec3 across = cross(dFdx(position), dFdy(position));
+	const float length2 = dot(across, across);
+	const vec3 face = length2 > 0.0 ? across * inversesqrt(length2) : -normalize(position);
+	const vec3 shading = make_shading_normal(in_normal, dot(face, position) > 0.0 ? -face : face);
+
+	out_base_color = vec4(instance.base_color_roughness.rgb, 1.0);
+	out_shading_normal = pack_normal(shading);
+	out_material = make_material(instance);
+	out_emissive = vec4(instance.emissive_metallic.rgb, 1.0);
+}
