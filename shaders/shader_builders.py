@@ -56,8 +56,9 @@ def add_builders(env):
     scanner = env.Scanner(function=_scan, skeys=["." + stage for stage in STAGES] + [".glsl", ".h"], recursive=True)
     debug = "-g" if env["dev_build"] else "-g0"
     env["BUILDERS"]["Spirv"] = env.Builder(
+        # vulkan1.1 (SPIR-V 1.3) is the lowest target that has subgroup operations.
         action=Action(  # not env.Action: that expands $TARGET at once, to nothing
-            "glslangValidator -V --quiet --target-env vulkan1.3 %s -I%s -o $TARGET ${SOURCE.srcpath}"
+            "glslangValidator -V --quiet --target-env vulkan1.1 %s -I%s -o $TARGET ${SOURCE.srcpath}"
             % (debug, env.Dir("#shaders").path),
             "Compiling shader $SOURCE",
         ),

@@ -95,8 +95,9 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 	glslang::TShader shader(stage);
 	shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
 	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
-	shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
-	shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
+	// The target of shaders/shader_builders.py: the lowest that has subgroup operations.
+	shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
+	shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
 	const EShMessages messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
 	FolderIncluder includer(p_folder);
 	if (!shader.parse(GetDefaultResources(), GLSL_VERSION, false, messages, includer)) {

@@ -57,6 +57,14 @@ TEST_CASE("[SpirvReflection] words that are no SPIR-V are an error that names th
 	CHECK_THROWS_AS(reflect_spirv("a.comp", cut, {}), Error);
 }
 
+TEST_CASE("[SpirvReflection] no embedded shader needs more than SPIR-V 1.3") {
+	for (const EmbeddedShader &shader : get_embedded_shaders()) {
+		CAPTURE(shader.name);
+		REQUIRE(shader.spirv.size() > 1);
+		CHECK(shader.spirv[1] <= 0x00010300u);
+	}
+}
+
 TEST_CASE("[Access] a second reader in another stage is chained to the first") {
 	const TextureRID texture{ 1 };
 	const auto read_after = [&](Access p_before, Access p_after) {
