@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -145,11 +146,13 @@ struct StencilFace {
 	StencilOp fail = StencilOp::KEEP;
 	StencilOp depth_fail = StencilOp::KEEP;
 	StencilOp pass = StencilOp::KEEP;
+	auto operator<=>(const StencilFace &) const = default;
 };
 struct StencilTest {
 	StencilFace front;
 	StencilFace back;
 	uint32_t reference = 0; // what is compared with and what REPLACE writes, 0 to 255
+	auto operator<=>(const StencilTest &) const = default;
 };
 enum class CullMode { NONE, FRONT, BACK };
 /// NORMAL: front faces are counter-clockwise as seen in a y-up view. Mirrored transforms wind them
@@ -162,12 +165,25 @@ enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
 struct SpecializationConstant {
 	uint32_t constant_id = 0;
 	uint32_t value = 0;
+	auto operator<=>(const SpecializationConstant &) const = default;
+};
+
+/// Shown in errors and debuggers. It changes nothing, and so all are equal: descriptions that
+/// differ in their name alone are of one pipeline.
+struct PipelineName : std::string {
+	using std::string::string;
+	PipelineName(std::string p_name) : std::string(std::move(p_name)) {}
+	friend bool operator==(const PipelineName &, const PipelineName &) { return true; }
+	friend std::strong_ordering operator<=>(const PipelineName &, const PipelineName &) {
+		return std::strong_ordering::equal;
+	}
 };
 
 struct ComputePipelineDesc {
-	std::string name;
+	PipelineName name;
 	std::string shader; // "shadow_map/resolve.comp"
 	std::vector<SpecializationConstant> constants;
+	auto operator<=>(const ComputePipelineDesc &) const = default;
 };
 
 struct VertexAttribute {
@@ -177,10 +193,11 @@ struct VertexAttribute {
 	Format format = Format::R32_SFLOAT;
 	uint32_t component_count = 3; // floats: R32_SFLOAT with 1..4 components
 	uint32_t offset_bytes = 0;
+	auto operator<=>(const VertexAttribute &) const = default;
 };
 
 struct RasterPipelineDesc {
-	std::string name;
+	PipelineName name;
 	std::string vertex_shader;
 	std::string geometry_shader;				   // empty = none
 	std::string fragment_shader;				   // empty = depth only
@@ -204,6 +221,7 @@ struct RasterPipelineDesc {
 	bool has_depth_bounds = false;
 	float depth_bias_constant = 0.0f;
 	float depth_bias_slope = 0.0f;
+	auto operator<=>(const RasterPipelineDesc &) const = default;
 };
 
 /// Where an attachment's first content comes from.

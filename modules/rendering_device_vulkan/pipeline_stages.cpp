@@ -45,12 +45,4 @@ void PipelineStages::add(const std::string &p_shader, VkShaderStageFlagBits p_ex
 			.pSpecializationInfo = &specialization });
 }
 
-std::string describe_constants(const std::vector<SpecializationConstant> &p_constants) {
-	std::string description;
-	for (const SpecializationConstant &constant : p_constants) {
-		description += text(" ", constant.constant_id, "=", constant.value);
-	}
-	return description;
-}
-
 } // namespace gnomon

@@ -29,7 +29,4 @@ private:
 	std::vector<VkPipelineShaderStageCreateInfo> infos;
 };
 
-/// Part of a pipeline's description, by which equal ones are found.
-std::string describe_constants(const std::vector<SpecializationConstant> &p_constants);
-
 } // namespace gnomon

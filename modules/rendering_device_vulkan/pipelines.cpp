@@ -92,18 +92,10 @@ void VulkanDevice::destroy(PipelineResource &r_pipeline) {
 	vkDestroyDescriptorSetLayout(device, r_pipeline.set_layout, nullptr);
 }
 
-PipelineRID VulkanDevice::find_pipeline(const std::string &p_description) const {
-	const auto found = pipelines_by_description.find(p_description);
-	return found == pipelines_by_description.end() ? PipelineRID() : found->second;
-}
-
-PipelineRID VulkanDevice::add_pipeline(
-		const std::string &p_description, PipelineResource &&p_pipeline) {
+PipelineRID VulkanDevice::add_pipeline(PipelineResource &&p_pipeline) {
 	set_name(VK_OBJECT_TYPE_PIPELINE, p_pipeline.pipeline, p_pipeline.name);
 	pipelines.push_back(std::move(p_pipeline));
-	const PipelineRID handle{ pipelines.size() };
-	pipelines_by_description[p_description] = handle;
-	return handle;
+	return { pipelines.size() };
 }
 
 const PipelineResource &VulkanDevice::get_pipeline(PipelineRID p_pipeline) const {
@@ -143,11 +135,11 @@ PipelineResource VulkanDevice::make_pipeline(const ComputePipelineDesc &p_desc) 
 
 PipelineRID VulkanDevice::get_compute_pipeline(const ComputePipelineDesc &p_desc) {
 	fail_if_lost();
-	const std::string description = p_desc.shader + describe_constants(p_desc.constants);
-	if (const PipelineRID found = find_pipeline(description)) {
-		return found;
+	const auto found = compute_pipelines.find(p_desc);
+	if (found != compute_pipelines.end()) {
+		return found->second;
 	}
-	return add_pipeline(description, make_pipeline(p_desc));
+	return compute_pipelines[p_desc] = add_pipeline(make_pipeline(p_desc));
 }
 
 } // namespace gnomon

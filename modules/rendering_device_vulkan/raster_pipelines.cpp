@@ -6,42 +6,6 @@ namespace gnomon {
 
 namespace {
 
-std::string describe(const StencilFace &p_face) {
-	return text(" ", static_cast<int>(p_face.compare), ":", static_cast<int>(p_face.fail), ":",
-			static_cast<int>(p_face.depth_fail), ":", static_cast<int>(p_face.pass));
-}
-
-std::string describe(const StencilTest &p_test) {
-	return describe(p_test.front) + describe(p_test.back) + text(" ", p_test.reference);
-}
-
-/// Everything but the name, which changes nothing.
-std::string describe(const RasterPipelineDesc &p_desc) {
-	std::string description = text(p_desc.vertex_shader, " ", p_desc.geometry_shader, " ",
-			p_desc.fragment_shader, describe_constants(p_desc.constants), " attributes");
-	for (const VertexAttribute &attribute : p_desc.attributes) {
-		description += text(" ", attribute.location, ":", attribute.buffer_index, ":",
-				static_cast<int>(attribute.format), ":", attribute.component_count, ":",
-				attribute.offset_bytes);
-	}
-	description += " strides";
-	for (const uint32_t stride : p_desc.vertex_strides_bytes) {
-		description += text(" ", stride);
-	}
-	description += text(" topology ", static_cast<int>(p_desc.topology), " cull ",
-			static_cast<int>(p_desc.cull_mode), " winding ", static_cast<int>(p_desc.winding),
-			" colors");
-	for (const Format format : p_desc.color_formats) {
-		description += text(" ", get_format_name(format));
-	}
-	return description +
-			text(" blend ", static_cast<int>(p_desc.blend), " depth ", p_desc.has_depth,
-					p_desc.writes_depth, p_desc.clamps_depth, " ",
-					static_cast<int>(p_desc.depth_compare), " ", p_desc.depth_bias_constant, " ",
-					p_desc.depth_bias_slope, " bounds ", p_desc.has_depth_bounds, " stencil ",
-					p_desc.has_stencil, p_desc.has_stencil ? describe(p_desc.stencil) : "");
-}
-
 VkPipelineColorBlendAttachmentState make_blend_state(BlendMode p_mode, Format p_format) {
 	VkPipelineColorBlendAttachmentState state = { .blendEnable = p_mode != BlendMode::OFF &&
 				!is_uint_format(p_format),
@@ -286,11 +250,11 @@ PipelineResource VulkanDevice::make_pipeline(const RasterPipelineDesc &p_desc) {
 
 PipelineRID VulkanDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
 	fail_if_lost();
-	const std::string description = describe(p_desc);
-	if (const PipelineRID found = find_pipeline(description)) {
-		return found;
+	const auto found = raster_pipelines.find(p_desc);
+	if (found != raster_pipelines.end()) {
+		return found->second;
 	}
-	return add_pipeline(description, make_pipeline(p_desc));
+	return raster_pipelines[p_desc] = add_pipeline(make_pipeline(p_desc));
 }
 
 } // namespace gnomon

@@ -186,7 +186,8 @@ public:
 	SlotTable<SamplerRID, SamplerResource> samplers{ "sampler" };
 	SlotTable<MemoryRID, MemoryResource> memories{ "memory" };
 	std::deque<PipelineResource> pipelines; // RID = index + 1
-	std::map<std::string, PipelineRID> pipelines_by_description;
+	std::map<ComputePipelineDesc, PipelineRID> compute_pipelines;
+	std::map<RasterPipelineDesc, PipelineRID> raster_pipelines;
 	VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
 	uint64_t saved_cache_hash = 0;
 
@@ -296,9 +297,8 @@ public:
 	void read_spans(SubmissionSlot &r_slot);
 
 	// pipelines.cpp, raster_pipelines.cpp, pipeline_cache_file.cpp
-	PipelineRID find_pipeline(const std::string &p_description) const;
 	const PipelineResource &get_pipeline(PipelineRID p_pipeline) const;
-	PipelineRID add_pipeline(const std::string &p_description, PipelineResource &&p_pipeline);
+	PipelineRID add_pipeline(PipelineResource &&p_pipeline);
 	void check_raster_features(const RasterPipelineDesc &p_desc) const;
 	VkPipeline create_raster_pipeline(const RasterPipelineDesc &p_desc, VkPipelineLayout p_layout,
 			std::span<const VkPipelineShaderStageCreateInfo> p_stages);
