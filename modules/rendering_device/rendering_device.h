@@ -164,7 +164,8 @@ public:
 	/// Copies the buffer, as it is at this command (usage COPY_SOURCE, Access::COPY_READ), and
 	/// calls p_callback with its bytes once the submission that is being recorded has ended: in a
 	/// later begin_commands, submit_commands(WAIT) or wait_idle, in the order of the calls. Never
-	/// when the commands are abandoned, or the device is lost or ends.
+	/// when the commands are abandoned, or the device is lost or ends. p_callback may not begin
+	/// commands.
 	using ReadBackCallback = std::function<void(std::span<const uint8_t>)>;
 	virtual void read_back(BufferRID p_buffer, ReadBackCallback p_callback) = 0;
 	/// As above, of a texture's layer: tightly packed rows, of depth textures their depth.
