@@ -91,7 +91,9 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 }
 
 /// The stencil tells occluders by numbers from 1 on, which begin again after so many: a pipeline
-/// has one number.
+/// has one number. 128 boxes in a map of their own take 4.0 ms with 8 numbers, 3.8 with 16 and 4.6
+/// with 4 on a software driver, and 3.3 with numbers set while recording; 16 make the first frame
+/// 90 ms longer.
 constexpr size_t NUMBER_COUNT = 8;
 
 struct OccluderPipelines {
