@@ -122,6 +122,8 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 						is_near_light(instance, first, p_disc_radius));
 		CountCaster caster;
 		caster.gpu = &gpu;
+		caster.positions = p_inputs.meshes.get_topology(instance.mesh, TopologyPart::POSITIONS)
+								   .positions.get();
 		caster.mesh_id = instance.mesh->id;
 		caster.push = { glm::mat4(first.view_from_world * instance.world_from_node), gpu.face_count,
 			result.face_count, gpu.edge_count, result.word_count, result.block_count,

@@ -10,6 +10,7 @@ namespace gnomon {
 /// One caster of a light.
 struct CountCaster {
 	const CountGpuMesh *gpu = nullptr; // lives as long as the mesh, which the frame's scene holds
+	BufferRID positions;			   // likewise; vec4 per welded vertex
 	uint64_t mesh_id = 0;
 	shader::CountCasterPush push;
 	bool is_moved = true; // since the light's faces and edges were found the last time

@@ -82,15 +82,10 @@ CountGpuMesh upload_count_mesh(
 			BufferUsage::STORAGE | BufferUsage::COPY_TARGET };
 		return OwnedBuffer(p_device, p_device.create_buffer_with_data(desc, bytes));
 	};
-	std::vector<glm::vec4> positions;
-	for (const glm::vec3 &position : p_topology.welded_positions_node) {
-		positions.emplace_back(position, 1.0f);
-	}
 	const CountMesh mesh = build_count_mesh(p_topology);
 	gpu.edge_count = static_cast<uint32_t>(mesh.edges.size());
 	gpu.word_count = mesh.get_word_count();
 	gpu.block_count = mesh.get_block_count();
-	gpu.positions = upload("counted positions", positions);
 	gpu.faces = upload("counted faces", mesh.faces);
 	if (gpu.edge_count > 0) {
 		gpu.edges = upload("counted edges", mesh.edges);

@@ -28,11 +28,10 @@ struct CountMesh {
 
 CountMesh build_count_mesh(const MeshTopology &p_topology);
 
-/// A mesh in GPU memory.
+/// A mesh in GPU memory, beside its welded positions (GpuTopology).
 struct CountGpuMesh {
-	OwnedBuffer positions; // vec4 per welded vertex, w = 1
-	OwnedBuffer faces;	   // shader::CountMeshFace
-	OwnedBuffer edges;	   // shader::CountMeshEdge
+	OwnedBuffer faces; // shader::CountMeshFace
+	OwnedBuffer edges; // shader::CountMeshEdge
 	uint32_t face_count = 0;
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;

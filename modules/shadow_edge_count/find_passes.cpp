@@ -44,8 +44,7 @@ void add_edge_passes(
 				return p_caster.is_moved ? p_caster.gpu->word_count : 0u;
 			},
 			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
-													 p_caster.gpu->positions.get() },
+				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
 					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
 					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
 					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
@@ -61,8 +60,7 @@ void add_edge_passes(
 			"shadow_edge_count/list_edges.comp", p_passes,
 			[](const CountCaster &p_caster) { return p_caster.gpu->word_count; },
 			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
-													 p_caster.gpu->positions.get() },
+				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
 					{ FIND_BINDING_MESH_EDGES, p_caster.gpu->edges.get() },
 					{ FIND_BINDING_WORDS, p_context.get(buffers.words) },
 					{ FIND_BINDING_BLOCKS, p_context.get(buffers.blocks) },
@@ -108,8 +106,7 @@ void add_find_passes(
 				return p_caster.is_moved ? p_caster.gpu->face_count : 0u;
 			},
 			[=](PassContext &p_context, const CountCaster &p_caster) {
-				return std::vector<Binding>{ { FIND_BINDING_POSITIONS,
-													 p_caster.gpu->positions.get() },
+				return std::vector<Binding>{ { FIND_BINDING_POSITIONS, p_caster.positions },
 					{ FIND_BINDING_MESH_FACES, p_caster.gpu->faces.get() },
 					{ FIND_BINDING_PLANES, p_context.get(buffers.planes) },
 					{ FIND_BINDING_FACES, p_context.get(buffers.faces) } };

@@ -20,7 +20,7 @@ struct FinDraw {
 };
 
 std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index,
-		const SilhouetteCasters &p_casters) {
+		const SilhouetteCasters &p_casters, TopologyPart p_parts) {
 	std::vector<FinDraw> draws;
 	const LightView &view = p_inputs.views[p_view_index];
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
@@ -29,7 +29,7 @@ std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32
 			continue;
 		}
 		FinDraw draw;
-		draw.gpu = caster->gpu;
+		draw.gpu = &p_inputs.meshes.get_topology(p_inputs.scene.instances[index].mesh, p_parts);
 		draw.draw_index = static_cast<uint32_t>(caster - p_casters.casters.data());
 		const glm::dmat4 &world_from_node = p_inputs.scene.instances[index].world_from_node;
 		draw.push.view_from_node = glm::mat4(view.view_from_world * world_from_node);
@@ -132,7 +132,10 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			.reads(layer_2, Access::SHADER_READ_FRAGMENT)
 			.color(p_targets.color, LoadOp::CLEAR, glm::vec4(0.0f), p_view_index)
 			.depth(p_targets.penumbra_depth, LoadOp::CLEAR, 0.0f, p_view_index);
-	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters);
+	const TopologyPart parts = TopologyPart::POSITIONS | TopologyPart::NORMALS |
+			(is_geometry_shader ? TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY
+								: TopologyPart::EDGES);
+	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters, parts);
 	if (draws.empty() || !p_settings.has_fins()) {
 		pass.execute([](PassContext &) {}); // cleared, and that is all
 		return;

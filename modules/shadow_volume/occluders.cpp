@@ -74,7 +74,8 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		}
 		OccluderDraw draw;
 		draw.begin_m = p_view.compute_distance_range_m(instance).x;
-		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh);
+		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh,
+				TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES);
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
 		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
@@ -149,7 +150,7 @@ void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
 		}
 		r_commands.bind_pipeline(p_pipelines.faces[number_index]);
 		r_commands.bind_resources({ { CULLING_BINDING_POSITIONS, draw.gpu->positions.get() },
-				{ CULLING_BINDING_TRIANGLES, draw.gpu->adjacency_indices.get() } });
+				{ CULLING_BINDING_TRIANGLES, draw.gpu->triangles.get() } });
 		r_commands.push_constants(draw.push);
 		r_commands.draw(CORNERS_PER_FACE * draw.gpu->topology->get_face_count());
 		r_commands.bind_pipeline(p_pipelines.edges[number_index]);

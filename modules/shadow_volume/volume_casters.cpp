@@ -120,7 +120,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 			++result.flat_count;
 			continue;
 		}
-		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh);
+		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh, TopologyPart::NONE);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}

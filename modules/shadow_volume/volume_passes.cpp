@@ -87,6 +87,8 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		draw.push.light_node = caster.light_node;
 		if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
+			p_inputs.meshes.get_topology(instance.mesh,
+					TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
 		} else if (caster.maker == VolumeMaker::CPU) {
 			const std::vector<glm::vec4> corners = build_cpu_volume(
 					*caster.gpu->topology, glm::dvec4(caster.light_node), caster.shape);
@@ -106,6 +108,9 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			draw.cap_vertex_count =
 					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
 			draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
+			p_inputs.meshes.get_topology(instance.mesh,
+					TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES |
+							TopologyPart::FACE_FLAGS);
 		}
 		draws.push_back(draw);
 	}
@@ -141,7 +146,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 			r_context.get(p_lists.draws), p_draw.draw_index * sizeof(shader::SilhouetteDraw));
 	commands.bind_pipeline(p_draw.caps_pipeline);
 	commands.bind_resources({ { VOLUMES_BINDING_POSITIONS, gpu.positions.get() },
-			{ VOLUMES_BINDING_TRIANGLES, gpu.adjacency_indices.get() },
+			{ VOLUMES_BINDING_TRIANGLES, gpu.triangles.get() },
 			{ VOLUMES_BINDING_FACE_FLAGS, gpu.face_flags.get() } });
 	commands.push_constants(p_draw.push);
 	commands.draw(p_draw.cap_vertex_count);

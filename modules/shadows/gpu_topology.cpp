@@ -67,37 +67,51 @@ std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology) {
 	return flags;
 }
 
-GpuTopology build_gpu_topology(
-		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh) {
-	GpuTopology gpu;
-	gpu.mesh = p_mesh;
-	gpu.topology = get_topology(p_mesh);
-	const MeshTopology &topology = *gpu.topology;
-	if (topology.edges.empty()) {
-		return gpu;
+GpuTopology::GpuTopology(const std::shared_ptr<const Mesh> &p_mesh) :
+		topology(gnomon::get_topology(p_mesh)), mesh(p_mesh) {
+	edge_count = static_cast<uint32_t>(topology->edges.size());
+	adjacency_index_count = static_cast<uint32_t>(topology->adjacency_indices.size());
+}
+
+void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
+	if (edge_count == 0) {
+		return;
 	}
-	const auto upload = [&](const char *p_what, BufferUsage p_usage, const auto &p_values) {
-		const BufferDesc desc{ text(p_mesh->name, " ", p_what),
-			bytes_of(std::span(p_values)).size(), p_usage | BufferUsage::COPY_TARGET };
-		return OwnedBuffer(
-				p_device, p_device.create_buffer_with_data(desc, bytes_of(std::span(p_values))));
+	const std::shared_ptr<const Mesh> named = mesh.lock();
+	const auto make = [&](TopologyPart p_part, OwnedBuffer &r_buffer, const char *p_what,
+							  BufferUsage p_usage, auto p_build) {
+		if (r_buffer || (uint32_t(p_parts) & uint32_t(p_part)) == 0) {
+			return;
+		}
+		const auto &values = p_build();
+		const auto bytes = bytes_of(std::span(values));
+		r_buffer = OwnedBuffer(p_device,
+				p_device.create_buffer_with_data(
+						{ text(named ? named->name : "mesh", " ", p_what), bytes.size(),
+								p_usage | BufferUsage::COPY_TARGET },
+						bytes));
 	};
-	std::vector<glm::vec4> positions;
-	std::vector<glm::vec4> normals;
-	for (size_t vertex = 0; vertex < topology.welded_positions_node.size(); ++vertex) {
-		positions.emplace_back(topology.welded_positions_node[vertex], 1.0f);
-		normals.emplace_back(topology.normals_node[vertex], 0.0f);
-	}
-	const BufferUsage vertex_usage = BufferUsage::VERTEX | BufferUsage::STORAGE;
-	gpu.positions = upload("welded positions", vertex_usage, positions);
-	gpu.normals = upload("welded normals", vertex_usage, normals);
-	gpu.edges = upload("edges", BufferUsage::STORAGE, build_edge_records(topology));
-	gpu.face_flags = upload("face flags", BufferUsage::STORAGE, build_face_flags(topology));
-	gpu.adjacency_indices = upload(
-			"adjacency", BufferUsage::INDEX | BufferUsage::STORAGE, topology.adjacency_indices);
-	gpu.edge_count = static_cast<uint32_t>(topology.edges.size());
-	gpu.adjacency_index_count = static_cast<uint32_t>(topology.adjacency_indices.size());
-	return gpu;
+	const auto widen = [](const std::vector<glm::vec3> &p_values, float p_w) {
+		std::vector<glm::vec4> wide;
+		for (const glm::vec3 &value : p_values) {
+			wide.emplace_back(value, p_w);
+		}
+		return wide;
+	};
+	const MeshTopology &source = *topology;
+	const BufferUsage vertices = BufferUsage::VERTEX | BufferUsage::STORAGE;
+	make(TopologyPart::POSITIONS, positions, "welded positions", vertices,
+			[&] { return widen(source.welded_positions_node, 1.0f); });
+	make(TopologyPart::NORMALS, normals, "welded normals", vertices,
+			[&] { return widen(source.normals_node, 0.0f); });
+	make(TopologyPart::EDGES, edges, "edges", BufferUsage::STORAGE,
+			[&] { return build_edge_records(source); });
+	make(TopologyPart::TRIANGLES, triangles, "welded triangles", BufferUsage::STORAGE,
+			[&] { return source.triangles; });
+	make(TopologyPart::FACE_FLAGS, face_flags, "face flags", BufferUsage::STORAGE,
+			[&] { return build_face_flags(source); });
+	make(TopologyPart::ADJACENCY, adjacency_indices, "adjacency", BufferUsage::INDEX,
+			[&] { return source.adjacency_indices; });
 }
 
 } // namespace gnomon

@@ -10,22 +10,39 @@
 
 namespace gnomon {
 
+/// What of a mesh's topology a technique reads on the GPU; bits are joined with |.
+enum class TopologyPart : uint32_t {
+	NONE = 0,
+	POSITIONS = 1,
+	NORMALS = 2,
+	EDGES = 4,
+	TRIANGLES = 8,
+	FACE_FLAGS = 16,
+	ADJACENCY = 32,
+};
+constexpr TopologyPart operator|(TopologyPart p_left, TopologyPart p_right) {
+	return TopologyPart(uint32_t(p_left) | uint32_t(p_right));
+}
+
 /// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them. Node space.
+/// Buffers are there once somebody asked for them, see MeshStore::get_topology.
 struct GpuTopology {
 	OwnedBuffer positions;		   // VERTEX | STORAGE, vec4 per welded vertex, w = 1
 	OwnedBuffer normals;		   // VERTEX | STORAGE, vec4; zero where the faces cancel
 	OwnedBuffer edges;			   // STORAGE, shader::TopologyEdge, see order_edges_by_face
+	OwnedBuffer triangles;		   // STORAGE, three welded vertices per face
 	OwnedBuffer face_flags;		   // STORAGE, one word per face, TOPOLOGY_FACE_*
-	OwnedBuffer adjacency_indices; // INDEX | STORAGE, six per face, see MeshTopology
+	OwnedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
 	uint32_t edge_count = 0;
 	uint32_t adjacency_index_count = 0;
 	std::shared_ptr<const MeshTopology> topology;
 	std::weak_ptr<const Mesh> mesh;
-};
 
-/// A mesh whose triangles all collapse has no edges, and empty buffers.
-GpuTopology build_gpu_topology(
-		RenderingDevice &p_device, const std::shared_ptr<const Mesh> &p_mesh);
+	/// A mesh whose triangles all collapse has no edges, and never a buffer.
+	explicit GpuTopology(const std::shared_ptr<const Mesh> &p_mesh);
+	/// Those parts that are not there yet.
+	void upload(RenderingDevice &p_device, TopologyPart p_parts);
+};
 
 /// Indices into MeshTopology::edges in the order in which the GPU holds the edges: by their first
 /// face, then as that face winds. A geometry shader meets them in the same order.

@@ -29,12 +29,11 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 	return meshes.emplace(p_mesh->id, std::move(mesh)).first->second;
 }
 
-const GpuTopology &MeshStore::get_topology(const std::shared_ptr<const Mesh> &p_mesh) {
-	const auto found = topologies.find(p_mesh->id);
-	if (found != topologies.end()) {
-		return found->second;
-	}
-	return topologies.emplace(p_mesh->id, build_gpu_topology(device, p_mesh)).first->second;
+const GpuTopology &MeshStore::get_topology(
+		const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts) {
+	GpuTopology &topology = topologies.try_emplace(p_mesh->id, p_mesh).first->second;
+	topology.upload(device, p_parts);
+	return topology;
 }
 
 void MeshStore::collect_garbage() {

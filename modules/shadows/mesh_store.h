@@ -27,8 +27,10 @@ public:
 
 	/// Uploads the mesh the first time. The mesh must have triangles.
 	const GpuMesh &get(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Uploads the mesh's edges the first time that a technique asks for them.
-	const GpuTopology &get_topology(const std::shared_ptr<const Mesh> &p_mesh);
+	/// Uploads those parts of the mesh's topology that nobody asked for before. Before passes are
+	/// recorded.
+	const GpuTopology &get_topology(
+			const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts);
 	/// What a technique of its own derives from a mesh, shared by all lights and kept as long as
 	/// the mesh lives; p_make makes a T the first time. One T per mesh and type.
 	template <typename T, typename Make>

@@ -76,7 +76,8 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 			++result.flat_instance_count;
 			continue;
 		}
-		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh);
+		caster.gpu = &p_inputs.meshes.get_topology(
+				instance.mesh, TopologyPart::POSITIONS | TopologyPart::EDGES);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}

@@ -9,7 +9,7 @@ layout(std430, set = 0, binding = VOLUMES_BINDING_POSITIONS) readonly buffer Pos
 	vec4 positions_node[];
 };
 layout(std430, set = 0, binding = VOLUMES_BINDING_TRIANGLES) readonly buffer Triangles {
-	uint triangles[]; // with adjacency: corners at 0, 2, 4 of six
+	uint triangles[]; // three corners a face
 };
 
 layout(std430, set = 0, binding = VOLUMES_BINDING_FACE_FLAGS) readonly buffer FaceFlags {
@@ -19,8 +19,8 @@ layout(std430, set = 0, binding = VOLUMES_BINDING_FACE_FLAGS) readonly buffer Fa
 void main() {
 	const uint per_face = HAS_FAR_CAP ? 6u : 3u;
 	const uint index = uint(gl_VertexIndex);
-	const uint first = 6u * (index / per_face);
-	const uvec3 ids = uvec3(triangles[first], triangles[first + 2u], triangles[first + 4u]);
+	const uint first = 3u * (index / per_face);
+	const uvec3 ids = uvec3(triangles[first], triangles[first + 1u], triangles[first + 2u]);
 	const bool is_turned = is_turned_to_light(push.light_node, ids, positions_node[ids.x].xyz,
 			positions_node[ids.y].xyz, positions_node[ids.z].xyz);
 	const bool is_far = index % per_face >= 3u;

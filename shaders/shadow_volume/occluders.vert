@@ -7,7 +7,7 @@ layout(std430, set = 0, binding = CULLING_BINDING_POSITIONS) readonly buffer Pos
 	vec4 positions_node[];
 };
 layout(std430, set = 0, binding = CULLING_BINDING_TRIANGLES) readonly buffer Triangles {
-	uint triangles[]; // with adjacency: corners at 0, 2, 4 of six
+	uint triangles[]; // three corners a face
 };
 layout(push_constant) uniform Push {
 	OccluderPush push;
@@ -15,6 +15,6 @@ layout(push_constant) uniform Push {
 
 void main() {
 	const uint index = uint(gl_VertexIndex);
-	const uint vertex = triangles[6u * (index / 3u) + 2u * (index % 3u)];
+	const uint vertex = triangles[index];
 	gl_Position = push.clip_from_node * vec4(positions_node[vertex].xyz, 1.0);
 }

@@ -95,7 +95,9 @@ TEST_CASE("[GPU][Silhouette] a geometry shader finds the CPU's edges on meshes o
 	for (const auto &[name, mesh] : make_meshes()) {
 		CAPTURE(name);
 		const auto shared = make_mesh(name, mesh.positions_node, {}, mesh.indices);
-		const GpuTopology gpu = build_gpu_topology(*fixture.device, shared);
+		GpuTopology gpu(shared);
+		gpu.upload(*fixture.device,
+				TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
 		for (int repeat = 0; repeat < 12; ++repeat) {
 			// Points near and far, directions, and places in the planes of faces.
 			glm::vec4 light(glm::vec3(random.next_unit() * random.next(0.2, 20.0)), 1.0f);
