@@ -23,11 +23,16 @@ public:
 	}
 	/// Null: nothing has that id. Valid until the next add or remove.
 	static const Info *find(std::string_view p_id) {
-		const auto found = std::find_if(
-				infos.begin(), infos.end(), [&](const Info &p_info) { return p_info.id == p_id; });
-		return found == infos.end() ? nullptr : &*found;
+		return find_if([&](const Info &p_info) { return p_info.id == p_id; });
 	}
 	static const std::vector<Info> &get_all() { return infos; }
+
+protected:
+	/// The first of which that is true, or null.
+	template <typename Predicate> static const Info *find_if(Predicate p_is_wanted) {
+		const auto found = std::find_if(infos.begin(), infos.end(), p_is_wanted);
+		return found == infos.end() ? nullptr : &*found;
+	}
 
 private:
 	inline static std::vector<Info> infos;
