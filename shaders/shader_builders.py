@@ -2,6 +2,9 @@
 
 An entry point is `<what>.<stage>`; include paths start at shaders/. Errors show the GLSL file and
 line, as glslangValidator prints them.
+
+Where an entry point, or what it includes, has `#ifdef VARIANT_<NAME>`, it is compiled once more with
+that macro defined, as `<what>.<name>.<stage>`. At run time compile_shader does the same.
 """
 
 import os
@@ -12,6 +15,7 @@ from SCons.Script import Action
 
 STAGES = ("vert", "frag", "geom", "comp")
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+_VARIANT = re.compile(r"^\s*#\s*if.*\bVARIANT_([A-Z]+)\b", re.MULTILINE)
 
 
 def _scan(node, env, path):
@@ -20,6 +24,21 @@ def _scan(node, env, path):
         return []
     with open(node.srcnode().abspath, encoding="utf-8") as file:
         return [env.File("#shaders/" + name) for name in _INCLUDE.findall(file.read())]
+
+
+def find_variants(folder, name):
+    """Names of the variants of an entry point, "storage", sorted. Paths start at the folder shaders/."""
+    found, seen, waiting = set(), set(), [name]
+    while waiting:
+        path = os.path.join(folder, waiting.pop())
+        if path in seen or not os.path.exists(path):
+            continue
+        seen.add(path)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        found.update(variant.lower() for variant in _VARIANT.findall(text))
+        waiting += _INCLUDE.findall(text)
+    return sorted(found)
 
 
 def _embed(target, source, env):
@@ -58,9 +77,9 @@ def add_builders(env):
     env["BUILDERS"]["Spirv"] = env.Builder(
         # vulkan1.1 (SPIR-V 1.3) is the lowest target that has subgroup operations.
         action=Action(  # not env.Action: that expands $TARGET at once, to nothing
-            "glslangValidator -V --quiet --target-env vulkan1.1 %s -I%s -o $TARGET ${SOURCE.srcpath}"
+            "glslangValidator -V --quiet --target-env vulkan1.1 %s $SHADER_VARIANT -I%s -o $TARGET ${SOURCE.srcpath}"
             % (debug, env.Dir("#shaders").path),
-            "Compiling shader $SOURCE",
+            "Compiling shader $TARGET",
         ),
         source_scanner=scanner,
     )

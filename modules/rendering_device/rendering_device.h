@@ -42,8 +42,8 @@ struct DeviceInfo {
 
 /// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
 /// push constants, and 32-bit depth that shaders read.
-/// Geometry shaders, aliased memory, conditional rendering and depth bounds make frames faster;
-/// without them the masks are the same.
+/// Geometry shaders, aliased memory, conditional rendering, depth bounds and storage texel buffers
+/// make frames faster; without them the masks are the same.
 struct DeviceFeatures {
 	/// Geometry shaders, and the primitive's index in fragment shaders.
 	bool geometry_shader = false;
@@ -53,6 +53,7 @@ struct DeviceFeatures {
 	bool conditional_rendering = false;
 	bool precise_occlusion_query = false;
 	bool fragment_stores = false;
+	bool storage_texel_buffers = false; // buffers that are STORAGE and TEXEL at once
 	bool timestamps = false;
 	float timestamp_period_ns = 1.0f;
 	uint64_t max_storage_buffer_bytes = 0;

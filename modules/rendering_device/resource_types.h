@@ -65,7 +65,9 @@ enum class BufferUsage : uint32_t {
 	INDIRECT = 16,
 	COPY_SOURCE = 32,
 	COPY_TARGET = 64,
-	TEXEL = 128,	   // uniform texel buffer; then BufferDesc::texel_format counts
+	/// Uniform texel buffer; then BufferDesc::texel_format counts. With STORAGE only where
+	/// DeviceFeatures::storage_texel_buffers.
+	TEXEL = 128,
 	CONDITIONAL = 256, // read by CommandList::begin_conditional
 };
 template <typename T>

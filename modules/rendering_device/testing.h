@@ -14,6 +14,7 @@ struct PretendedLimits {
 	bool depth_clamp = false;
 	bool depth_bounds = false;
 	bool fragment_stores = false;
+	bool storage_texel_buffers = false;
 	bool conditional_rendering = false;
 	bool subgroup_operations = false;
 };

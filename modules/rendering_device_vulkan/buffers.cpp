@@ -32,6 +32,13 @@ Allocation VulkanDevice::allocate(const std::string &p_resource, const MemoryReq
 
 BufferResource VulkanDevice::make_buffer(const BufferDesc &p_desc) {
 	GNOMON_ASSERT(p_desc.size_bytes > 0, "buffer '", p_desc.name, "' has no bytes");
+	if (!features.storage_texel_buffers && has_usage(p_desc.usage, BufferUsage::STORAGE) &&
+			has_usage(p_desc.usage, BufferUsage::TEXEL)) {
+		fail("Buffer '", p_desc.name, "' is STORAGE and TEXEL at once, which device \"",
+				physical.info.name,
+				"\" lacks (DeviceFeatures::storage_texel_buffers). Use STORAGE alone, and a shader "
+				"that reads it as a storage buffer.");
+	}
 	const uint64_t texel_bytes = get_texel_size_bytes(p_desc.texel_format);
 	constexpr uint64_t NO_LIMIT = std::numeric_limits<uint64_t>::max();
 	const Limit buffer_limits[] = {

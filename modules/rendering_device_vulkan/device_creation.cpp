@@ -133,6 +133,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options, const PretendedLim
 	features.conditional_rendering = wanted.conditional.conditionalRendering;
 	features.precise_occlusion_query = enabled.occlusionQueryPrecise;
 	features.fragment_stores = enabled.fragmentStoresAndAtomics;
+	features.storage_texel_buffers = !p_limits.storage_texel_buffers;
 	features.timestamps = timestamp_mask != 0;
 	features.timestamp_period_ns = limits.timestampPeriod;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;

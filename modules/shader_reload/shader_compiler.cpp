@@ -32,6 +32,13 @@ EShLanguage find_stage(const std::string &p_name) {
 	return found->second;
 }
 
+std::string to_upper(std::string p_text) {
+	for (char &letter : p_text) {
+		letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+	}
+	return p_text;
+}
+
 /// Finds includes from the folder of shaders, whoever includes them.
 class FolderIncluder : public glslang::TShader::Includer {
 public:
@@ -85,14 +92,28 @@ struct CompilerProcess {
 
 } // namespace
 
+ShaderSource find_shader_source(const std::string &p_name) {
+	const fs::path name(p_name);
+	const std::string variant = name.stem().extension().string(); // ".storage", or empty
+	if (variant.empty()) {
+		return { p_name, {} };
+	}
+	const fs::path what = name.stem().stem();
+	return { (name.parent_path() / what).generic_string() + name.extension().string(),
+		"VARIANT_" + to_upper(variant.substr(1)) };
+}
+
 std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string &p_name) {
 	static const CompilerProcess process;
 	const EShLanguage stage = find_stage(p_name);
-	const std::string source = load_text_file(p_folder / p_name);
+	const ShaderSource found = find_shader_source(p_name);
+	const std::string source = load_text_file(p_folder / found.file);
 	const char *texts[] = { source.c_str() };
 	const int lengths[] = { static_cast<int>(source.size()) };
-	const char *names[] = { p_name.c_str() };
+	const char *names[] = { found.file.c_str() };
+	const std::string preamble = found.macro.empty() ? "" : "#define " + found.macro + "\n";
 	glslang::TShader shader(stage);
+	shader.setPreamble(preamble.c_str());
 	shader.setStringsWithLengthsAndNames(texts, lengths, names, 1);
 	shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
 	// The target of shaders/shader_builders.py: the lowest that has subgroup operations.

@@ -14,9 +14,10 @@ namespace fs = std::filesystem;
 ShaderWatcher::ShaderWatcher(fs::path p_folder) : folder(std::move(p_folder)) {
 	for (const EmbeddedShader &shader : get_embedded_shaders()) {
 		std::error_code code;
-		if (fs::is_regular_file(folder / shader.name, code)) {
+		const std::string file = find_shader_source(std::string(shader.name)).file;
+		if (fs::is_regular_file(folder / file, code)) {
 			entry_points.emplace_back(shader.name);
-			add_file(entry_points.back());
+			add_file(file);
 		}
 	}
 }
@@ -92,7 +93,7 @@ std::vector<ShaderChange> ShaderWatcher::poll() {
 		add_file(name); // what it includes may be another now
 	}
 	for (const std::string &name : entry_points) {
-		const std::set<std::string> used = find_all_files(name);
+		const std::set<std::string> used = find_all_files(find_shader_source(name).file);
 		const bool is_concerned = std::any_of(used.begin(), used.end(),
 				[&](const std::string &p_file) { return changed.contains(p_file); });
 		if (!is_concerned) {

@@ -1,6 +1,7 @@
 #include "modules/shadow_edge_count/block_passes.h"
 
 #include "modules/core/text.h"
+#include "modules/shadow_edge_count/fetched_buffers.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/nearest_caster.h"
 
@@ -56,7 +57,7 @@ std::vector<PassBinding> make_count_bindings(
 
 /// A pass over the blocks of one kind, of as many work groups as the dispatches say.
 void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
-		const CountBlocks &p_blocks, const std::string &p_name, const char *p_shader,
+		const CountBlocks &p_blocks, const std::string &p_name, const std::string &p_shader,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
 	const ShadowTechnique::Inputs &inputs = p_passes.inputs;
 	const shader::CountBlockPush push = { p_kind, p_kind * p_blocks.block_count,
@@ -137,17 +138,16 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 	blocks.constants = r_graph.upload_constants("counted light", constants);
 	const RGBuffer boxes = r_graph.create_buffer({ "receiver boxes",
 			block_count * part_count * sizeof(shader::CountBlockBox), BufferUsage::STORAGE });
-	const auto make_texel_buffer = [&](const char *p_name, uint64_t p_count) {
-		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t),
-				BufferUsage::STORAGE | BufferUsage::TEXEL, MemoryKind::GPU, Format::R32_UINT });
+	const auto make_words = [&](const char *p_name, uint64_t p_count) {
+		return r_graph.create_buffer({ p_name, p_count * sizeof(uint32_t), BufferUsage::STORAGE });
 	};
-	blocks.receives = make_texel_buffer("block receivers", block_count * EDGE_COUNT_RECEIVES_WORDS);
-	blocks.chains =
-			make_texel_buffer("block chains", block_count * part_count * EDGE_COUNT_CHAIN_WORDS);
-	blocks.lists = make_texel_buffer(
-			"block edges", uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1));
+	blocks.receives = make_words("block receivers", block_count * EDGE_COUNT_RECEIVES_WORDS);
+	blocks.chains = make_words("block chains", block_count * part_count * EDGE_COUNT_CHAIN_WORDS);
+	blocks.lists = r_graph.create_buffer(make_fetched_buffer_desc(inputs.device, "block edges",
+			uint64_t(constants.chunk_capacity) * (EDGE_COUNT_CHUNK_SIZE + 1) * sizeof(uint32_t),
+			Format::R32_UINT));
 	blocks.block_count = static_cast<uint32_t>(block_count);
-	blocks.blocks = make_texel_buffer("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
+	blocks.blocks = make_words("blocks by kind", EDGE_COUNT_BLOCK_KINDS * block_count);
 	blocks.dispatches = r_graph.create_buffer(
 			{ "block dispatches", EDGE_COUNT_DISPATCH_WORDS * sizeof(uint32_t),
 					BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::COPY_TARGET });
@@ -158,7 +158,7 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			});
 	// One subgroup is one work group.
 	const uint32_t subgroup_size = inputs.device.get_features().subgroup_size;
-	const auto get_pipeline = [&](const char *p_shader) {
+	const auto get_pipeline = [&](const std::string &p_shader) {
 		return inputs.device.get_compute_pipeline({ p_shader, p_shader,
 				{ { EDGE_COUNT_CONSTANT_GROUP_SIZE, subgroup_size },
 						{ EDGE_COUNT_CONSTANT_VIEW_COUNT, constants.view_count } } });
@@ -171,7 +171,9 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 			get_pipeline("shadow_edge_count/receiver_boxes.comp"), std::move(bindings),
 			{ constants.block_count.x * subgroup_size, constants.block_count.y, 1 });
 	const CountFrameBuffers &light = p_passes.light;
-	add_compute_pass(r_graph, "list blocks", get_pipeline("shadow_edge_count/list_blocks.comp"),
+	add_compute_pass(r_graph, "list blocks",
+			get_pipeline(
+					choose_fetching_shader(inputs.device, "shadow_edge_count/list_blocks.comp")),
 			{ PassBinding::constants(COUNT_BINDING_LIGHT, blocks.constants),
 					PassBinding::read(COUNT_BINDING_BOXES, boxes),
 					PassBinding::read(COUNT_BINDING_RECEIVES, blocks.receives),
@@ -194,6 +196,9 @@ CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_pas
 
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
+	const auto choose = [&](const char *p_shader) {
+		return choose_fetching_shader(p_passes.inputs.device, p_shader);
+	};
 	const RGTexture mask = create_mask(r_graph, p_passes.inputs.size_px);
 	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
 	bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, mask));
@@ -203,7 +208,8 @@ RGTexture add_count_passes(
 	bindings.push_back(
 			PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
 	add_kind_pass(r_graph, p_passes, p_blocks, "resolve plain",
-			"shadow_edge_count/resolve_plain.comp", EDGE_COUNT_BLOCKS_PLAIN, std::move(bindings));
+			choose("shadow_edge_count/resolve_plain.comp"), EDGE_COUNT_BLOCKS_PLAIN,
+			std::move(bindings));
 	const bool is_fine = p_passes.settings.get_turn_count() > 1;
 	const char *resolve =
 			is_fine ? "shadow_edge_count/resolve_fine.comp" : "shadow_edge_count/resolve.comp";
@@ -216,7 +222,7 @@ RGTexture add_count_passes(
 		bindings = make_count_bindings(p_passes, p_blocks);
 		bindings.push_back(
 				PassBinding::write(COUNT_BINDING_OUTPUT, mask, PassBuilder::Content::UPDATE));
-		add_kind_pass(r_graph, p_passes, p_blocks, name, shader, kind, std::move(bindings));
+		add_kind_pass(r_graph, p_passes, p_blocks, name, choose(shader), kind, std::move(bindings));
 	}
 	if (p_passes.depth_map) {
 		add_filter_pass(r_graph, p_passes, p_blocks, mask);
@@ -234,7 +240,8 @@ RGTexture add_count_debug_pass(
 		bindings.push_back(PassBinding::write(COUNT_BINDING_OUTPUT, output,
 				kind == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE));
 		add_kind_pass(r_graph, p_passes, p_blocks, text("debug ", kind),
-				"shadow_edge_count/debug.comp", kind, std::move(bindings));
+				choose_fetching_shader(p_passes.inputs.device, "shadow_edge_count/debug.comp"),
+				kind, std::move(bindings));
 	}
 	return output;
 }

@@ -2,9 +2,11 @@
 
 #include "modules/core/error.h"
 #include "modules/core/text.h"
+#include "modules/shadow_edge_count/fetched_buffers.h"
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 namespace gnomon {
 
@@ -58,7 +60,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	}
 	reset();
 	const auto make = [&](const char *p_what, uint64_t p_count, uint64_t p_item_bytes,
-							  Format p_format) {
+							  std::optional<Format> p_fetched_format = std::nullopt) {
 		const uint64_t size_bytes = std::max(p_count, uint64_t(1)) * p_item_bytes;
 		const uint64_t most_bytes = p_device.get_features().max_storage_buffer_bytes;
 		if (size_bytes > most_bytes) {
@@ -68,15 +70,17 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 					" in one buffer. Let fewer meshes cast shadows, or set another "
 					"shadow_technique.");
 		}
-		return OwnedBuffer(p_device,
-				p_device.create_buffer({ text(p_what, " of ", p_light), size_bytes,
-						BufferUsage::STORAGE | BufferUsage::TEXEL | BufferUsage::COPY_TARGET,
-						MemoryKind::GPU, p_format }));
+		const std::string name = text(p_what, " of ", p_light);
+		BufferDesc desc = p_fetched_format
+				? make_fetched_buffer_desc(p_device, name, size_bytes, *p_fetched_format)
+				: BufferDesc{ .name = name, .size_bytes = size_bytes };
+		desc.usage = desc.usage | BufferUsage::COPY_TARGET;
+		return OwnedBuffer(p_device, p_device.create_buffer(desc));
 	};
 	planes = make("planes", wanted.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
 	faces = make("faces", wanted.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
-	words = make("edge words", wanted.word_count, sizeof(uint32_t), Format::R32_UINT);
-	blocks = make("edge blocks", wanted.block_count, sizeof(uint32_t), Format::R32_UINT);
+	words = make("edge words", wanted.word_count, sizeof(uint32_t));
+	blocks = make("edge blocks", wanted.block_count, sizeof(uint32_t));
 	edges = make("edges", wanted.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
 	bundles = make("bundles", wanted.get_bundle_count(), sizeof(shader::CountEdgeBundle),
 			Format::RGBA32_SFLOAT);
@@ -86,7 +90,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	nodes = make("listed faces", view_count * wanted.nodes_per_view, sizeof(glm::uvec2),
 			Format::RG32_UINT);
 	cut_faces = make("cut faces", wanted.cut_face_count, sizeof(uint32_t), Format::R32_UINT);
-	totals = make("totals", EDGE_COUNT_TOTAL_COUNT, sizeof(uint32_t), Format::R32_UINT);
+	totals = make("totals", EDGE_COUNT_TOTAL_COUNT, sizeof(uint32_t));
 	capacities = wanted;
 	return false;
 }

@@ -11,7 +11,9 @@ layout(local_size_x = COUNT_GROUP_SIZE) in;
 #define COUNT_GROUP_SIZE (EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_PX)
 layout(local_size_x = EDGE_COUNT_BLOCK_PX, local_size_y = EDGE_COUNT_BLOCK_PX) in;
 #endif
-layout(set = 0, binding = COUNT_BINDING_BLOCKS) uniform utextureBuffer blocks_buffer;
+layout(std430, set = 0, binding = COUNT_BINDING_BLOCKS) readonly buffer Blocks {
+	uint blocks[]; // by kind, EDGE_COUNT_BLOCKS_*
+};
 layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
@@ -19,7 +21,7 @@ layout(push_constant) uniform Push {
 /// Every other block first, see find_work_row: blocks that are close in the image are close in the list.
 uint load_block_entry() {
 	const uint place = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
-	return texelFetch(blocks_buffer, int(push.first_block + place)).r;
+	return blocks[push.first_block + place];
 }
 
 uint find_block() {

@@ -1,16 +1,16 @@
-// The light's edges and their bundles in texel buffers. The block `light` comes first.
+// The light's edges and their bundles. The block `light` comes first.
 #ifndef COUNT_BUNDLES_INC_GLSL
 #define COUNT_BUNDLES_INC_GLSL
 
 #include "shadow_edge_count/count_box_inc.glsl"
 #include "shadow_edge_count/count_lists_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_EDGES) uniform utextureBuffer edges_buffer;
-layout(set = 0, binding = COUNT_BINDING_BUNDLES) uniform textureBuffer bundles_buffer;
+FETCHED_UVEC4S(COUNT_BINDING_EDGES, edges_buffer);
+FETCHED_VEC4S(COUNT_BINDING_BUNDLES, bundles_buffer);
 
 CountEdgeRecord load_count_edge(uint p_index) {
 	const int first = int(2u * p_index);
-	return CountEdgeRecord(texelFetch(edges_buffer, first), texelFetch(edges_buffer, first + 1));
+	return CountEdgeRecord(FETCH_UVEC4(edges_buffer, first), FETCH_UVEC4(edges_buffer, first + 1));
 }
 
 /// The planes of an edge's faces; of a second one that is not there that of the first.
@@ -25,11 +25,11 @@ vec4 load_count_plane1(CountEdgeRecord p_edge) {
 
 CountEdgeBundle load_count_bundle(uint p_index) {
 	const int first = int(2u * p_index);
-	return CountEdgeBundle(texelFetch(bundles_buffer, first), texelFetch(bundles_buffer, first + 1));
+	return CountEdgeBundle(FETCH_VEC4(bundles_buffer, first), FETCH_VEC4(bundles_buffer, first + 1));
 }
 
 uint find_edge_count() {
-	return min(texelFetch(totals_buffer, int(EDGE_COUNT_TOTAL_EDGES)).r, light.most_edges);
+	return min(totals[EDGE_COUNT_TOTAL_EDGES], light.most_edges);
 }
 
 uint find_bundle_count(uint p_edge_count) {

@@ -1,48 +1,48 @@
-// The light's faces, and the lists of them, in texel buffers, which software drivers read a fifth faster than
-// storage buffers. The block `light` comes first.
+// The light's faces, and the lists of them. The block `light` comes first.
 #ifndef COUNT_LISTS_INC_GLSL
 #define COUNT_LISTS_INC_GLSL
 
 #include "shadow_edge_count/count_faces_inc.glsl"
+#include "shadow_edge_count/count_fetch_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_HEADS) uniform utextureBuffer heads_buffer;
-layout(set = 0, binding = COUNT_BINDING_NODES) uniform utextureBuffer nodes_buffer;
-layout(set = 0, binding = COUNT_BINDING_FACES) uniform utextureBuffer faces_buffer;
-layout(set = 0, binding = COUNT_BINDING_PLANES) uniform textureBuffer planes_buffer;
-layout(set = 0, binding = COUNT_BINDING_TOTALS) uniform utextureBuffer totals_buffer;
-layout(set = 0, binding = COUNT_BINDING_CUT_FACES) uniform utextureBuffer cut_faces_buffer;
+FETCHED_UINTS(COUNT_BINDING_HEADS, heads_buffer);
+FETCHED_UVEC2S(COUNT_BINDING_NODES, nodes_buffer);
+FETCHED_UVEC4S(COUNT_BINDING_FACES, faces_buffer);
+FETCHED_VEC4S(COUNT_BINDING_PLANES, planes_buffer);
+FETCHED_UINTS(COUNT_BINDING_CUT_FACES, cut_faces_buffer);
+layout(std430, set = 0, binding = COUNT_BINDING_TOTALS) readonly buffer Totals {
+	uint totals[]; // EDGE_COUNT_TOTAL_*
+};
 
 uint load_count_head(uint p_index) {
-	return texelFetch(heads_buffer, int(p_index)).r;
+	return FETCH_UINT(heads_buffer, p_index);
 }
 
 uvec2 load_count_node(uint p_index) {
-	return texelFetch(nodes_buffer, int(p_index)).rg;
+	return FETCH_UVEC2(nodes_buffer, p_index);
 }
 
 uint load_count_level(uint p_view) {
-	return texelFetch(totals_buffer, int(EDGE_COUNT_TOTAL_LEVELS + p_view)).r;
+	return totals[EDGE_COUNT_TOTAL_LEVELS + p_view];
 }
 
 CountFaceRecord load_count_face(uint p_face) {
 	const int first = int(3u * p_face);
-	return CountFaceRecord(texelFetch(faces_buffer, first), texelFetch(faces_buffer, first + 1),
-			texelFetch(faces_buffer, first + 2));
+	return CountFaceRecord(FETCH_UVEC4(faces_buffer, first), FETCH_UVEC4(faces_buffer, first + 1),
+			FETCH_UVEC4(faces_buffer, first + 2));
 }
 
 vec4 load_count_plane(uint p_face) {
-	return texelFetch(planes_buffer, int(p_face));
+	return FETCH_VEC4(planes_buffer, p_face);
 }
 
 /// Of the faces that may cut the light's disc.
 uint find_cut_face_count() {
-	return light.most_cut_faces == 0u
-			? 0u
-			: min(texelFetch(totals_buffer, int(EDGE_COUNT_TOTAL_CUT_FACES)).r, light.most_cut_faces);
+	return light.most_cut_faces == 0u ? 0u : min(totals[EDGE_COUNT_TOTAL_CUT_FACES], light.most_cut_faces);
 }
 
 uint load_cut_face(uint p_index) {
-	return texelFetch(cut_faces_buffer, int(p_index)).r;
+	return FETCH_UINT(cut_faces_buffer, p_index);
 }
 
 #endif

@@ -9,9 +9,13 @@
 #include "shadow_edge_count/count_bundles_inc.glsl"
 #include "shadow_edge_count/count_edge_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_RECEIVES) uniform utextureBuffer receives_buffer;
-layout(set = 0, binding = COUNT_BINDING_CHAINS) uniform utextureBuffer chains_buffer;
-layout(set = 0, binding = COUNT_BINDING_LISTS) uniform utextureBuffer lists_buffer;
+layout(std430, set = 0, binding = COUNT_BINDING_RECEIVES) readonly buffer Receives {
+	uint receives[]; // of each block, EDGE_COUNT_RECEIVES_*
+};
+layout(std430, set = 0, binding = COUNT_BINDING_CHAINS) readonly buffer Chains {
+	uint chains[]; // of each block and part, EDGE_COUNT_CHAIN_*
+};
+FETCHED_UINTS(COUNT_BINDING_LISTS, lists_buffer);
 layout(set = 0, binding = COUNT_BINDING_MASKS) uniform utextureBuffer masks_buffer;
 
 layout(constant_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) const uint FULL_SUBGROUP_SIZE = 8u;
@@ -69,11 +73,11 @@ CountChoice choose_from_list(uint p_first, uint p_end, inout uint r_chunk, Count
 	do {
 		const uint index = choice.next + gl_SubgroupInvocationID;
 		const bool is_there = index < p_end;
-		const uint entry = texelFetch(lists_buffer, is_there ? int(r_chunk * size + index % size) : 0).r;
+		const uint entry = FETCH_UINT(lists_buffer, is_there ? int(r_chunk * size + index % size) : 0);
 		choose_edge(p_box, is_there ? entry : 0u, is_there, choice);
 		choice.next += SUBGROUP_SIZE;
 		r_chunk = choice.next % size == 0u
-				? texelFetch(lists_buffer, int(light.chunk_capacity * size + r_chunk)).r
+				? FETCH_UINT(lists_buffer, light.chunk_capacity * size + r_chunk)
 				: r_chunk;
 	} while (choice.next < p_end && has_choice_room(choice, SUBGROUP_SIZE));
 	return choice;
@@ -398,8 +402,8 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 		if (!HAS_NO_LIST) {
 			const uint chain = (p_block * PART_COUNT + part) * uint(EDGE_COUNT_CHAIN_WORDS);
 			// Of a part that is not there nothing is written.
-			end = is_any ? texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_COUNT))).r : 0u;
-			chunk = texelFetch(chains_buffer, int(chain + uint(EDGE_COUNT_CHAIN_FIRST))).r;
+			end = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_COUNT)] : 0u;
+			chunk = is_any ? chains[chain + uint(EDGE_COUNT_CHAIN_FIRST)] : 0u;
 		}
 		uint next = 0u; // in the list
 		const HeldEdge none = HeldEdge(COUNT_ADDS_NOTHING << COUNT_KNOWN_SHIFT, vec3(0.0), vec3(0.0));
@@ -441,10 +445,10 @@ uint find_place() {
 /// Each invocation counts one pixel of the work group's block.
 CountPixel count_pixel() {
 	const uint block = find_block();
-	const int receives = int(block * uint(EDGE_COUNT_RECEIVES_WORDS));
-	const uint parts = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_PARTS).r;
+	const uint first = block * uint(EDGE_COUNT_RECEIVES_WORDS);
+	const uint parts = receives[first + uint(EDGE_COUNT_RECEIVES_PARTS)];
 	const uint place = find_place();
-	const uint order = texelFetch(receives_buffer, receives + EDGE_COUNT_RECEIVES_ORDER + int(place / 4u)).r;
+	const uint order = receives[first + uint(EDGE_COUNT_RECEIVES_ORDER) + place / 4u];
 	const uint own_order = order >> (8u * (place % 4u)) & 0xffu;
 	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : place;
 	return count_pixel_of_block(block, parts, find_pixel_in_block(index), own_order >> EDGE_COUNT_ORDER_PART_SHIFT);

@@ -66,8 +66,7 @@ float find_fitted(uvec2 p_pixel) {
 void main() {
 	load_count_constants();
 	const uint block = find_block();
-	const uint parts =
-			texelFetch(receives_buffer, int(block * uint(EDGE_COUNT_RECEIVES_WORDS)) + EDGE_COUNT_RECEIVES_PARTS).r;
+	const uint parts = receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)];
 	const uint place = find_place();
 	counted[place] = count_pixel_of_block(block, parts, find_counted_pixel(place), 0u).visibility;
 	barrier();

@@ -84,11 +84,13 @@ TEST_CASE("[GPU][RenderingDevice] a device denies the features that it is to lac
 			{ .geometry_shader = true,
 					.aliased_memory = true,
 					.depth_bounds = true,
+					.storage_texel_buffers = true,
 					.conditional_rendering = true });
 	const DeviceFeatures &features = fixture.device->get_features();
 	CHECK_FALSE(features.geometry_shader);
 	CHECK_FALSE(features.aliased_memory);
 	CHECK_FALSE(features.depth_bounds);
+	CHECK_FALSE(features.storage_texel_buffers);
 	CHECK_FALSE(features.conditional_rendering);
 }
 
@@ -102,4 +104,15 @@ TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses th
 	});
 	CHECK(contains(error, "'fins'"));
 	CHECK(contains(error, "geometry"));
+}
+
+TEST_CASE("[GPU][RenderingDevice] without storage texel buffers a buffer is one or the other") {
+	DeviceFixture fixture({}, { .storage_texel_buffers = true });
+	const std::vector<uint32_t> words(4);
+	fixture.make_buffer("storage", words, BufferUsage::STORAGE);
+	fixture.make_buffer("texels", words, BufferUsage::TEXEL);
+	const std::string error = catch_error(
+			[&] { fixture.make_buffer("both", words, BufferUsage::STORAGE | BufferUsage::TEXEL); });
+	CHECK(contains(error, "'both'"));
+	CHECK(contains(error, "storage_texel_buffers"));
 }

@@ -92,6 +92,22 @@ TEST_CASE("[ShaderCompiler] includes are found, and what is wrong is told by fil
 	CHECK_THROWS_AS(compile_shader(folder.path, "common/empty.comp"), Error);
 }
 
+TEST_CASE("[ShaderCompiler] a variant is the same file with a macro of its name") {
+	CHECK(find_shader_source("a/b.comp").file == "a/b.comp");
+	CHECK(find_shader_source("a/b.comp").macro.empty());
+	CHECK(find_shader_source("a/b.storage.comp").file == "a/b.comp");
+	CHECK(find_shader_source("a/b.storage.comp").macro == "VARIANT_STORAGE");
+
+	ShaderFolder folder;
+	folder.write("tests/answer.comp", KERNEL);
+	folder.write("common/answer_inc.glsl",
+			"#ifdef VARIANT_OTHER\nuint get_answer() { return 43u; }\n"
+			"#else\nuint get_answer() { return 42u; }\n#endif\n");
+	const std::vector<uint32_t> words = compile_shader(folder.path, "tests/answer.comp");
+	CHECK(compile_shader(folder.path, "tests/answer.other.comp") != words);
+	CHECK(compile_shader(folder.path, "tests/answer.unused.comp") == words);
+}
+
 TEST_CASE("[ShaderCompiler] what a text includes") {
 	CHECK(find_includes("").empty());
 	CHECK(find_includes("#include \"a/b.h\"\n  #  include \"c.glsl\"\n// #include \"d.h\"\n"

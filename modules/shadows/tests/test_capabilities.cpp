@@ -59,3 +59,7 @@ TEST_CASE("[GPU][Techniques] without conditional rendering every technique has t
 TEST_CASE("[GPU][Techniques] without depth bounds every technique has the same masks") {
 	check_each_technique({ .depth_bounds = true });
 }
+
+TEST_CASE("[GPU][Techniques] without storage texel buffers every technique has the same masks") {
+	check_each_technique({ .storage_texel_buffers = true });
+}
