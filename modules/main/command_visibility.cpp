@@ -169,7 +169,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
 	command->add_option("--surfaces", options.surfaces,
-			"A folder: also writes what shadows are asked about, depth.f32 and normal.u32 (see "
+			"A folder: also writes the inputs of shadows, depth.f32 and normal.u32 (see "
 			"doc/embedding.md)");
 	command->add_flag("--depth-alone", options.has_depth_alone,
 			"Makes geometric normals from the depth, as for a host that draws none");

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Shows the picture (SAMPLED, values as they are stored) in the window whose next image p_acquire
+/// Shows the image (SAMPLED, values as they are stored) in the window whose next image p_acquire
 /// gives, see RenderGraph::import_window_image: stretched over it, nearest texel.
 void add_present_pass(RenderGraph &r_graph, RGTexture p_picture,
 		std::function<std::optional<TextureRID>()> p_acquire);

@@ -77,8 +77,8 @@ public:
 	/// All lights of the snapshot, for a host that uses their masks together.
 	std::vector<LightShadow> add_all_lights();
 	/// Copies a light's mask into a layer of an array that outlives the frame: R16_SFLOAT (of a
-	/// coloured mask its luminance) or RGBA16_SFLOAT, STORAGE, of the frame's size; 0 where there
-	/// is no receiver.
+	/// coloured mask its luminance) or RGBA16_SFLOAT, STORAGE, of the frame's size, made with
+	/// TextureDesc::is_array; 0 where there is no receiver.
 	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer);
 
 	/// After the graph was executed.

@@ -13,7 +13,7 @@ namespace {
 
 const char *const PART_ID = "made_up";
 
-/// One configuration, whose cells get half of the truth for an answer.
+/// One configuration, whose cells get half of the reference for an answer.
 class MadeUpPart : public ReportPart {
 public:
 	std::vector<std::string> list_sweeps() const override { return {}; }

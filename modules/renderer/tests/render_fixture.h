@@ -14,10 +14,7 @@ struct RenderFixture {
 
 	/// p_device: as DeviceOptions::device.
 	explicit RenderFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
-		DeviceOptions options;
-		options.validation = true;
-		options.device = p_device;
-		device = create_limited_rendering_device(options, p_limits);
+		device = create_validated_device(p_device, p_limits);
 		renderer = std::make_unique<Renderer>(*device);
 	}
 

@@ -114,6 +114,15 @@ struct MaskResult : MaskValues {
 	std::vector<float> debug_values;		 // of the view, one per texel
 };
 
+/// p_device: as DeviceOptions::device.
+inline std::unique_ptr<RenderingDevice> create_validated_device(
+		const std::string &p_device, const PretendedLimits &p_limits) {
+	DeviceOptions options;
+	options.validation = true;
+	options.device = p_device;
+	return create_limited_rendering_device(options, p_limits);
+}
+
 /// A device under validation and the smallest host, with a cache folder of their own.
 struct MaskFixture {
 	TemporaryCache cache;
@@ -123,10 +132,7 @@ struct MaskFixture {
 
 	/// p_device: as DeviceOptions::device.
 	explicit MaskFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
-		DeviceOptions options;
-		options.validation = true;
-		options.device = p_device;
-		device = create_limited_rendering_device(options, p_limits);
+		device = create_validated_device(p_device, p_limits);
 		transients = std::make_unique<TransientPool>(*device);
 		shadows = std::make_unique<ShadowSystem>(*device);
 	}
