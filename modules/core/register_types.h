@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_core_module(ModuleLevel p_level);
-void uninitialize_core_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: core holds only what the others are made of.

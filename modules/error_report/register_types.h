@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_error_report_module(ModuleLevel p_level);
-void uninitialize_error_report_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: functions that the command line calls.

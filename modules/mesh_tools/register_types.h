@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_mesh_tools_module(ModuleLevel p_level);
-void uninitialize_mesh_tools_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: pure functions that techniques call.

@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_render_graph_module(ModuleLevel p_level);
-void uninitialize_render_graph_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: the renderer makes its graphs itself.

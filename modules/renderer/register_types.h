@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_renderer_module(ModuleLevel p_level);
-void uninitialize_renderer_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: techniques and filters come from the modules that hold them.

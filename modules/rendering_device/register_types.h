@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_rendering_device_module(ModuleLevel p_level);
-void uninitialize_rendering_device_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: a device is made by whoever needs one, never by loading the module.

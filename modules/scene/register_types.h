@@ -1,10 +1,3 @@
 #pragma once
 
-#include "modules/core/module_registry.h"
-
-namespace gnomon {
-
-void initialize_scene_module(ModuleLevel p_level);
-void uninitialize_scene_module(ModuleLevel p_level);
-
-} // namespace gnomon
+// Nothing to register: nodes are made by whoever reads a file, and found by their class.
