@@ -3,7 +3,6 @@
 #include "modules/core/files.h"
 #include "modules/core/text.h"
 #include "modules/shadow_jittered_pcf/jitter_offsets.h"
-#include "modules/shadows/mask.h"
 
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 
@@ -20,9 +19,7 @@ void ShadowJitteredPcf::get_light_properties(PropertyList &r_list) const {
 			"is "
 			"smaller than the filter.",
 			"", "Jittered filter" });
-	r_list.add({ "jittered_pcf_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
-			"Width and height of each map. Larger maps have finer edges and cost memory.", "px",
-			"Jittered filter" });
+	add_size_property(r_list, "Jittered filter");
 }
 
 void ShadowJitteredPcf::get_quality_settings(
@@ -34,18 +31,11 @@ void ShadowJitteredPcf::get_quality_settings(
 	}
 }
 
-void ShadowJitteredPcf::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
-		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
-	const uint32_t size_px =
-			static_cast<uint32_t>(std::get<int64_t>(p_properties.at("jittered_pcf_map_size")));
-	r_views = build_light_views(p_light, p_scene, size_px, 1);
-}
-
 void ShadowJitteredPcf::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	maps.plan(p_inputs, KeptViews::Reads::ACROSS_VIEWS, r_plan);
+	DepthMapTechnique::plan(p_inputs, r_plan);
 	const uint32_t ring_count =
 			static_cast<uint32_t>(std::get<int64_t>(p_inputs.properties.at("jittered_pcf_rings")));
-	if (!maps.is_all_empty() && offset_ring_count != ring_count) {
+	if (!is_all_empty() && offset_ring_count != ring_count) {
 		const std::vector<glm::vec4> values = build_jitter_offsets(ring_count);
 		const auto bytes = bytes_of(std::span<const glm::vec4>(values));
 		offsets.reset();
@@ -56,43 +46,19 @@ void ShadowJitteredPcf::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	}
 }
 
-void ShadowJitteredPcf::at_light_view(
-		RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) {
-	maps.add_view(r_graph, p_inputs, p_view_index);
-}
-
-RGTexture ShadowJitteredPcf::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
-	if (maps.is_all_empty()) {
-		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
-	}
-	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
-	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
-	bindings.push_back(PassBinding::read(JITTERED_PCF_BINDING_MAP, maps.import(r_graph)));
-	bindings.push_back(
+void ShadowJitteredPcf::filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_empty_views,
+		std::vector<PassBinding> p_bindings) {
+	p_bindings.push_back(
 			PassBinding::read(JITTERED_PCF_BINDING_OFFSETS, r_graph.import_buffer(offsets.get())));
-	bindings.push_back(PassBinding::write(JITTERED_PCF_BINDING_MASK, mask));
 	shader::JitteredPcfPush push = {};
-	push.empty_views = maps.get_empty_views();
+	push.empty_views = p_empty_views;
 	push.ring_count = offset_ring_count;
 	push.radius_uv =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("jittered_pcf_radius_uv")));
 	push.has_early_out = std::get<bool>(p_inputs.properties.at("jittered_pcf_early_out")) ? 1 : 0;
 	add_compute_pass(r_graph, "resolve",
-			p_inputs.device.get_compute_pipeline(
-					{ "jittered_pcf resolve", "shadow_jittered_pcf/resolve.comp", {} }),
-			bindings, p_inputs.size_px, push);
-	return mask;
-}
-
-void ShadowJitteredPcf::get_debug_views(std::vector<DebugView> &r_views) const {
-	if (maps.get_imported()) {
-		r_views.push_back({ "map", maps.get_imported() });
-		r_views.back().is_light_depth = true;
-	}
-}
-
-std::vector<std::string> ShadowJitteredPcf::get_shader_files() const {
-	return { "shadow_jittered_pcf/resolve.comp" };
+			p_inputs.device.get_compute_pipeline({ "jittered_pcf resolve", shader, {} }),
+			p_bindings, p_inputs.size_px, push);
 }
 
 } // namespace gnomon

@@ -103,8 +103,8 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 				point_index == 0 ? PassBuilder::Content::FRESH : PassBuilder::Content::UPDATE;
 		std::vector<PassBinding> bindings =
 				make_map_resolve_bindings(r_graph, p_inputs, point, views);
-		bindings.push_back(PassBinding::read(SHADOW_MAP_BINDING_MAP, map));
-		bindings.push_back(PassBinding::write(SHADOW_MAP_BINDING_MASK, mask, content));
+		bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, map));
+		bindings.push_back(PassBinding::write(DEPTH_MAP_BINDING_MASK, mask, content));
 		add_compute_pass(r_graph, text("accumulate point ", point_index), pipeline, bindings,
 				p_inputs.size_px, push);
 	}

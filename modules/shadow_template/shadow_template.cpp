@@ -47,8 +47,8 @@ RGTexture ShadowTemplate::resolve(RenderGraph &r_graph, const Inputs &p_inputs) 
 			{ "template resolve", "shadow_template/resolve.comp", {} });
 	const RGTexture mask = create_mask(r_graph, p_inputs.size_px);
 	std::vector<PassBinding> bindings = make_map_resolve_bindings(r_graph, p_inputs);
-	bindings.push_back(PassBinding::read(SHADOW_TEMPLATE_BINDING_MAP, map));
-	bindings.push_back(PassBinding::write(SHADOW_TEMPLATE_BINDING_MASK, mask));
+	bindings.push_back(PassBinding::read(DEPTH_MAP_BINDING_MAP, map));
+	bindings.push_back(PassBinding::write(DEPTH_MAP_BINDING_MASK, mask));
 	const auto strength =
 			static_cast<float>(std::get<double>(p_inputs.properties.at("template_strength")));
 	const shader::ShadowTemplatePush push = { strength, 0, 0, 0 };

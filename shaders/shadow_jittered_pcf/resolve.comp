@@ -4,11 +4,11 @@
 #include "common/map_tap_inc.glsl"
 #include "shadow_jittered_pcf/shadow_jittered_pcf_shared.h"
 
-layout(set = 0, binding = JITTERED_PCF_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
 layout(std430, set = 0, binding = JITTERED_PCF_BINDING_OFFSETS) readonly buffer Offsets {
 	vec4 offsets[]; // two in each, see build_jitter_offsets
 };
-layout(set = 0, binding = JITTERED_PCF_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(push_constant) uniform Push {
 	JitteredPcfPush push;
 };

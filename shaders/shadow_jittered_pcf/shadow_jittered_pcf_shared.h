@@ -3,9 +3,7 @@
 #include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define JITTERED_PCF_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
-#define JITTERED_PCF_BINDING_OFFSETS (MAP_RESOLVE_OWN_BINDING + 1)
-#define JITTERED_PCF_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 2)
+#define JITTERED_PCF_BINDING_OFFSETS DEPTH_MAP_OWN_BINDING
 
 #define JITTERED_PCF_SETS_PER_SIDE 8 // pixels of one 8 x 8 block have different sets
 #define JITTERED_PCF_TAPS_PER_RING 8

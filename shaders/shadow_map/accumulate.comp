@@ -5,7 +5,7 @@
 
 // Counts how many light points see each receiver, one point a pass; the last divides. Counts up to
 // 2^24 are exact in a float, so that the result does not depend on the order.
-layout(set = 0, binding = SHADOW_MAP_BINDING_MASK, r32f) uniform image2D mask_image;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r32f) uniform image2D mask_image;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

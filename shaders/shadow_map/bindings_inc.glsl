@@ -6,7 +6,7 @@
 #include "shadow_map/lookup_inc.glsl"
 #include "shadow_map/shadow_map_shared.h"
 
-layout(set = 0, binding = SHADOW_MAP_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
 layout(push_constant) uniform Push {
 	ShadowMapPush push;
 };

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_map/bindings_inc.glsl"
 
-layout(set = 0, binding = SHADOW_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 0; // 0 = hard
 
 void main() {

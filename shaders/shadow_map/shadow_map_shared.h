@@ -3,8 +3,6 @@
 #include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define SHADOW_MAP_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
-#define SHADOW_MAP_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 1)
 #define SHADOW_MAP_CONSTANT_FILTER_WIDTH 0
 
 /// Push constants of resolve.comp and accumulate.comp.

@@ -4,8 +4,8 @@
 #include "common/pcss_inc.glsl"
 #include "shadow_pcss/shadow_pcss_shared.h"
 
-layout(set = 0, binding = SHADOW_PCSS_BINDING_MAP) uniform texture2DArray map_texture;
-layout(set = 0, binding = SHADOW_PCSS_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(push_constant) uniform Push {
 	ShadowPcssPush push;
 };

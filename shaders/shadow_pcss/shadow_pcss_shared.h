@@ -3,9 +3,6 @@
 #include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define SHADOW_PCSS_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
-#define SHADOW_PCSS_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 1)
-
 /// Push constants of resolve.comp.
 struct SHARED_ALIGN ShadowPcssPush {
 	uint empty_views; // bit i: view i has no casters, its layer was not drawn

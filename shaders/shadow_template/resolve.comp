@@ -6,8 +6,8 @@
 #include "shadow_template/shadow_template_shared.h"
 
 // One comparison with one texel of the light's depth: replace it by your own idea.
-layout(set = 0, binding = SHADOW_TEMPLATE_BINDING_MAP) uniform texture2DArray map_texture;
-layout(set = 0, binding = SHADOW_TEMPLATE_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
+layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(push_constant) uniform Push {
 	ShadowTemplatePush push;
 };

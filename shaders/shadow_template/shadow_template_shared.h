@@ -3,9 +3,6 @@
 #include "shared/map_resolve_shared.h"
 #include "shared/shared_begin.h"
 
-#define SHADOW_TEMPLATE_BINDING_MAP (MAP_RESOLVE_OWN_BINDING + 0)
-#define SHADOW_TEMPLATE_BINDING_MASK (MAP_RESOLVE_OWN_BINDING + 1)
-
 /// Push constants of resolve.comp.
 struct SHARED_ALIGN ShadowTemplatePush {
 	float strength; // 0..1: 1 = hidden is black

@@ -1,9 +1,0 @@
-#include "modules/rendering_device/register_types.h"
-
-namespace gnomon {
-
-// Nothing to register: a device is made by whoever needs one, never by loading the module.
-void initialize_rendering_device_module(ModuleLevel) {}
-void uninitialize_rendering_device_module(ModuleLevel) {}
-
-} // namespace gnomon

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "modules/render_graph/compute_pass.h"
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/shadows/kept_views.h"
+
+namespace gnomon {
+
+/// A technique that looks each receiver up in a depth map of each light view, and differs from its
+/// like in the filter alone: what its shader does with the map, and the properties of that.
+/// Maps are layers of one texture (D32_SFLOAT, reversed), kept from frame to frame while neither a
+/// view nor its casters change; views without casters or receivers are left out.
+class DepthMapTechnique : public ShadowTechnique {
+public:
+	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
+			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
+	bool asks_receivers_alone() const override { return true; }
+	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
+	void at_light_view(
+			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;
+	RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) override;
+	void get_debug_views(std::vector<DebugView> &r_views) const override;
+	std::vector<std::string> get_shader_files() const override { return { shader }; }
+
+protected:
+	/// p_size_property: of the light, see add_size_property. p_reads: how far the filter reads.
+	DepthMapTechnique(std::string p_shader, std::string p_size_property, KeptViews::Reads p_reads) :
+			shader(std::move(p_shader)), size_property(std::move(p_size_property)), reads(p_reads) {
+	}
+
+	/// Width and height of a map in pixels, 16 to 8192.
+	void add_size_property(PropertyList &r_list, const std::string &p_group) const;
+	/// Pixels around the view's content that the filter reads.
+	virtual uint32_t get_border_px(const PropertyValues & /*p_properties*/) const { return 1; }
+	/// Records the pass of the shader, with p_bindings (those of map_resolve_shared.h, map and
+	/// mask) and its own. Bit i of p_empty_views: view i was not drawn and must not be read.
+	virtual void filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_empty_views,
+			std::vector<PassBinding> p_bindings) = 0;
+	/// No view has casters and receivers: filter() is not called, all is lit.
+	bool is_all_empty() const { return views.is_all_empty(); }
+
+	const std::string shader;
+
+private:
+	RGTexture import(RenderGraph &r_graph);
+
+	std::string size_property;
+	KeptViews::Reads reads;
+	OwnedTexture map;
+	TextureDesc map_desc;
+	KeptViews views;
+	bool has_content = false; // of the map, before this frame
+	RGTexture frame_map;	  // this frame's handle; empty where no view is read
+};
+
+} // namespace gnomon
