@@ -30,8 +30,8 @@ struct TriangleTargets {
 
 inline RasterPipelineDesc make_triangle_desc() {
 	return { .name = "triangle",
-		.vertex_shader = "rendering_device/test_triangle.vert",
-		.fragment_shader = "rendering_device/test_triangle.frag",
+		.vertex_shader = "tests/triangle.vert",
+		.fragment_shader = "tests/triangle.frag",
 		.attributes = { { .location = 0 } },
 		.vertex_strides_bytes = { 12 },
 		.color_formats = { Format::RGBA8_UNORM } };

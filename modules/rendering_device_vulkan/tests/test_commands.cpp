@@ -14,7 +14,7 @@ struct ScalePush {
 
 PipelineRID get_scale_pipeline(RenderingDevice &r_device, uint32_t p_local_size = 64) {
 	return r_device.get_compute_pipeline({ .name = "scale",
-			.shader = "rendering_device/test_scale.comp",
+			.shader = "tests/scale.comp",
 			.constants = { { 0, p_local_size }, { 1, 3 } } });
 }
 
@@ -149,8 +149,8 @@ TEST_CASE("[GPU][RenderingDevice] every kind of binding reaches the shader") {
 				.after = Access::SHADER_READ_COMPUTE },
 	};
 	commands.barriers(barriers);
-	commands.bind_pipeline(device.get_compute_pipeline(
-			{ .name = "bindings", .shader = "rendering_device/test_bindings.comp" }));
+	commands.bind_pipeline(
+			device.get_compute_pipeline({ .name = "bindings", .shader = "tests/bindings.comp" }));
 	commands.bind_resources(
 			{ { 0, constants.get() }, { 1, texels.get() }, { 2, combined.get(), sampler.get() },
 					{ 3, layers.get() }, { 4, sampler.get() }, { 5, result.get() } });
@@ -172,7 +172,7 @@ TEST_CASE("[GPU][RenderingDevice] a triangle covers its half of the colour and d
 	OwnedBuffer adjacent;
 	SUBCASE("vertex and fragment stage") {}
 	SUBCASE("geometry stage") {
-		desc.geometry_shader = "rendering_device/test_triangle.geom";
+		desc.geometry_shader = "tests/triangle.geom";
 		desc.topology = Topology::TRIANGLES_WITH_ADJACENCY;
 		std::vector<float> with_neighbours;
 		for (size_t corner = 0; corner < 3; ++corner) {
@@ -269,7 +269,7 @@ TEST_CASE("[GPU][RenderingDevice] fragments can be counted without any target") 
 			"count", std::vector<uint32_t>{ 0 }, BufferUsage::STORAGE | BufferUsage::COPY_SOURCE);
 	const OwnedBuffer readback = fixture.make_readback(4);
 	RasterPipelineDesc desc = make_triangle_desc();
-	desc.fragment_shader = "rendering_device/test_store.frag";
+	desc.fragment_shader = "tests/store.frag";
 	desc.color_formats.clear();
 	desc.has_depth = false;
 	CommandList &commands = device.begin_commands();

@@ -42,8 +42,8 @@ TEST_CASE("[GPU][RenderingDevice] conditional dispatches ask the word at their o
 		MESSAGE("this device has no conditional rendering");
 		return;
 	}
-	const PipelineRID pipeline = device.get_compute_pipeline(
-			{ "scale", "rendering_device/test_scale.comp", { { 0, 1 }, { 1, 2 } } });
+	const PipelineRID pipeline =
+			device.get_compute_pipeline({ "scale", "tests/scale.comp", { { 0, 1 }, { 1, 2 } } });
 	const OwnedBuffer source =
 			fixture.make_buffer("source", std::vector<uint32_t>{ 5 }, BufferUsage::STORAGE);
 	const OwnedBuffer condition = fixture.make_buffer(

@@ -99,8 +99,8 @@ TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses th
 	CHECK_FALSE(fixture.device->get_features().geometry_shader);
 	const std::string error = catch_error([&] {
 		fixture.device->get_raster_pipeline({ .name = "fins",
-				.vertex_shader = "rendering_device/test_triangle.vert",
-				.geometry_shader = "rendering_device/test_triangle.geom" });
+				.vertex_shader = "tests/triangle.vert",
+				.geometry_shader = "tests/triangle.geom" });
 	});
 	CHECK(contains(error, "'fins'"));
 	CHECK(contains(error, "geometry"));

@@ -38,7 +38,7 @@ std::filesystem::path find_cache_file(const std::filesystem::path &p_folder) {
 
 void make_one_pipeline(const TemporaryCache &) {
 	const auto device = create_rendering_device({ .validation = true });
-	device->get_compute_pipeline({ .name = "scale", .shader = "rendering_device/test_scale.comp" });
+	device->get_compute_pipeline({ .name = "scale", .shader = "tests/scale.comp" });
 }
 
 } // namespace
@@ -79,9 +79,8 @@ TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every ca
 	CHECK(catch_error([&] { device.create_texture({ .name = "late" }); }) == error);
 	CHECK(catch_error([&] { device.create_sampler({ .name = "late" }); }) == error);
 	CHECK(catch_error([&] { device.wait_idle(); }) == error);
-	CHECK(catch_error([&] {
-		device.get_compute_pipeline({ .shader = "rendering_device/test_scale.comp" });
-	}) == error);
+	CHECK(catch_error([&] { device.get_compute_pipeline({ .shader = "tests/scale.comp" }); }) ==
+			error);
 }
 
 TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {

@@ -27,8 +27,8 @@ void record_work(RenderingDevice &r_device, CommandList &r_commands, const std::
 		.after = Access::SHADER_WRITE_COMPUTE };
 	r_commands.begin_span(p_name);
 	r_commands.barriers({ &barrier, 1 });
-	r_commands.bind_pipeline(r_device.get_compute_pipeline(
-			{ .name = "slow", .shader = "rendering_device/test_slow.comp" }));
+	r_commands.bind_pipeline(
+			r_device.get_compute_pipeline({ .name = "slow", .shader = "tests/slow.comp" }));
 	r_commands.bind_resources({ { 0, p_target } });
 	r_commands.push_constants(ROUND_COUNT);
 	r_commands.dispatch({ p_group_count, 1, 1 });

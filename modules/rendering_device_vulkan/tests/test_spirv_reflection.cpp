@@ -17,7 +17,7 @@ ReflectedShader reflect(
 } // namespace
 
 TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
-	const ReflectedShader shader = reflect("rendering_device/test_bindings.comp");
+	const ReflectedShader shader = reflect("tests/bindings.comp");
 	const VkDescriptorType types[] = { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
 		VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
 		VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLER,
@@ -34,13 +34,13 @@ TEST_CASE("[SpirvReflection] each kind of resource is recognised") {
 }
 
 TEST_CASE("[SpirvReflection] the local size follows its specialization constant") {
-	CHECK(reflect("rendering_device/test_scale.comp").local_size.x == 1);
-	CHECK(reflect("rendering_device/test_scale.comp", { { 0, 32 } }).local_size.x == 32);
-	CHECK(reflect("rendering_device/test_scale.comp").push_constant_bytes == 8);
+	CHECK(reflect("tests/scale.comp").local_size.x == 1);
+	CHECK(reflect("tests/scale.comp", { { 0, 32 } }).local_size.x == 32);
+	CHECK(reflect("tests/scale.comp").push_constant_bytes == 8);
 }
 
 TEST_CASE("[SpirvReflection] what is declared and never touched is told apart") {
-	for (const ReflectedBinding &binding : reflect("rendering_device/test_scale.comp").bindings) {
+	for (const ReflectedBinding &binding : reflect("tests/scale.comp").bindings) {
 		CHECK(binding.is_used == (binding.binding != 7));
 	}
 }
@@ -50,7 +50,7 @@ TEST_CASE("[SpirvReflection] words that are no SPIR-V are an error that names th
 	CHECK_THROWS_WITH_AS(reflect_spirv("a.comp", words, {}),
 			"Shader \"a.comp\" holds no SPIR-V. Build it again.", Error);
 	std::vector<uint32_t> cut;
-	for (const uint32_t word : find_embedded_shader("rendering_device/test_scale.comp")) {
+	for (const uint32_t word : find_embedded_shader("tests/scale.comp")) {
 		cut.push_back(word);
 	}
 	cut[5] = 0xffff0000u | (cut[5] & 0xffffu); // an instruction longer than the module
