@@ -5,8 +5,7 @@ namespace gnomon {
 RGBuffer add_copy_for_host(RenderGraph &r_graph, RGTexture p_texture, uint32_t p_layer) {
 	const TextureDesc desc = r_graph.get_desc(p_texture);
 	const RGBuffer buffer = r_graph.create_buffer({ desc.name + " readback",
-			uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format),
-			BufferUsage::COPY_TARGET, MemoryKind::READBACK });
+			compute_layer_bytes(desc), BufferUsage::COPY_TARGET, MemoryKind::READBACK });
 	r_graph.add_pass("read back " + desc.name)
 			.reads(p_texture, Access::COPY_READ)
 			.writes(buffer, Access::COPY_WRITE)
@@ -20,10 +19,8 @@ RGBuffer add_copy_for_host(RenderGraph &r_graph, RGTexture p_texture, uint32_t p
 void add_readback(RenderGraph &r_graph, RGTexture p_texture, std::vector<uint8_t> &r_bytes,
 		uint32_t p_layer) {
 	const RGBuffer buffer = add_copy_for_host(r_graph, p_texture, p_layer);
-	const TextureDesc desc = r_graph.get_desc(p_texture);
-	const uint64_t size_bytes =
-			uint64_t(desc.size_px.x) * desc.size_px.y * get_texel_size_bytes(desc.format);
-	r_graph.add_pass("copy " + desc.name)
+	const uint64_t size_bytes = r_graph.get_desc(buffer).size_bytes;
+	r_graph.add_pass("copy " + r_graph.get_desc(p_texture).name)
 			.reads(buffer, Access::HOST_READ)
 			.keep()
 			.execute_on_host([=, &r_bytes](HostContext &p_context) {

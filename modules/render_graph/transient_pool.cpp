@@ -26,11 +26,6 @@ bool shares_memory(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 			p_right.offset_bytes < p_left.offset_bytes + p_left.size_bytes;
 }
 
-uint64_t compute_size_bytes(const TextureDesc &p_desc) {
-	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * p_desc.layer_count *
-			get_texel_size_bytes(p_desc.format);
-}
-
 } // namespace
 
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks) {
@@ -149,7 +144,8 @@ std::unique_ptr<TransientPool::Entry> TransientPool::make_entry(
 			entry->buffers.emplace_back(device, device.create_buffer(request.buffer));
 			placement.buffers[index] = entry->buffers.back().get();
 		} else if (request.is_texture && !has_aliased_memory) {
-			const uint64_t bytes = compute_size_bytes(request.texture);
+			const uint64_t bytes =
+					compute_layer_bytes(request.texture) * request.texture.layer_count;
 			placement.unaliased_bytes += bytes;
 			if (is_owner) {
 				entry->textures.emplace_back(device, device.create_texture(request.texture));

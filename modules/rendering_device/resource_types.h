@@ -96,6 +96,8 @@ struct TextureDesc {
 	bool is_array = false;
 	bool operator==(const TextureDesc &) const = default;
 };
+/// Of one layer, tightly packed.
+uint64_t compute_layer_bytes(const TextureDesc &p_desc);
 
 struct BufferDesc {
 	std::string name;

@@ -6,10 +6,6 @@ namespace gnomon {
 
 namespace {
 
-uint64_t get_layer_bytes(const TextureDesc &p_desc) {
-	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
-}
-
 VkImageSubresourceLayers make_layers(
 		const TextureDesc &p_desc, uint32_t p_layer, uint32_t p_layer_count) {
 	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name, "' has ",
@@ -21,9 +17,10 @@ VkImageSubresourceLayers make_layers(
 
 VkBufferImageCopy make_layer_copy(const BufferDesc &p_buffer, const TextureDesc &p_texture,
 		uint32_t p_layer, uint64_t p_offset_bytes = 0) {
-	GNOMON_ASSERT(p_buffer.size_bytes >= p_offset_bytes + get_layer_bytes(p_texture), "buffer '",
-			p_buffer.name, "' has ", p_buffer.size_bytes, " bytes, a layer of '", p_texture.name,
-			"' ", get_layer_bytes(p_texture), ", beginning at ", p_offset_bytes);
+	GNOMON_ASSERT(p_buffer.size_bytes >= p_offset_bytes + compute_layer_bytes(p_texture),
+			"buffer '", p_buffer.name, "' has ", p_buffer.size_bytes, " bytes, a layer of '",
+			p_texture.name, "' ", compute_layer_bytes(p_texture), ", beginning at ",
+			p_offset_bytes);
 	return { .bufferOffset = p_offset_bytes,
 		.imageSubresource = make_layers(p_texture, p_layer, 1),
 		.imageExtent = { p_texture.size_px.x, p_texture.size_px.y, 1 } };

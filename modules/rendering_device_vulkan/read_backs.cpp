@@ -30,10 +30,8 @@ void VulkanDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
 
 void VulkanDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
 	const TextureResource &source = textures.get(p_texture);
-	const uint64_t size_bytes = uint64_t(source.desc.size_px.x) * source.desc.size_px.y *
-			get_texel_size_bytes(source.desc.format);
-	const BufferResource &target =
-			add_read_back(source.desc.name, size_bytes, std::move(p_callback));
+	const BufferResource &target = add_read_back(
+			source.desc.name, compute_layer_bytes(source.desc), std::move(p_callback));
 	recording.copy_texture_to_buffer(source, target, p_layer);
 }
 

@@ -129,8 +129,7 @@ TextureRID VulkanDevice::create_texture(const TextureDesc &p_desc) {
 
 TextureRID VulkanDevice::create_texture_with_data(
 		TextureDesc p_desc, std::span<const uint8_t> p_bytes) {
-	const uint64_t layer_bytes =
-			uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
+	const uint64_t layer_bytes = compute_layer_bytes(p_desc);
 	GNOMON_ASSERT(
 			p_bytes.size() == layer_bytes || p_bytes.size() == layer_bytes * p_desc.layer_count,
 			"texture '", p_desc.name, "' needs ", layer_bytes, " bytes per layer, got ",

@@ -60,14 +60,11 @@ void VulkanDevice::add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t
 
 void VulkanDevice::add_texture_upload(TextureRID p_texture, std::span<const uint8_t> p_bytes) {
 	TextureResource &texture = textures.get(p_texture);
-	const uint64_t layer_bytes = uint64_t(texture.desc.size_px.x) * texture.desc.size_px.y *
-			get_texel_size_bytes(texture.desc.format);
-	PendingUpload upload;
-	upload.staging = make_staging(texture.desc.name, p_bytes);
-	upload.size_bytes = p_bytes.size();
-	upload.texture = p_texture;
-	upload.layer_count = static_cast<uint32_t>(p_bytes.size() / layer_bytes);
-	pending_uploads.push_back(std::move(upload));
+	pending_uploads.push_back({ .staging = make_staging(texture.desc.name, p_bytes),
+			.size_bytes = p_bytes.size(),
+			.texture = p_texture,
+			.layer_count =
+					static_cast<uint32_t>(p_bytes.size() / compute_layer_bytes(texture.desc)) });
 	pending_upload_bytes += p_bytes.size();
 	texture.recorded_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 	flush_uploads_when_many();

@@ -1,5 +1,6 @@
-#include "modules/core/error.h"
 #include "modules/rendering_device/resource_types.h"
+
+#include "modules/core/error.h"
 
 namespace gnomon {
 
@@ -30,12 +31,7 @@ const FormatRow FORMATS[] = {
 };
 static_assert(std::size(FORMATS) == static_cast<size_t>(Format::D32_SFLOAT_S8_UINT) + 1);
 
-struct TextureUsageRow {
-	TextureUsage usage;
-	const char *name;
-};
-
-const TextureUsageRow TEXTURE_USAGES[] = {
+const std::pair<TextureUsage, const char *> TEXTURE_USAGES[] = {
 	{ TextureUsage::SAMPLED, "SAMPLED" },
 	{ TextureUsage::STORAGE, "STORAGE" },
 	{ TextureUsage::COLOR_ATTACHMENT, "COLOR_ATTACHMENT" },
@@ -74,12 +70,30 @@ bool is_uint_format(Format p_format) {
 
 std::string describe_usage(TextureUsage p_usage) {
 	std::string names;
-	for (const TextureUsageRow &row : TEXTURE_USAGES) {
-		if (has_usage(p_usage, row.usage)) {
-			names += (names.empty() ? "" : " | ") + std::string(row.name);
+	for (const auto &[usage, name] : TEXTURE_USAGES) {
+		if (has_usage(p_usage, usage)) {
+			names += (names.empty() ? "" : " | ") + std::string(name);
 		}
 	}
 	return names;
+}
+
+uint64_t compute_layer_bytes(const TextureDesc &p_desc) {
+	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
+}
+
+bool is_write(Access p_access) {
+	switch (p_access) {
+		case Access::SHADER_WRITE_FRAGMENT:
+		case Access::SHADER_WRITE_COMPUTE:
+		case Access::COLOR_WRITE:
+		case Access::DEPTH_WRITE:
+		case Access::COPY_WRITE:
+		case Access::HOST_WRITE:
+			return true;
+		default:
+			return false;
+	}
 }
 
 } // namespace gnomon
