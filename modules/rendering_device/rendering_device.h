@@ -13,6 +13,9 @@
 namespace gnomon {
 
 class CommandList;
+struct DeviceFeatures;
+/// { &DeviceFeatures::geometry_shader, ... }
+using FeatureList = std::vector<bool DeviceFeatures::*>;
 
 /// What the user may choose of the device.
 struct DeviceOptions {
@@ -26,6 +29,7 @@ struct DeviceOptions {
 	std::optional<double> wait_limit_s;
 	bool needs_surface = false;					  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
+	FeatureList denied_features;				  // that it is to lack, though it may have them
 };
 
 /// One device as `gnomon info` lists it.
@@ -86,7 +90,7 @@ struct GpuSpan {
 };
 
 /// A device and everything that lives on it. The backend that the program is linked with implements
-/// it; modules/rendering_device/testing.h has what tests may do to it. One thread uses it. Every
+/// it, and for tests what modules/rendering_device/tests/testing.h has. One thread uses it. Every
 /// failure is an Error that names the object, the value, the limit and the next step; after a lost
 /// device every call fails with the text of the first report, which names the last pass that had
 /// begun. Those are DeviceLost, and so is a device that makes no progress, see
@@ -121,7 +125,6 @@ public:
 	/// device.
 	virtual PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) = 0;
 	virtual PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) = 0;
-	virtual uint32_t get_pipeline_count() const = 0;
 	/// Other SPIR-V for these entry points from now on: makes all pipelines anew that use one of
 	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
 	/// wants other bindings or push constants than this build's, are an Error that leaves

@@ -25,7 +25,7 @@ Allocation VulkanDevice::allocate(const std::string &p_resource, const MemoryReq
 		allocation = allocator.allocate(p_request);
 	}
 	if (!allocation.block) {
-		fail_out_of_memory(p_resource, p_request.needs.size, p_request);
+		fail_out_of_memory(p_resource, p_request);
 	}
 	return allocation;
 }

@@ -30,17 +30,17 @@ struct FeatureChain {
 	FeatureChain &operator=(const FeatureChain &) = delete;
 };
 
-/// What the device has, of what Gnomon uses; nothing else is enabled, so that the layers notice
-/// when a shader relies on more.
+/// What Gnomon uses of what the device has; nothing else is enabled, so that the layers notice when
+/// a shader relies on more. p_features: what it says of itself.
 void choose_features(
-		const FeatureChain &p_present, const PretendedLimits &p_limits, FeatureChain &r_wanted) {
+		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_wanted) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;
 	VkPhysicalDeviceFeatures &wanted = r_wanted.v10.features;
-	wanted.geometryShader = !p_limits.geometry_shader && present.geometryShader;
-	wanted.depthClamp = !p_limits.depth_clamp && present.depthClamp;
-	wanted.depthBounds = !p_limits.depth_bounds && present.depthBounds;
+	wanted.geometryShader = p_features.geometry_shader;
+	wanted.depthClamp = p_features.depth_clamp;
+	wanted.depthBounds = p_features.depth_bounds;
 	wanted.independentBlend = present.independentBlend;
-	wanted.fragmentStoresAndAtomics = !p_limits.fragment_stores && present.fragmentStoresAndAtomics;
+	wanted.fragmentStoresAndAtomics = p_features.fragment_stores;
 	wanted.vertexPipelineStoresAndAtomics = present.vertexPipelineStoresAndAtomics;
 	wanted.occlusionQueryPrecise = present.occlusionQueryPrecise;
 	wanted.shaderStorageImageExtendedFormats = present.shaderStorageImageExtendedFormats;
@@ -56,7 +56,7 @@ void choose_features(
 	r_wanted.v13.synchronization2 = VK_TRUE;
 	r_wanted.v13.maintenance4 = VK_TRUE;
 	r_wanted.v13.shaderDemoteToHelperInvocation = p_present.v13.shaderDemoteToHelperInvocation;
-	r_wanted.conditional.conditionalRendering = p_present.conditional.conditionalRendering;
+	r_wanted.conditional.conditionalRendering = p_features.conditional_rendering;
 }
 
 uint64_t find_timestamp_mask(const PhysicalDevice &p_device) {
@@ -71,21 +71,12 @@ uint64_t find_timestamp_mask(const PhysicalDevice &p_device) {
 } // namespace
 
 std::unique_ptr<RenderingDevice> create_rendering_device(const DeviceOptions &p_options) {
-	return create_limited_rendering_device(p_options, {});
-}
-
-std::unique_ptr<RenderingDevice> create_limited_rendering_device(
-		const DeviceOptions &p_options, const PretendedLimits &p_limits) {
 	auto device = std::make_unique<VulkanDevice>();
-	device->initialize(p_options, p_limits);
+	device->initialize(p_options);
 	return device;
 }
 
-VulkanDevice::~VulkanDevice() {
-	shutdown();
-}
-
-void VulkanDevice::initialize(const DeviceOptions &p_options, const PretendedLimits &p_limits) {
+void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	options = p_options;
 	instance = std::make_unique<VulkanInstance>(p_options);
 	physical = choose_device(
@@ -114,38 +105,35 @@ void VulkanDevice::initialize(const DeviceOptions &p_options, const PretendedLim
 		}
 		return is_present;
 	};
-	const bool has_conditional = !p_limits.conditional_rendering &&
-			enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
+	const bool has_conditional = enable_if_present(VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME);
 	const bool has_budget = enable_if_present(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
 	if (p_options.needs_surface) {
 		enable_if_present(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 	}
 	FeatureChain present(has_conditional);
 	vkGetPhysicalDeviceFeatures2(physical.handle, &present.v10);
-	FeatureChain wanted(has_conditional);
-	choose_features(present, p_limits, wanted);
-
-	const VkPhysicalDeviceFeatures &enabled = wanted.v10.features;
-	features.geometry_shader = enabled.geometryShader;
-	features.aliased_memory = !p_limits.aliased_memory;
-	features.depth_clamp = enabled.depthClamp;
-	features.depth_bounds = enabled.depthBounds;
-	features.conditional_rendering = wanted.conditional.conditionalRendering;
-	features.precise_occlusion_query = enabled.occlusionQueryPrecise;
-	features.fragment_stores = enabled.fragmentStoresAndAtomics;
-	features.storage_texel_buffers = !p_limits.storage_texel_buffers;
+	const VkPhysicalDeviceFeatures &present_v10 = present.v10.features;
+	features.geometry_shader = present_v10.geometryShader;
+	features.aliased_memory = true;
+	features.depth_clamp = present_v10.depthClamp;
+	features.depth_bounds = present_v10.depthBounds;
+	features.conditional_rendering = present.conditional.conditionalRendering;
+	features.fragment_stores = present_v10.fragmentStoresAndAtomics;
+	features.storage_texel_buffers = true;
 	features.timestamps = timestamp_mask != 0;
-	features.timestamp_period_ns = limits.timestampPeriod;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;
 	features.max_texture_size_px = limits.maxImageDimension2D;
-	features.max_texel_buffer_elements = limits.maxTexelBufferElements;
 	features.subgroup_size = subgroup.subgroupSize;
 	const VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT |
 			VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT |
 			VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
-	features.subgroup_operations = !p_limits.subgroup_operations &&
-			(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+	features.subgroup_operations = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
 			(subgroup.supportedOperations & operations) == operations;
+	for (bool DeviceFeatures::*const denied : options.denied_features) {
+		features.*denied = false;
+	}
+	FeatureChain wanted(has_conditional);
+	choose_features(present, features, wanted);
 
 	const float priority = 1.0f;
 	const VkDeviceQueueCreateInfo queue_info = { .sType =
@@ -184,7 +172,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options, const PretendedLim
 	load_pipeline_cache();
 }
 
-void VulkanDevice::shutdown() {
+VulkanDevice::~VulkanDevice() {
 	if (!device) {
 		return; // creation failed before there was one
 	}
@@ -194,8 +182,8 @@ void VulkanDevice::shutdown() {
 		instance->abandon();
 		return;
 	}
-	for (const std::string &name : list_live_resources()) {
-		log_error("Leaked ", name, ". Free it before the device ends.");
+	for (const LiveResource &resource : find_live_resources()) {
+		log_error("Leaked ", resource.name, ". Free it before the device ends.");
 	}
 	save_pipeline_cache();
 	for (PendingUpload &upload : pending_uploads) {
@@ -216,42 +204,6 @@ void VulkanDevice::shutdown() {
 	destroy_slots();
 	allocator.destroy();
 	vkDestroyDevice(device, nullptr);
-}
-
-std::vector<std::string> VulkanDevice::list_live_resources() {
-	std::vector<std::string> names;
-	buffers.for_each([&](BufferRID, const BufferResource &p_buffer) {
-		names.push_back("buffer '" + p_buffer.desc.name + "'");
-	});
-	textures.for_each([&](TextureRID, const TextureResource &p_texture) {
-		if (!p_texture.is_swapchain) {
-			names.push_back("texture '" + p_texture.desc.name + "'");
-		}
-	});
-	samplers.for_each([&](SamplerRID, const SamplerResource &p_sampler) {
-		names.push_back("sampler '" + p_sampler.desc.name + "'");
-	});
-	memories.for_each([&](MemoryRID, const MemoryResource &p_memory) {
-		names.push_back("memory '" + p_memory.desc.name + "'");
-	});
-	std::sort(names.begin(), names.end());
-	return names;
-}
-
-const DeviceInfo &VulkanDevice::get_info() const {
-	return physical.info;
-}
-
-const DeviceFeatures &VulkanDevice::get_features() const {
-	return features;
-}
-
-CommandCounts VulkanDevice::get_command_counts() const {
-	return command_counts;
-}
-
-MemoryUse VulkanDevice::get_memory_use() const {
-	return allocator.get_use();
 }
 
 } // namespace gnomon

@@ -46,7 +46,8 @@ void VulkanDevice::read_environment() {
 			read_number("GNOMON_DEVICE_TIMEOUT_S", MAX_WAIT_S, "seconds", "wait for ever");
 	wait_limit_s = options.wait_limit_s.value_or(
 			wait_s.value_or(physical.info.type == "CPU" ? CPU_WAIT_S : GPU_WAIT_S));
-	injected_fault = read_injected_fault();
+	const char *fault = std::getenv("GNOMON_INJECT_FAULT");
+	injected_fault = parse_injected_fault(fault ? fault : "");
 }
 
 } // namespace gnomon

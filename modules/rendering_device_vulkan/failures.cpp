@@ -67,26 +67,34 @@ std::string VulkanDevice::find_last_span_begun() const {
 	return "";
 }
 
-void VulkanDevice::fail_out_of_memory(
-		const std::string &p_resource, uint64_t p_size_bytes, MemoryRequest p_request) {
-	struct Consumer {
-		uint64_t size_bytes;
-		std::string name;
+std::vector<LiveResource> VulkanDevice::find_live_resources() {
+	std::vector<LiveResource> found;
+	const auto add = [&](const char *p_kind, const std::string &p_name, uint64_t p_size_bytes) {
+		found.push_back({ text(p_kind, " '", p_name, "'"), p_size_bytes });
 	};
-	std::vector<Consumer> consumers;
 	buffers.for_each([&](BufferRID, const BufferResource &p_buffer) {
-		consumers.push_back({ p_buffer.memory.size_bytes, "buffer '" + p_buffer.desc.name + "'" });
+		add("buffer", p_buffer.desc.name, p_buffer.memory.size_bytes);
 	});
 	textures.for_each([&](TextureRID, const TextureResource &p_texture) {
-		consumers.push_back(
-				{ p_texture.memory.size_bytes, "texture '" + p_texture.desc.name + "'" });
+		if (!p_texture.is_swapchain) {
+			add("texture", p_texture.desc.name, p_texture.memory.size_bytes);
+		}
+	});
+	samplers.for_each([&](SamplerRID, const SamplerResource &p_sampler) {
+		add("sampler", p_sampler.desc.name, 0);
 	});
 	memories.for_each([&](MemoryRID, const MemoryResource &p_memory) {
-		consumers.push_back({ p_memory.memory.size_bytes, "memory '" + p_memory.desc.name + "'" });
+		add("memory", p_memory.desc.name, p_memory.memory.size_bytes);
 	});
-	std::sort(consumers.begin(), consumers.end(), [](const auto &p_left, const auto &p_right) {
-		return p_left.size_bytes > p_right.size_bytes;
-	});
+	std::ranges::sort(found, {}, &LiveResource::name);
+	return found;
+}
+
+void VulkanDevice::fail_out_of_memory(
+		const std::string &p_resource, const MemoryRequest &p_request) {
+	std::vector<LiveResource> consumers = find_live_resources();
+	std::erase_if(consumers, [](const LiveResource &p_live) { return p_live.size_bytes == 0; });
+	std::ranges::stable_sort(consumers, std::greater(), &LiveResource::size_bytes);
 	std::string largest;
 	for (size_t index = 0; index < std::min(consumers.size(), LARGEST_RESOURCE_COUNT); ++index) {
 		largest += text(largest.empty() ? "; the largest are " : ", ", consumers[index].name, " ",
@@ -94,8 +102,8 @@ void VulkanDevice::fail_out_of_memory(
 	}
 	const uint32_t type =
 			allocator.find_memory_type(p_request.needs.memoryTypeBits, p_request.kind);
-	fail("Out of device memory: ", p_resource, " needs ", describe_bytes(p_size_bytes), ", ",
-			describe_bytes(allocator.get_use().used_bytes), " of ",
+	fail("Out of device memory: ", p_resource, " needs ", describe_bytes(p_request.needs.size),
+			", ", describe_bytes(allocator.get_use().used_bytes), " of ",
 			describe_bytes(allocator.compute_budget_bytes(type)), " are in use", largest,
 			". Lower the map size, the layer count or the image size, or choose another device ",
 			"with --device.");

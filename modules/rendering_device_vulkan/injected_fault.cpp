@@ -3,40 +3,26 @@
 #include "modules/core/error.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <map>
+#include <regex>
 
 namespace gnomon {
 
-InjectedFault read_injected_fault() {
-	const char *value = std::getenv("GNOMON_INJECT_FAULT");
-	if (value == nullptr || *value == 0) {
+InjectedFault parse_injected_fault(const std::string &p_written) {
+	if (p_written.empty()) {
 		return {};
 	}
-	static const std::pair<std::string_view, Fault> KINDS[] = {
+	static const std::map<std::string, Fault> KINDS = {
 		{ "device_lost", Fault::DEVICE_LOST },
 		{ "out_of_memory", Fault::OUT_OF_MEMORY },
 		{ "hang", Fault::HANG },
 	};
-	static constexpr std::string_view PASS = "@pass:";
-	static constexpr std::string_view FILE = "@file:";
-	const std::string_view written(value);
-	const size_t at = std::min(written.find('@'), written.size());
-	const std::string_view event = written.substr(at);
-	for (const auto &[name, fault] : KINDS) {
-		if (name != written.substr(0, at)) {
-			continue;
-		}
-		if (event.empty()) {
-			return { fault, {}, {} };
-		}
-		if (event.starts_with(PASS) && event.size() > PASS.size()) {
-			return { fault, std::string(event.substr(PASS.size())), {} };
-		}
-		if (event.starts_with(FILE) && event.size() > FILE.size()) {
-			return { fault, {}, event.substr(FILE.size()) };
-		}
+	static const std::regex FORM("([a-z_]+)(?:@pass:(.+)|@file:(.+))?");
+	std::smatch parts;
+	if (std::regex_match(p_written, parts, FORM) && KINDS.contains(parts[1])) {
+		return { KINDS.at(parts[1]), parts[2], parts[3].str() };
 	}
-	fail("GNOMON_INJECT_FAULT is \"", written, "\", must be device_lost, out_of_memory or hang, ",
+	fail("GNOMON_INJECT_FAULT is \"", p_written, "\", must be device_lost, out_of_memory or hang, ",
 			"alone (the first submission) or with @pass:NAME (the first one with a pass whose "
 			"name contains NAME) or @file:PATH (the first one after that file exists). It is for "
 			"tests: unset it.");

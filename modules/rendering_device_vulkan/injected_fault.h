@@ -1,13 +1,13 @@
 #pragma once
 
-#include "modules/rendering_device/testing.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon {
+
+enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
 
 /// Happens once, to the first submission for which all conditions hold that are set.
 struct InjectedFault {
@@ -18,7 +18,7 @@ struct InjectedFault {
 	/// The pass that meets the condition, else the last one; nothing where it is not due.
 	std::optional<std::string> find_pass(const std::vector<std::string> &p_pass_names) const;
 };
-/// $GNOMON_INJECT_FAULT; a value that is none is an Error with those that are.
-InjectedFault read_injected_fault();
+/// Of $GNOMON_INJECT_FAULT, empty: none. A value that is none is an Error with those that are.
+InjectedFault parse_injected_fault(const std::string &p_written);
 
 } // namespace gnomon

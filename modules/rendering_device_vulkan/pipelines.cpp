@@ -104,10 +104,6 @@ const PipelineResource &VulkanDevice::get_pipeline(PipelineRID p_pipeline) const
 	return pipelines[p_pipeline.id - 1];
 }
 
-uint32_t VulkanDevice::get_pipeline_count() const {
-	return static_cast<uint32_t>(pipelines.size());
-}
-
 PipelineResource VulkanDevice::make_pipeline(const ComputePipelineDesc &p_desc) {
 	PipelineStages stages(*this, p_desc.constants);
 	stages.add(p_desc.shader, VK_SHADER_STAGE_COMPUTE_BIT);

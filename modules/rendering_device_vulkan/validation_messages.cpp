@@ -1,7 +1,5 @@
-#include "modules/rendering_device_vulkan/validation_messages.h"
-
 #include "modules/core/log.h"
-#include "modules/rendering_device/testing.h"
+#include "modules/rendering_device_vulkan/vulkan_instance.h"
 
 #include <cstring>
 #include <mutex>
@@ -51,19 +49,9 @@ unsigned get_validation_message_count() {
 	return message_count;
 }
 
-ExpectedValidationMessages::ExpectedValidationMessages() {
+std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages) {
 	std::lock_guard lock(messages_mutex);
-	before = std::exchange(expected_messages, &messages);
-}
-
-ExpectedValidationMessages::~ExpectedValidationMessages() {
-	std::lock_guard lock(messages_mutex);
-	expected_messages = before;
-}
-
-std::vector<std::string> ExpectedValidationMessages::get_messages() const {
-	std::lock_guard lock(messages_mutex);
-	return messages;
+	return std::exchange(expected_messages, r_messages);
 }
 
 } // namespace gnomon

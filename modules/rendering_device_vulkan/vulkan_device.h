@@ -94,6 +94,12 @@ struct PendingUpload {
 	uint32_t layer_count = 1;
 };
 
+/// For reports of leaks and of memory that ran out.
+struct LiveResource {
+	std::string name; // "texture 'albedo'"
+	uint64_t size_bytes = 0;
+};
+
 /// Bytes on their way to the CPU.
 struct PendingReadBack {
 	uint64_t submission_number = 0;
@@ -120,14 +126,13 @@ class VulkanDevice final : public RenderingDevice {
 public:
 	~VulkanDevice() override;
 	/// Once, before everything else; where it fails, the destructor ends what there is.
-	void initialize(const DeviceOptions &p_options, const PretendedLimits &p_limits);
+	void initialize(const DeviceOptions &p_options);
 
 	// device_creation.cpp
-	const DeviceInfo &get_info() const override;
-	const DeviceFeatures &get_features() const override;
-	MemoryUse get_memory_use() const override;
-	CommandCounts get_command_counts() const override;
-	std::vector<std::string> list_live_resources();
+	const DeviceInfo &get_info() const override { return physical.info; }
+	const DeviceFeatures &get_features() const override { return features; }
+	MemoryUse get_memory_use() const override { return allocator.get_use(); }
+	CommandCounts get_command_counts() const override { return command_counts; }
 
 	// buffers.cpp, textures.cpp, placed_textures.cpp
 	BufferRID create_buffer(const BufferDesc &p_desc) override;
@@ -151,7 +156,6 @@ public:
 	// pipelines.cpp, raster_pipelines.cpp, shader_replacement.cpp
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) override;
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) override;
-	uint32_t get_pipeline_count() const override;
 	void replace_shaders(
 			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) override;
 
@@ -217,9 +221,6 @@ public:
 			nullptr; // or the device lacks it
 	PFN_vkCmdEndConditionalRenderingEXT end_conditional_rendering = nullptr;
 
-	// device_creation.cpp
-	void shutdown();
-
 	// device_environment.cpp
 	void read_environment();
 
@@ -230,7 +231,9 @@ public:
 	[[noreturn]] void fail_as_lost(const std::string &p_span_name);
 	std::string find_last_span_begun() const;
 	[[noreturn]] void fail_out_of_memory(
-			const std::string &p_resource, uint64_t p_size_bytes, MemoryRequest p_request);
+			const std::string &p_resource, const MemoryRequest &p_request);
+	/// Sorted by name, without the images of the swapchain.
+	std::vector<LiveResource> find_live_resources();
 	template <typename Handle>
 	void set_name(VkObjectType p_type, Handle p_handle, const std::string &p_name) {
 		set_name_of(p_type, reinterpret_cast<uint64_t>(p_handle), p_name);

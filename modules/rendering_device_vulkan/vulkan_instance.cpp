@@ -1,7 +1,6 @@
 #include "modules/rendering_device_vulkan/vulkan_instance.h"
 
 #include "modules/core/error.h"
-#include "modules/rendering_device_vulkan/validation_messages.h"
 
 #include <cstring>
 

@@ -11,6 +11,25 @@ namespace gnomon {
 /// "VK_ERROR_DEVICE_LOST", or the number of a result that has no name here.
 std::string get_result_name(VkResult p_result);
 
+/// All that a function of Vulkan lists, of the arguments in front of count and array.
+template <typename Item, typename Function, typename... Arguments>
+std::vector<Item> list_all(Function p_function, Arguments... p_arguments) {
+	uint32_t count = 0;
+	p_function(p_arguments..., &count, nullptr);
+	std::vector<Item> items(count);
+	p_function(p_arguments..., &count, items.data());
+	items.resize(count);
+	return items;
+}
+bool has_extension(
+		const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name);
+
+/// A messenger that counts what the layers report: warnings and errors of validation, not advice
+/// on speed and not what the loader says of the drivers it finds.
+VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
+/// From now on r_messages gets them instead, or nobody (null): for tests. Returns what got them.
+std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages);
+
 /// The VkInstance with its validation messenger; destroyed with this object.
 class VulkanInstance {
 public:

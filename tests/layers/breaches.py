@@ -37,12 +37,11 @@ def make_small_tree(root):
         text = 'ShadowRegistry::add({ "%s", "x", [] { return std::make_unique<%s>(); } });\n' % (technique, made)
         add_file(root, "modules/shadow_%s/register_types.cpp" % name, text)
     add_file(root, "modules/scene/node.h", '#include "modules/core/register_types.h"\n#include <vector>\n')
-    add_file(root, "modules/rendering_device/testing.h", "#pragma once\n")
-    add_file(root, "modules/rendering_device/tests/a.h", '#include "modules/rendering_device/testing.h"\n')
-    backend = '#include <vulkan/vulkan.h>\n#include "modules/rendering_device/testing.h"\n'
-    add_file(root, "modules/rendering_device_vulkan/device.cpp", backend)
+    add_file(root, "modules/rendering_device/tests/testing.h", "#pragma once\n")
+    add_file(root, "modules/rendering_device/tests/a.h", '#include "modules/rendering_device/tests/testing.h"\n')
+    add_file(root, "modules/rendering_device_vulkan/device.cpp", "#include <vulkan/vulkan.h>\n")
     add_file(root, "modules/desktop/a.cpp", '#include "modules/rendering_device_vulkan/vulkan_handles.h"\n')
-    add_file(root, "tests/a.h", '#include "modules/rendering_device/testing.h"\n')
+    add_file(root, "tests/a.h", '#include "modules/rendering_device/tests/testing.h"\n')
     add_file(root, "modules/main/window.cpp", "#include <GLFW/glfw3.h>\n")
     add_file(root, "modules/rendering_device_vulkan/vulkan_handles.h", "#include <vulkan/vulkan_core.h>\n")
     add_file(root, "shaders/common/depth_inc.glsl", "// moon, Sun and lamp_fan without quotes are words\n")
@@ -99,10 +98,10 @@ BREACHES = (
      lambda root: add_file(root, "modules/main/a.cpp", '#include "modules/rendering_device_vulkan/a.h"\n')),
     ("a technique that lists a backend", "check_backends",
      lambda root: break_config(root, "shadow_moon", ["core", "renderer", "rendering_device_vulkan"], 4)),
-    ("the device's testing header in the renderer", "check_testing_headers",
-     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/testing.h"\n')),
-    ("the device's testing header in the interface", "check_testing_headers",
-     lambda root: add_file(root, "modules/rendering_device/a.h", '#include "modules/rendering_device/testing.h"\n')),
+    ("the device's testing header in the renderer", "check_test_headers",
+     lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device/tests/testing.h"\n')),
+    ("the device's testing header in the interface", "check_test_headers",
+     lambda root: add_file(root, "modules/rendering_device/a.h", '#include "modules/rendering_device/tests/testing.h"\n')),
     ("GLFW in the renderer", "check_window_library",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <GLFW/glfw3.h>\n")),
     ("mesh_tools on the device", "check_modules_without_device",

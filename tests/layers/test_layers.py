@@ -184,13 +184,13 @@ def check_backends(tree):
                 yield "modules/%s/config.py: lists %s; only %s may" % (name, dependency, " and ".join(BACKEND_USERS))
 
 
-def check_testing_headers(tree):
-    """What tests may do to a device is included by tests, and by the backend that implements it."""
+def check_test_headers(tree):
+    """What lies in a folder of tests is included by tests: what they may do to a device, say."""
     for path in tree.find_sources(CPP):
-        if path.startswith("tests/") or "/tests/" in path or BACKEND.fullmatch(tree.get_module(path) or ""):
+        if path.startswith("tests/") or "/tests/" in path:
             continue
         for line, _, name in tree.get_includes(path):
-            if name.endswith("/testing.h"):
+            if name.startswith("tests/") or "/tests/" in name:
                 yield "%s:%d: includes %s; only tests may" % (path, line, name)
 
 
@@ -300,7 +300,7 @@ RULES = (
     check_layers,
     check_vulkan,
     check_backends,
-    check_testing_headers,
+    check_test_headers,
     check_window_library,
     check_modules_without_device,
     check_registration_is_readable,

@@ -122,7 +122,7 @@ public:
 			if (tells) {
 				std::printf("block %u: %llu MiB resident, then %llu; %u pipelines\n", block,
 						static_cast<unsigned long long>(before / MIB),
-						static_cast<unsigned long long>(after / MIB), device->get_pipeline_count());
+						static_cast<unsigned long long>(after / MIB), get_pipeline_count(*device));
 			}
 		}
 		renderer.reset();
@@ -200,7 +200,7 @@ private:
 		CAPTURE(request.technique_override);
 		const bool runs_out = random.chance(0.02);
 		if (runs_out) {
-			inject_fault(*device, Fault::OUT_OF_MEMORY);
+			inject_fault(*device, "out_of_memory");
 			CHECK_THROWS_AS(renderer->render(request), std::bad_alloc);
 			return;
 		}

@@ -2,7 +2,7 @@
 #include "modules/render_graph/fill_pass.h"
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
-#include "modules/rendering_device/testing.h"
+#include "modules/rendering_device/tests/testing.h"
 
 #include <doctest/doctest.h>
 
@@ -16,10 +16,11 @@ struct GraphFixture {
 	std::unique_ptr<RenderingDevice> device;
 	std::unique_ptr<TransientPool> pool;
 
-	explicit GraphFixture(const PretendedLimits &p_limits = {}) {
+	explicit GraphFixture(const FeatureList &p_denied = {}) {
 		DeviceOptions options;
 		options.validation = true;
-		device = create_limited_rendering_device(options, p_limits);
+		options.denied_features = p_denied;
+		device = create_rendering_device(options);
 		pool = std::make_unique<TransientPool>(*device);
 	}
 };
@@ -89,8 +90,8 @@ TEST_CASE("[GPU][RenderGraph] values pass through a chain of copies in every mod
 
 namespace {
 
-void check_chain(const PretendedLimits &p_limits) {
-	GraphFixture fixture(p_limits);
+void check_chain(const FeatureList &p_denied) {
+	GraphFixture fixture(p_denied);
 	uint64_t used_bytes = 0;
 	for (int frame = 0; frame < 3; ++frame) {
 		RenderGraph graph(*fixture.device, *fixture.pool);
@@ -121,7 +122,7 @@ TEST_CASE("[GPU][RenderGraph] textures of a chain share memory, and the pool kee
 }
 
 TEST_CASE("[GPU][RenderGraph] without aliased memory alike textures of a chain are one") {
-	check_chain({ .aliased_memory = true });
+	check_chain({ &DeviceFeatures::aliased_memory });
 }
 
 TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
@@ -240,7 +241,7 @@ TEST_CASE("[GPU][RenderGraph] an error in a pass ends the frame, and the next fr
 
 TEST_CASE("[GPU][RenderGraph] a lost device is reported with the last pass that began") {
 	GraphFixture fixture;
-	inject_fault(*fixture.device, Fault::DEVICE_LOST);
+	inject_fault(*fixture.device, "device_lost");
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGTexture texture = graph.create_texture(make_desc("texture"));
 	add_fill(graph, texture, 4.0f);

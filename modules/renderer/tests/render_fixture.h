@@ -13,8 +13,8 @@ struct RenderFixture {
 	std::unique_ptr<Renderer> renderer;
 
 	/// p_device: as DeviceOptions::device.
-	explicit RenderFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
-		device = create_validated_device(p_device, p_limits);
+	explicit RenderFixture(const std::string &p_device = "", const FeatureList &p_denied = {}) {
+		device = create_validated_device(p_device, p_denied);
 		renderer = std::make_unique<Renderer>(*device);
 	}
 

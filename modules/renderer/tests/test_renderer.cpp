@@ -237,7 +237,7 @@ TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
 
 TEST_CASE("[GPU][Renderer] without geometry shaders a picture differs at edges only") {
 	RenderFixture fixture;
-	RenderFixture limited("", { .geometry_shader = true });
+	RenderFixture limited("", { &DeviceFeatures::geometry_shader });
 	SmallScene scene;
 	RenderRequest request;
 	request.scene = scene.snap();

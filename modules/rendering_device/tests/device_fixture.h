@@ -5,7 +5,7 @@
 #include "modules/core/log.h"
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/rendering_device/command_list.h"
-#include "modules/rendering_device/testing.h"
+#include "modules/rendering_device/tests/testing.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -38,9 +38,10 @@ struct DeviceFixture {
 	TemporaryCache cache;
 	std::unique_ptr<RenderingDevice> device;
 
-	explicit DeviceFixture(DeviceOptions p_options = {}, const PretendedLimits &p_limits = {}) {
+	explicit DeviceFixture(DeviceOptions p_options = {}, const FeatureList &p_denied = {}) {
 		p_options.validation = true;
-		device = create_limited_rendering_device(p_options, p_limits);
+		p_options.denied_features = p_denied;
+		device = create_rendering_device(p_options);
 	}
 
 	template <typename T>

@@ -53,9 +53,9 @@ TEST_CASE(
 		}
 		CHECK(is_equal);
 	}
-	CHECK(device.get_pipeline_count() == 2);
+	CHECK(get_pipeline_count(device) == 2);
 	get_scale_pipeline(device);
-	CHECK(device.get_pipeline_count() == 2);
+	CHECK(get_pipeline_count(device) == 2);
 }
 
 TEST_CASE("[GPU][RenderingDevice] an upload made while commands are recorded is there for them") {

@@ -81,11 +81,9 @@ TEST_CASE(
 
 TEST_CASE("[GPU][RenderingDevice] a device denies the features that it is to lack") {
 	const DeviceFixture fixture({},
-			{ .geometry_shader = true,
-					.aliased_memory = true,
-					.depth_bounds = true,
-					.storage_texel_buffers = true,
-					.conditional_rendering = true });
+			{ &DeviceFeatures::geometry_shader, &DeviceFeatures::aliased_memory,
+					&DeviceFeatures::depth_bounds, &DeviceFeatures::storage_texel_buffers,
+					&DeviceFeatures::conditional_rendering });
 	const DeviceFeatures &features = fixture.device->get_features();
 	CHECK_FALSE(features.geometry_shader);
 	CHECK_FALSE(features.aliased_memory);
@@ -95,7 +93,7 @@ TEST_CASE("[GPU][RenderingDevice] a device denies the features that it is to lac
 }
 
 TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses their pipelines") {
-	DeviceFixture fixture({}, { .geometry_shader = true });
+	DeviceFixture fixture({}, { &DeviceFeatures::geometry_shader });
 	CHECK_FALSE(fixture.device->get_features().geometry_shader);
 	const std::string error = catch_error([&] {
 		fixture.device->get_raster_pipeline({ .name = "fins",
@@ -107,7 +105,7 @@ TEST_CASE("[GPU][RenderingDevice] pretending to lack geometry shaders refuses th
 }
 
 TEST_CASE("[GPU][RenderingDevice] without storage texel buffers a buffer is one or the other") {
-	DeviceFixture fixture({}, { .storage_texel_buffers = true });
+	DeviceFixture fixture({}, { &DeviceFeatures::storage_texel_buffers });
 	const std::vector<uint32_t> words(4);
 	fixture.make_buffer("storage", words, BufferUsage::STORAGE);
 	fixture.make_buffer("texels", words, BufferUsage::TEXEL);

@@ -72,7 +72,7 @@ TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every ca
 	CommandList &commands = device.begin_commands();
 	record_span(commands, "G-buffer", buffer.get());
 	record_span(commands, "Lamp: resolve", buffer.get());
-	inject_fault(device, Fault::DEVICE_LOST);
+	inject_fault(device, "device_lost");
 	const std::string error = catch_error([&] { device.submit_commands(SubmitMode::WAIT); });
 	CHECK(contains(error, "pass 'Lamp: resolve'"));
 	CHECK(catch_error([&] { device.begin_commands(); }) == error);

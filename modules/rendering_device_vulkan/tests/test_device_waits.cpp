@@ -113,7 +113,7 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	record_work(device, device.begin_commands(), "shown before", target.get());
 	device.submit_commands(SubmitMode::WAIT);
 	record_work(device, device.begin_commands(), "G-buffer", target.get());
-	inject_fault(device, Fault::HANG);
+	inject_fault(device, "hang");
 	const auto start = std::chrono::steady_clock::now();
 	device.submit_commands(SubmitMode::QUEUE); // the next one that waits notices it
 	const std::string error = catch_error([&] { device.wait_idle(); });
@@ -131,7 +131,7 @@ TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is to
 	RenderingDevice &device = *fixture.device;
 	const OwnedBuffer target = make_target(device);
 	for (int repeat = 0; repeat < 3; ++repeat) {
-		inject_fault(device, Fault::OUT_OF_MEMORY);
+		inject_fault(device, "out_of_memory");
 		record_work(device, device.begin_commands(), "pass", target.get());
 		CHECK_THROWS_AS(device.submit_commands(SubmitMode::WAIT), std::bad_alloc);
 		record_work(device, device.begin_commands(), "pass", target.get());

@@ -60,7 +60,7 @@ TEST_CASE("[GPU][RenderingDevice] abandoned commands read nothing back") {
 TEST_CASE("[GPU][RenderingDevice] a refused submission reads nothing back") {
 	ReadBackFixture fixture(7);
 	fixture.record();
-	inject_fault(*fixture.device, Fault::OUT_OF_MEMORY);
+	inject_fault(*fixture.device, "out_of_memory");
 	CHECK_THROWS_AS(fixture.device->submit_commands(SubmitMode::WAIT), std::bad_alloc);
 	fixture.device->begin_commands();
 	fixture.device->submit_commands(SubmitMode::WAIT);

@@ -141,6 +141,6 @@ TEST_CASE("[GPU][RenderingDevice] depth bounds leave out what lies elsewhere, or
 		CHECK(contains(catch_error([&] { fixture.device->get_raster_pipeline(bounded); }),
 				"needs depth bounds"));
 	}
-	const DeviceFixture limited({}, { .depth_bounds = true });
+	const DeviceFixture limited({}, { &DeviceFeatures::depth_bounds });
 	CHECK_FALSE(limited.device->get_features().depth_bounds);
 }

@@ -56,7 +56,7 @@ std::shared_ptr<const Mesh> make_box_with_slivers() {
 TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster that is a line is "
 		  "told") {
 	{
-		MaskFixture fixture("", { .subgroup_operations = true });
+		MaskFixture fixture("", { &DeviceFeatures::subgroup_operations });
 		std::string message;
 		try {
 			fixture.render_mask(SmallScene(), "edge_count");

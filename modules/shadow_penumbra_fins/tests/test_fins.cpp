@@ -279,14 +279,12 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 	const SmallScene sheet_scene = make_scene(share("quad", test_meshes::make_quad()));
 	const auto expected_sheet =
 			able.find_layers(able.make_frame(sheet_scene, 64), 3, Peeling::PASSES);
-	for (int lacking = 0; lacking < 4; ++lacking) {
+	const FeatureList features = { &DeviceFeatures::geometry_shader,
+		&DeviceFeatures::fragment_stores, &DeviceFeatures::conditional_rendering,
+		&DeviceFeatures::depth_clamp };
+	for (size_t lacking = 0; lacking < features.size(); ++lacking) {
 		CAPTURE(lacking);
-		PretendedLimits limits;
-		limits.geometry_shader = lacking == 0;
-		limits.fragment_stores = lacking == 1;
-		limits.conditional_rendering = lacking == 2;
-		limits.depth_clamp = lacking == 3;
-		FinsFixture lacks("", limits);
+		FinsFixture lacks("", { features[lacking] });
 		const auto maps = lacks.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 		CHECK(maps.color == expected.color);
 		CHECK(maps.depth == expected.depth);
@@ -298,7 +296,8 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 		wish.map_size_px = 128;
 		wish.peeling = Peeling::ONE_PASS;
 		lacks.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
-			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) == limits.fragment_stores);
+			CHECK((choose_peeling(wish, p_inputs, 0) == Peeling::PASSES) ==
+					(features[lacking] == &DeviceFeatures::fragment_stores));
 		});
 	}
 }

@@ -211,7 +211,7 @@ TEST_CASE("[GPU][ShadowVolume] culling rests where hardly a caster is hidden, an
 }
 
 TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a frame later") {
-	MaskFixture fixture("", { .conditional_rendering = true });
+	MaskFixture fixture("", { &DeviceFeatures::conditional_rendering });
 	WallScene scene;
 	const MaskResult all = render_culled(fixture, scene, "off");
 	const MaskResult first = render_culled(fixture, scene, "auto");

@@ -3,7 +3,7 @@
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/render_graph/read_back.h"
 #include "modules/render_graph/transient_pool.h"
-#include "modules/rendering_device/testing.h"
+#include "modules/rendering_device/tests/testing.h"
 #include "modules/scene/box_mesh.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
@@ -116,11 +116,12 @@ struct MaskResult : MaskValues {
 
 /// p_device: as DeviceOptions::device.
 inline std::unique_ptr<RenderingDevice> create_validated_device(
-		const std::string &p_device, const PretendedLimits &p_limits) {
+		const std::string &p_device, const FeatureList &p_denied) {
 	DeviceOptions options;
 	options.validation = true;
 	options.device = p_device;
-	return create_limited_rendering_device(options, p_limits);
+	options.denied_features = p_denied;
+	return create_rendering_device(options);
 }
 
 /// A device under validation and the smallest host, with a cache folder of their own.
@@ -131,8 +132,8 @@ struct MaskFixture {
 	std::unique_ptr<ShadowSystem> shadows;
 
 	/// p_device: as DeviceOptions::device.
-	explicit MaskFixture(const std::string &p_device = "", const PretendedLimits &p_limits = {}) {
-		device = create_validated_device(p_device, p_limits);
+	explicit MaskFixture(const std::string &p_device = "", const FeatureList &p_denied = {}) {
+		device = create_validated_device(p_device, p_denied);
 		transients = std::make_unique<TransientPool>(*device);
 		shadows = std::make_unique<ShadowSystem>(*device);
 	}
