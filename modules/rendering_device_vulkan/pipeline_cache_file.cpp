@@ -4,21 +4,9 @@
 #include "modules/rendering_device_vulkan/pipeline_cache_header.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"
 
-#include <cstring>
 #include <iomanip>
 
 namespace gnomon {
-
-namespace {
-
-PipelineCacheMaker get_maker(const VkPhysicalDeviceProperties &p_properties) {
-	PipelineCacheMaker maker{ p_properties.vendorID, p_properties.deviceID, {} };
-	static_assert(sizeof(maker.cache_uuid) == VK_UUID_SIZE);
-	std::memcpy(maker.cache_uuid.data(), p_properties.pipelineCacheUUID, VK_UUID_SIZE);
-	return maker;
-}
-
-} // namespace
 
 std::string VulkanDevice::get_cache_name() const {
 	VkPhysicalDeviceProperties properties;
@@ -37,7 +25,7 @@ void VulkanDevice::load_pipeline_cache() {
 	VkPhysicalDeviceProperties properties;
 	vkGetPhysicalDeviceProperties(physical.handle, &properties);
 	std::vector<uint8_t> bytes = load_cache_entry(get_cache_name());
-	if (!bytes.empty() && !is_pipeline_cache_of(bytes, get_maker(properties))) {
+	if (!bytes.empty() && !is_pipeline_cache_of(bytes, properties)) {
 		log_info(
 				"Pipeline cache ", get_cache_name(), " was made by another driver; it is ignored.");
 		bytes.clear();

@@ -12,20 +12,21 @@ using namespace gnomon;
 namespace {
 
 /// Of the device that this file's inputs are for.
-const PipelineCacheMaker MAKER = { 0x10005, 0, { 'G', 'N', 'O', 'M', 'O', 'N' } };
+const VkPhysicalDeviceProperties MAKER = { .vendorID = 0x10005,
+	.pipelineCacheUUID = { 'G', 'N', 'O', 'M', 'O', 'N' } };
 
 void check_foreign_makers(std::span<const uint8_t> p_bytes) {
-	for (size_t bit = 0; bit < 8 * MAKER.cache_uuid.size(); ++bit) {
-		PipelineCacheMaker other = MAKER;
-		other.cache_uuid[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
+	for (size_t bit = 0; bit < 8 * std::size(MAKER.pipelineCacheUUID); ++bit) {
+		VkPhysicalDeviceProperties other = MAKER;
+		other.pipelineCacheUUID[bit / 8] ^= static_cast<uint8_t>(1 << bit % 8);
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the UUID");
 	}
 	for (uint32_t bit = 0; bit < 32; ++bit) {
-		PipelineCacheMaker other = MAKER;
-		other.vendor_id ^= 1u << bit;
+		VkPhysicalDeviceProperties other = MAKER;
+		other.vendorID ^= 1u << bit;
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the vendor");
 		other = MAKER;
-		other.device_id ^= 1u << bit;
+		other.deviceID ^= 1u << bit;
 		GNOMON_ASSERT(!is_pipeline_cache_of(p_bytes, other), "bit ", bit, " of the device");
 	}
 }

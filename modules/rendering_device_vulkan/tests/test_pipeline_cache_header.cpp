@@ -9,15 +9,17 @@ using namespace gnomon;
 
 namespace {
 
-const PipelineCacheMaker MAKER = { 0x10005, 7,
-	{ 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 } };
+const VkPhysicalDeviceProperties MAKER = { .vendorID = 0x10005,
+	.deviceID = 7,
+	.pipelineCacheUUID = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 } };
 
 /// As the driver of MAKER writes it: a header of 32 bytes, then its own.
 std::vector<uint8_t> make_cache() {
 	const uint8_t numbers[] = { 32, 0, 0, 0, 1, 0, 0, 0, 5, 0, 1, 0, 7, 0, 0, 0 };
 	std::vector<uint8_t> bytes(42, 0xAB);
 	std::copy(std::begin(numbers), std::end(numbers), bytes.begin());
-	std::copy(MAKER.cache_uuid.begin(), MAKER.cache_uuid.end(), bytes.begin() + sizeof(numbers));
+	std::copy(std::begin(MAKER.pipelineCacheUUID), std::end(MAKER.pipelineCacheUUID),
+			bytes.begin() + sizeof(numbers));
 	return bytes;
 }
 
