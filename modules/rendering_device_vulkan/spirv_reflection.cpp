@@ -2,6 +2,8 @@
 
 #include "modules/core/error.h"
 
+#include <glslang/SPIRV/spirv.hpp>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -10,63 +12,7 @@ namespace gnomon {
 
 namespace {
 
-// From the SPIR-V specification, section 3; only what is read here.
-enum Op : uint32_t {
-	OP_ENTRY_POINT = 15,
-	OP_EXECUTION_MODE = 16,
-	OP_TYPE_INT = 21,
-	OP_TYPE_FLOAT = 22,
-	OP_TYPE_VECTOR = 23,
-	OP_TYPE_MATRIX = 24,
-	OP_TYPE_IMAGE = 25,
-	OP_TYPE_SAMPLER = 26,
-	OP_TYPE_SAMPLED_IMAGE = 27,
-	OP_TYPE_ARRAY = 28,
-	OP_TYPE_RUNTIME_ARRAY = 29,
-	OP_TYPE_STRUCT = 30,
-	OP_TYPE_POINTER = 32,
-	OP_CONSTANT = 43,
-	OP_SPEC_CONSTANT = 50,
-	OP_CONSTANT_COMPOSITE = 44,
-	OP_SPEC_CONSTANT_COMPOSITE = 51,
-	OP_FUNCTION = 54,
-	OP_FUNCTION_CALL = 57,
-	OP_VARIABLE = 59,
-	OP_IMAGE_TEXEL_POINTER = 60,
-	OP_LOAD = 61,
-	OP_STORE = 62,
-	OP_COPY_MEMORY = 63,
-	OP_ACCESS_CHAIN = 65,
-	OP_IN_BOUNDS_ACCESS_CHAIN = 66,
-	OP_PTR_ACCESS_CHAIN = 67,
-	OP_ARRAY_LENGTH = 68,
-	OP_DECORATE = 71,
-	OP_MEMBER_DECORATE = 72,
-	OP_COPY_OBJECT = 83,
-	OP_EXECUTION_MODE_ID = 331,
-};
-enum Decoration : uint32_t {
-	DECORATION_SPEC_ID = 1,
-	DECORATION_BUFFER_BLOCK = 3,
-	DECORATION_ARRAY_STRIDE = 6,
-	DECORATION_MATRIX_STRIDE = 7,
-	DECORATION_BUILT_IN = 11,
-	DECORATION_BINDING = 33,
-	DECORATION_DESCRIPTOR_SET = 34,
-	DECORATION_OFFSET = 35,
-};
-enum StorageClass : uint32_t {
-	CLASS_UNIFORM_CONSTANT = 0,
-	CLASS_UNIFORM = 2,
-	CLASS_PUSH_CONSTANT = 9,
-	CLASS_STORAGE_BUFFER = 12,
-};
-constexpr uint32_t SPIRV_MAGIC = 0x07230203;
 constexpr size_t SPIRV_HEADER_WORDS = 5;
-constexpr uint32_t BUILT_IN_WORKGROUP_SIZE = 25;
-constexpr uint32_t MODE_LOCAL_SIZE = 17;
-constexpr uint32_t MODE_LOCAL_SIZE_ID = 38;
-constexpr uint32_t DIM_BUFFER = 5;
 constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
 
 using Instruction = std::span<const uint32_t>; // word 0 is op and length
@@ -99,7 +45,7 @@ private:
 	};
 
 	void read(std::span<const uint32_t> p_words) {
-		if (p_words.size() < SPIRV_HEADER_WORDS || p_words[0] != SPIRV_MAGIC) {
+		if (p_words.size() < SPIRV_HEADER_WORDS || p_words[0] != spv::MagicNumber) {
 			fail("Shader \"", name, "\" holds no SPIR-V. Build it again.");
 		}
 		bool is_in_function = false;
@@ -109,7 +55,7 @@ private:
 				fail("Shader \"", name, "\" is damaged at word ", at, ". Build it again.");
 			}
 			const Instruction instruction = p_words.subspan(at, length);
-			is_in_function = is_in_function || get_op(instruction) == OP_FUNCTION;
+			is_in_function = is_in_function || get_op(instruction) == spv::OpFunction;
 			if (is_in_function) {
 				mark_used(instruction);
 			} else {
@@ -122,47 +68,34 @@ private:
 	static uint32_t get_op(Instruction p_instruction) { return p_instruction[0] & 0xffffu; }
 
 	void read_declaration(Instruction p_in) {
-		switch (get_op(p_in)) {
-			case OP_ENTRY_POINT:
+		const uint32_t op = get_op(p_in);
+		switch (op) {
+			case spv::OpEntryPoint:
 				stage = get_stage(p_in[1]);
 				break;
-			case OP_EXECUTION_MODE:
-			case OP_EXECUTION_MODE_ID:
-				if (p_in[2] == MODE_LOCAL_SIZE) {
+			case spv::OpExecutionMode:
+			case spv::OpExecutionModeId:
+				if (p_in[2] == spv::ExecutionModeLocalSize) {
 					local_size = glm::uvec3(p_in[3], p_in[4], p_in[5]);
-				} else if (p_in[2] == MODE_LOCAL_SIZE_ID) {
+				} else if (p_in[2] == spv::ExecutionModeLocalSizeId) {
 					local_size_ids = glm::uvec3(p_in[3], p_in[4], p_in[5]);
 				}
 				break;
-			case OP_DECORATE:
+			case spv::OpDecorate:
 				decorations[{ p_in[1], p_in[2] }] = p_in.size() > 3 ? p_in[3] : 0;
 				break;
-			case OP_MEMBER_DECORATE:
+			case spv::OpMemberDecorate:
 				member_decorations[{ p_in[1], p_in[2], p_in[3] }] = p_in.size() > 4 ? p_in[4] : 0;
 				break;
-			case OP_VARIABLE:
+			case spv::OpVariable:
 				variables[p_in[2]] = { p_in[1], p_in[3], false };
 				break;
-			case OP_CONSTANT:
-			case OP_SPEC_CONSTANT:
-			case OP_CONSTANT_COMPOSITE:
-			case OP_SPEC_CONSTANT_COMPOSITE:
-				definitions[p_in[2]] = p_in;
-				break;
-			case OP_TYPE_INT:
-			case OP_TYPE_FLOAT:
-			case OP_TYPE_VECTOR:
-			case OP_TYPE_MATRIX:
-			case OP_TYPE_IMAGE:
-			case OP_TYPE_SAMPLER:
-			case OP_TYPE_SAMPLED_IMAGE:
-			case OP_TYPE_ARRAY:
-			case OP_TYPE_RUNTIME_ARRAY:
-			case OP_TYPE_STRUCT:
-			case OP_TYPE_POINTER:
-				definitions[p_in[1]] = p_in;
-				break;
-			default:
+			default: // types, and constants, which have their type in front
+				if (op >= spv::OpTypeVoid && op <= spv::OpTypePipe) {
+					definitions[p_in[1]] = p_in;
+				} else if (op >= spv::OpConstantTrue && op <= spv::OpSpecConstantOp) {
+					definitions[p_in[2]] = p_in;
+				}
 				break;
 		}
 	}
@@ -170,23 +103,23 @@ private:
 	/// Only instructions that take a pointer are looked at: a literal elsewhere could equal an id.
 	void mark_used(Instruction p_in) {
 		switch (get_op(p_in)) {
-			case OP_LOAD:
-			case OP_ACCESS_CHAIN:
-			case OP_IN_BOUNDS_ACCESS_CHAIN:
-			case OP_PTR_ACCESS_CHAIN:
-			case OP_ARRAY_LENGTH:
-			case OP_IMAGE_TEXEL_POINTER:
-			case OP_COPY_OBJECT:
+			case spv::OpLoad:
+			case spv::OpAccessChain:
+			case spv::OpInBoundsAccessChain:
+			case spv::OpPtrAccessChain:
+			case spv::OpArrayLength:
+			case spv::OpImageTexelPointer:
+			case spv::OpCopyObject:
 				mark_variable(p_in[3]);
 				break;
-			case OP_STORE:
+			case spv::OpStore:
 				mark_variable(p_in[1]);
 				break;
-			case OP_COPY_MEMORY:
+			case spv::OpCopyMemory:
 				mark_variable(p_in[1]);
 				mark_variable(p_in[2]);
 				break;
-			case OP_FUNCTION_CALL:
+			case spv::OpFunctionCall:
 				for (const uint32_t argument : p_in.subspan(4)) {
 					mark_variable(argument);
 				}
@@ -204,13 +137,13 @@ private:
 
 	VkShaderStageFlagBits get_stage(uint32_t p_model) const {
 		switch (p_model) {
-			case 0:
+			case spv::ExecutionModelVertex:
 				return VK_SHADER_STAGE_VERTEX_BIT;
-			case 3:
+			case spv::ExecutionModelGeometry:
 				return VK_SHADER_STAGE_GEOMETRY_BIT;
-			case 4:
+			case spv::ExecutionModelFragment:
 				return VK_SHADER_STAGE_FRAGMENT_BIT;
-			case 5:
+			case spv::ExecutionModelGLCompute:
 				return VK_SHADER_STAGE_COMPUTE_BIT;
 			default:
 				fail("Shader \"", name, "\" has execution model ", p_model,
@@ -237,7 +170,7 @@ private:
 
 	/// Of an integer constant, with specialization.
 	uint32_t get_constant(uint32_t p_id) const {
-		if (const auto spec_id = find_decoration(p_id, DECORATION_SPEC_ID)) {
+		if (const auto spec_id = find_decoration(p_id, spv::DecorationSpecId)) {
 			for (const SpecializationConstant &constant : constants) {
 				if (constant.constant_id == *spec_id) {
 					return constant.value;
@@ -249,18 +182,18 @@ private:
 
 	void add_variable(uint32_t p_id, const Variable &p_variable, ReflectedShader &r_shader) const {
 		const uint32_t type = get_definition(p_variable.pointer_type)[3];
-		if (p_variable.storage_class == CLASS_PUSH_CONSTANT) {
+		if (p_variable.storage_class == spv::StorageClassPushConstant) {
 			r_shader.push_constant_bytes = compute_size_bytes(type, 0);
 			return;
 		}
-		if (p_variable.storage_class != CLASS_UNIFORM_CONSTANT &&
-				p_variable.storage_class != CLASS_UNIFORM &&
-				p_variable.storage_class != CLASS_STORAGE_BUFFER) {
+		if (p_variable.storage_class != spv::StorageClassUniformConstant &&
+				p_variable.storage_class != spv::StorageClassUniform &&
+				p_variable.storage_class != spv::StorageClassStorageBuffer) {
 			return;
 		}
-		const uint32_t set = find_decoration(p_id, DECORATION_DESCRIPTOR_SET).value_or(0);
+		const uint32_t set = find_decoration(p_id, spv::DecorationDescriptorSet).value_or(0);
 		ReflectedBinding binding;
-		binding.binding = find_decoration(p_id, DECORATION_BINDING).value_or(0);
+		binding.binding = find_decoration(p_id, spv::DecorationBinding).value_or(0);
 		binding.stages = static_cast<VkShaderStageFlags>(stage);
 		binding.is_used = p_variable.is_used;
 		if (set != 0) {
@@ -274,29 +207,29 @@ private:
 	void set_descriptor_type(
 			uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
 		Instruction type = get_definition(p_type);
-		if (p_storage_class == CLASS_STORAGE_BUFFER) {
+		if (p_storage_class == spv::StorageClassStorageBuffer) {
 			r_binding.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 			return;
 		}
-		if (p_storage_class == CLASS_UNIFORM) {
-			r_binding.type = find_decoration(p_type, DECORATION_BUFFER_BLOCK)
+		if (p_storage_class == spv::StorageClassUniform) {
+			r_binding.type = find_decoration(p_type, spv::DecorationBufferBlock)
 					? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
 					: VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 			return;
 		}
-		const bool is_combined = get_op(type) == OP_TYPE_SAMPLED_IMAGE;
+		const bool is_combined = get_op(type) == spv::OpTypeSampledImage;
 		if (is_combined) {
 			type = get_definition(type[2]);
 		}
-		if (get_op(type) == OP_TYPE_SAMPLER) {
+		if (get_op(type) == spv::OpTypeSampler) {
 			r_binding.type = VK_DESCRIPTOR_TYPE_SAMPLER;
 			return;
 		}
-		if (get_op(type) != OP_TYPE_IMAGE) {
+		if (get_op(type) != spv::OpTypeImage) {
 			fail("Shader \"", name, "\": binding ", r_binding.binding,
 					" is an array of resources, which is not supported. Use one binding for each.");
 		}
-		const bool is_buffer = type[3] == DIM_BUFFER;
+		const bool is_buffer = type[3] == spv::DimBuffer;
 		const bool is_storage = type[7] == IMAGE_IS_STORAGE;
 		r_binding.is_arrayed = type[5] == 1;
 		if (is_buffer && is_storage) {
@@ -317,23 +250,23 @@ private:
 	uint32_t compute_size_bytes(uint32_t p_type, uint32_t p_matrix_stride_bytes) const {
 		const Instruction type = get_definition(p_type);
 		switch (get_op(type)) {
-			case OP_TYPE_INT:
-			case OP_TYPE_FLOAT:
+			case spv::OpTypeInt:
+			case spv::OpTypeFloat:
 				return type[2] / 8;
-			case OP_TYPE_VECTOR:
+			case spv::OpTypeVector:
 				return type[3] * compute_size_bytes(type[2], 0);
-			case OP_TYPE_MATRIX:
+			case spv::OpTypeMatrix:
 				return type[3] * p_matrix_stride_bytes;
-			case OP_TYPE_ARRAY:
+			case spv::OpTypeArray:
 				return get_constant(type[3]) *
-						find_decoration(p_type, DECORATION_ARRAY_STRIDE).value_or(0);
-			case OP_TYPE_STRUCT: {
+						find_decoration(p_type, spv::DecorationArrayStride).value_or(0);
+			case spv::OpTypeStruct: {
 				uint32_t end = 0;
 				for (uint32_t member = 0; member + 2 < type.size(); ++member) {
 					const uint32_t offset =
-							get_member_decoration(p_type, member, DECORATION_OFFSET);
+							get_member_decoration(p_type, member, spv::DecorationOffset);
 					const uint32_t stride =
-							get_member_decoration(p_type, member, DECORATION_MATRIX_STRIDE);
+							get_member_decoration(p_type, member, spv::DecorationMatrixStride);
 					end = std::max(end, offset + compute_size_bytes(type[member + 2], stride));
 				}
 				return end;
@@ -347,7 +280,7 @@ private:
 	glm::uvec3 compute_local_size() const {
 		// A constant decorated WorkgroupSize has precedence over the execution modes.
 		for (const auto &[key, value] : decorations) {
-			if (key.second == DECORATION_BUILT_IN && value == BUILT_IN_WORKGROUP_SIZE) {
+			if (key.second == spv::DecorationBuiltIn && value == spv::BuiltInWorkgroupSize) {
 				const Instruction parts = get_definition(key.first);
 				return { get_constant(parts[3]), get_constant(parts[4]), get_constant(parts[5]) };
 			}
