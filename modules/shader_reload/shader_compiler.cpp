@@ -8,9 +8,10 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
-#include <optional>
+#include <regex>
 #include <sstream>
 
 namespace gnomon {
@@ -30,13 +31,6 @@ EShLanguage find_stage(const std::string &p_name) {
 		fail("Shader \"", p_name, "\" must end in .vert, .geom, .frag or .comp. Rename it.");
 	}
 	return found->second;
-}
-
-std::string to_upper(std::string p_text) {
-	for (char &letter : p_text) {
-		letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
-	}
-	return p_text;
 }
 
 /// Finds includes from the folder of shaders, whoever includes them.
@@ -99,8 +93,12 @@ ShaderSource find_shader_source(const std::string &p_name) {
 		return { p_name, {} };
 	}
 	const fs::path what = name.stem().stem();
-	return { (name.parent_path() / what).generic_string() + name.extension().string(),
-		"VARIANT_" + to_upper(variant.substr(1)) };
+	ShaderSource source = {
+		(name.parent_path() / what).generic_string() + name.extension().string(), "VARIANT_"
+	};
+	std::transform(variant.begin() + 1, variant.end(), std::back_inserter(source.macro),
+			[](unsigned char p_letter) { return static_cast<char>(std::toupper(p_letter)); });
+	return source;
 }
 
 std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string &p_name) {
@@ -138,25 +136,13 @@ std::vector<uint32_t> compile_shader(const fs::path &p_folder, const std::string
 }
 
 std::vector<std::string> find_includes(const std::string &p_text) {
-	const char *const BLANKS = " \t";
+	static const std::regex INCLUDE(R"re(^[ \t]*#[ \t]*include[ \t]*"([^"]*)")re");
 	std::vector<std::string> names;
 	std::istringstream lines(p_text);
+	std::smatch found;
 	for (std::string line; std::getline(lines, line);) {
-		// # include "name", with blanks anywhere.
-		size_t place = line.find_first_not_of(BLANKS);
-		if (place == std::string::npos || line[place] != '#') {
-			continue;
-		}
-		place = line.find_first_not_of(BLANKS, place + 1);
-		if (place == std::string::npos || line.compare(place, 7, "include") != 0) {
-			continue;
-		}
-		const size_t begin = line.find_first_not_of(BLANKS, place + 7);
-		if (begin == std::string::npos || line[begin] != '"') {
-			continue;
-		}
-		if (const size_t end = line.find('"', begin + 1); end != std::string::npos) {
-			names.push_back(line.substr(begin + 1, end - begin - 1));
+		if (std::regex_search(line, found, INCLUDE)) {
+			names.push_back(found[1]);
 		}
 	}
 	return names;
