@@ -4,15 +4,12 @@ namespace gnomon {
 
 void declare_bindings(PassBuilder &r_pass, std::span<const PassBinding> p_bindings) {
 	for (const PassBinding &binding : p_bindings) {
-		const bool is_written = is_write(binding.access);
-		if (binding.texture && is_written) {
-			r_pass.writes(binding.texture, binding.access, binding.content);
-		} else if (binding.texture) {
-			r_pass.reads(binding.texture, binding.access);
-		} else if (is_written) {
-			r_pass.writes(binding.buffer, binding.access, binding.content);
+		const RGResource resource =
+				binding.texture ? RGResource(binding.texture) : RGResource(binding.buffer);
+		if (is_write(binding.access)) {
+			r_pass.writes(resource, binding.access, binding.content);
 		} else {
-			r_pass.reads(binding.buffer, binding.access);
+			r_pass.reads(resource, binding.access);
 		}
 	}
 }

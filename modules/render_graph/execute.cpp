@@ -24,11 +24,7 @@ void RenderGraph::collect_barriers(uint32_t p_pass_index, std::vector<Barrier> &
 			resource.last_access = use.access;
 			continue;
 		}
-		Barrier barrier;
-		barrier.texture = resource.texture;
-		barrier.buffer = resource.buffer;
-		barrier.before = resource.last_access;
-		barrier.after = use.access;
+		Barrier barrier = { resource.buffer, resource.texture, resource.last_access, use.access };
 		if (resource.first_pass == p_pass_index) {
 			if (!resource.is_texture && resource.earlier_users.empty()) {
 				resource.last_access = use.access;
@@ -56,11 +52,7 @@ void RenderGraph::rest_imported(std::vector<Barrier> &r_barriers) {
 		}
 		const Access rest = Access::SHADER_READ_COMPUTE;
 		if (resource.last_access != rest) {
-			Barrier barrier;
-			barrier.texture = resource.texture;
-			barrier.before = resource.last_access;
-			barrier.after = rest;
-			r_barriers.push_back(barrier);
+			r_barriers.push_back({ {}, resource.texture, resource.last_access, rest });
 			resource.last_access = rest;
 		}
 	}
@@ -77,18 +69,17 @@ RenderGraph::Resource *RenderGraph::find_window_image(const Pass &p_pass) {
 
 void RenderGraph::record_pass(Pass &p_pass, CommandList &p_commands) {
 	PassContext context(p_commands, *this);
-	const bool is_raster = !p_pass.colors.empty() || p_pass.depth_target;
+	const bool is_raster = !p_pass.colors.empty() || p_pass.depth;
 	if (is_raster) {
 		std::vector<ColorTarget> colors;
-		for (const Pass::Color &color : p_pass.colors) {
-			colors.push_back({ context.get(color.texture), color.load, color.clear, color.layer });
+		for (const auto &[texture, target] : p_pass.colors) {
+			colors.push_back(target);
+			colors.back().texture = context.get(texture);
 		}
-		DepthTarget depth;
-		if (p_pass.depth_target) {
-			const Pass::Depth &target = *p_pass.depth_target;
-			depth = { context.get(target.texture), target.load, target.clear, target.layer };
+		if (p_pass.depth) {
+			p_pass.depth->second.texture = context.get(p_pass.depth->first);
 		}
-		p_commands.begin_rendering(colors, p_pass.depth_target ? &depth : nullptr);
+		p_commands.begin_rendering(colors, p_pass.depth ? &p_pass.depth->second : nullptr);
 	} else if (p_pass.size_without_targets_px) {
 		p_commands.begin_rendering_without_targets(*p_pass.size_without_targets_px);
 	}
@@ -166,10 +157,8 @@ void RenderGraph::run_passes(Mode p_mode) {
 		}
 		record_pass(pass, *commands);
 		if (window_image) {
-			Barrier barrier;
-			barrier.texture = window_image->texture;
-			barrier.before = window_image->last_access;
-			barrier.after = Access::PRESENT;
+			const Barrier barrier = { {}, window_image->texture, window_image->last_access,
+				Access::PRESENT };
 			commands->barriers({ &barrier, 1 });
 		}
 		commands->end_span();

@@ -22,23 +22,13 @@ uint8_t *HostContext::get_mapped(RGBuffer p_buffer) const {
 	return graph.device.get_mapped(graph.resources[p_buffer.index].buffer);
 }
 
-PassBuilder &PassBuilder::reads(RGTexture p_texture, Access p_access) {
-	graph.add_use(pass_index, { p_texture.index, p_access, false, true });
+PassBuilder &PassBuilder::reads(RGResource p_resource, Access p_access) {
+	graph.add_use(pass_index, { p_resource.index, p_access, false, true });
 	return *this;
 }
 
-PassBuilder &PassBuilder::reads(RGBuffer p_buffer, Access p_access) {
-	graph.add_use(pass_index, { p_buffer.index, p_access, false, true });
-	return *this;
-}
-
-PassBuilder &PassBuilder::writes(RGTexture p_texture, Access p_access, Content p_content) {
-	graph.add_use(pass_index, { p_texture.index, p_access, true, p_content == Content::UPDATE });
-	return *this;
-}
-
-PassBuilder &PassBuilder::writes(RGBuffer p_buffer, Access p_access, Content p_content) {
-	graph.add_use(pass_index, { p_buffer.index, p_access, true, p_content == Content::UPDATE });
+PassBuilder &PassBuilder::writes(RGResource p_resource, Access p_access, Content p_content) {
+	graph.add_use(pass_index, { p_resource.index, p_access, true, p_content == Content::UPDATE });
 	return *this;
 }
 
@@ -48,7 +38,7 @@ PassBuilder &PassBuilder::color(
 	const bool is_array = graph.get_desc(p_texture).layer_count > 1;
 	graph.add_use(pass_index,
 			{ p_texture.index, Access::COLOR_WRITE, true, is_array || p_load == LoadOp::KEEP });
-	graph.passes[pass_index].colors.push_back({ p_texture, p_load, p_clear, p_layer });
+	graph.passes[pass_index].colors.push_back({ p_texture, { {}, p_load, p_clear, p_layer } });
 	return *this;
 }
 
@@ -57,7 +47,7 @@ PassBuilder &PassBuilder::depth(
 	const bool is_array = graph.get_desc(p_texture).layer_count > 1; // as in color()
 	graph.add_use(pass_index,
 			{ p_texture.index, Access::DEPTH_WRITE, true, is_array || p_load == LoadOp::KEEP });
-	graph.passes[pass_index].depth_target = { p_texture, p_load, p_clear, p_layer };
+	graph.passes[pass_index].depth = { p_texture, { {}, p_load, p_clear, p_layer } };
 	return *this;
 }
 

@@ -13,16 +13,13 @@
 namespace gnomon {
 
 /// A texture or buffer of one graph. Transient ones exist from their first to their last pass.
-struct RGTexture {
+struct RGResource {
 	uint32_t index = ~0u;
 	explicit operator bool() const { return index != ~0u; }
-	bool operator==(const RGTexture &) const = default;
+	bool operator==(const RGResource &) const = default;
 };
-struct RGBuffer {
-	uint32_t index = ~0u;
-	explicit operator bool() const { return index != ~0u; }
-	bool operator==(const RGBuffer &) const = default;
-};
+struct RGTexture : RGResource {};
+struct RGBuffer : RGResource {};
 
 class RenderGraph;
 class TransientPool;
@@ -67,13 +64,11 @@ struct PassTiming {
 class PassBuilder {
 public:
 	/// Shader reads, vertex and index buffers, indirect arguments, uniforms, copies.
-	PassBuilder &reads(RGTexture p_texture, Access p_access);
-	PassBuilder &reads(RGBuffer p_buffer, Access p_access);
+	PassBuilder &reads(RGResource p_resource, Access p_access);
 	/// Storage images and buffers, copies. FRESH: the pass writes every texel that is read later,
 	/// and earlier content is discarded. UPDATE: earlier content is kept.
 	enum class Content { FRESH, UPDATE };
-	PassBuilder &writes(RGTexture p_texture, Access p_access, Content p_content = Content::FRESH);
-	PassBuilder &writes(RGBuffer p_buffer, Access p_access, Content p_content = Content::FRESH);
+	PassBuilder &writes(RGResource p_resource, Access p_access, Content p_content = Content::FRESH);
 	/// Attachments: the graph begins and ends the rendering around the pass's function.
 	PassBuilder &color(RGTexture p_texture, LoadOp p_load = LoadOp::CLEAR,
 			glm::vec4 p_clear = glm::vec4(0.0f), uint32_t p_layer = 0);

@@ -36,20 +36,9 @@ struct RenderGraph::Use {
 struct RenderGraph::Pass {
 	std::string name;
 	std::vector<Use> uses;
-	struct Color {
-		RGTexture texture;
-		LoadOp load;
-		glm::vec4 clear;
-		uint32_t layer;
-	};
-	struct Depth {
-		RGTexture texture;
-		LoadOp load;
-		float clear;
-		uint32_t layer;
-	};
-	std::vector<Color> colors;
-	std::optional<Depth> depth_target;
+	// Their TextureRID is known when the pass is recorded.
+	std::vector<std::pair<RGTexture, ColorTarget>> colors;
+	std::optional<std::pair<RGTexture, DepthTarget>> depth;
 	std::optional<glm::uvec2> size_without_targets_px;
 	bool is_kept = false;
 	bool is_culled = false;

@@ -11,7 +11,6 @@ namespace {
 
 // A frame shape per debug view and per set of left-out passes; more would only hold memory.
 constexpr size_t MAX_KEPT_ENTRIES = 3;
-// A shape that is not used in so many frames will not come again soon.
 
 bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
