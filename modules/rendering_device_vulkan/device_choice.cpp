@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 
 namespace gnomon {
 
@@ -11,25 +10,23 @@ namespace {
 
 constexpr uint32_t NEEDED_PUSH_CONSTANT_BYTES = 128;
 
+// The best ones first.
+const std::pair<VkPhysicalDeviceType, const char *> TYPES[] = {
+	{ VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "discrete GPU" },
+	{ VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, "integrated GPU" },
+	{ VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU, "virtual GPU" },
+	{ VK_PHYSICAL_DEVICE_TYPE_CPU, "CPU" },
+};
+
 const char *get_type_name(VkPhysicalDeviceType p_type) {
-	switch (p_type) {
-		case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-			return "discrete GPU";
-		case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-			return "integrated GPU";
-		case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-			return "virtual GPU";
-		case VK_PHYSICAL_DEVICE_TYPE_CPU:
-			return "CPU";
-		default:
-			return "other";
-	}
+	const auto found =
+			std::ranges::find(TYPES, p_type, [](const auto &p_row) { return p_row.first; });
+	return found != std::end(TYPES) ? found->second : "other";
 }
 
 /// Lower is better.
-size_t get_type_rank(const std::string &p_type) {
-	static const char *const ORDER[] = { "discrete GPU", "integrated GPU", "virtual GPU", "CPU" };
-	return static_cast<size_t>(std::find(std::begin(ORDER), std::end(ORDER), p_type) - ORDER);
+ptrdiff_t get_type_rank(const std::string &p_type) {
+	return std::ranges::find(TYPES, p_type, [](const auto &p_row) { return p_row.second; }) - TYPES;
 }
 
 std::string get_version_text(uint32_t p_version) {
@@ -51,12 +48,10 @@ uint64_t find_device_memory_bytes(VkPhysicalDevice p_device) {
 
 /// The first family with graphics and compute, or nothing.
 std::optional<uint32_t> find_queue_family(VkPhysicalDevice p_device) {
-	uint32_t count = 0;
-	vkGetPhysicalDeviceQueueFamilyProperties(p_device, &count, nullptr);
-	std::vector<VkQueueFamilyProperties> families(count);
-	vkGetPhysicalDeviceQueueFamilyProperties(p_device, &count, families.data());
+	const auto families =
+			list_all<VkQueueFamilyProperties>(vkGetPhysicalDeviceQueueFamilyProperties, p_device);
 	constexpr VkQueueFlags NEEDED = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-	for (uint32_t family = 0; family < count; ++family) {
+	for (uint32_t family = 0; family < families.size(); ++family) {
 		if ((families[family].queueFlags & NEEDED) == NEEDED) {
 			return family;
 		}
@@ -143,25 +138,17 @@ const PhysicalDevice *find_named_device(
 } // namespace
 
 bool has_device_extension(VkPhysicalDevice p_device, const char *p_name) {
-	uint32_t count = 0;
-	vkEnumerateDeviceExtensionProperties(p_device, nullptr, &count, nullptr);
-	std::vector<VkExtensionProperties> extensions(count);
-	vkEnumerateDeviceExtensionProperties(p_device, nullptr, &count, extensions.data());
-	return std::any_of(
-			extensions.begin(), extensions.end(), [&](const VkExtensionProperties &p_extension) {
-				return std::strcmp(p_extension.extensionName, p_name) == 0;
-			});
+	return has_extension(list_all<VkExtensionProperties>(
+								 vkEnumerateDeviceExtensionProperties, p_device, nullptr),
+			p_name);
 }
 
 std::vector<PhysicalDevice> find_physical_devices(VkInstance p_instance, bool p_needs_surface) {
-	uint32_t count = 0;
-	vkEnumeratePhysicalDevices(p_instance, &count, nullptr);
-	std::vector<VkPhysicalDevice> handles(count);
-	vkEnumeratePhysicalDevices(p_instance, &count, handles.data());
 	std::vector<PhysicalDevice> devices;
-	for (uint32_t index = 0; index < count; ++index) {
+	for (VkPhysicalDevice handle :
+			list_all<VkPhysicalDevice>(vkEnumeratePhysicalDevices, p_instance)) {
 		PhysicalDevice device;
-		device.handle = handles[index];
+		device.handle = handle;
 		VkPhysicalDeviceDriverProperties driver = {
 			.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES
 		};
@@ -170,7 +157,7 @@ std::vector<PhysicalDevice> find_physical_devices(VkInstance p_instance, bool p_
 		};
 		vkGetPhysicalDeviceProperties2(device.handle, &properties);
 		const uint32_t version = properties.properties.apiVersion;
-		device.info.index = index;
+		device.info.index = static_cast<uint32_t>(devices.size());
 		device.info.name = properties.properties.deviceName;
 		device.info.driver = text(driver.driverName, " ", driver.driverInfo);
 		device.info.type = get_type_name(properties.properties.deviceType);

@@ -60,10 +60,8 @@ void choose_features(
 }
 
 uint64_t find_timestamp_mask(const PhysicalDevice &p_device) {
-	uint32_t count = 0;
-	vkGetPhysicalDeviceQueueFamilyProperties(p_device.handle, &count, nullptr);
-	std::vector<VkQueueFamilyProperties> families(count);
-	vkGetPhysicalDeviceQueueFamilyProperties(p_device.handle, &count, families.data());
+	const auto families = list_all<VkQueueFamilyProperties>(
+			vkGetPhysicalDeviceQueueFamilyProperties, p_device.handle);
 	const uint32_t bits = families[p_device.queue_family].timestampValidBits;
 	return bits == 0 ? 0 : ~uint64_t(0) >> (64 - bits);
 }

@@ -2,7 +2,9 @@
 
 #include "modules/core/error.h"
 
+#include <algorithm>
 #include <cstring>
+#include <map>
 
 namespace gnomon {
 
@@ -11,69 +13,47 @@ namespace {
 constexpr const char *VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
 std::vector<VkExtensionProperties> find_instance_extensions(const char *p_layer) {
-	uint32_t count = 0;
-	vkEnumerateInstanceExtensionProperties(p_layer, &count, nullptr);
-	std::vector<VkExtensionProperties> extensions(count);
-	vkEnumerateInstanceExtensionProperties(p_layer, &count, extensions.data());
-	extensions.resize(count);
-	return extensions;
-}
-
-bool contains(const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name) {
-	for (const VkExtensionProperties &extension : p_extensions) {
-		if (p_name == extension.extensionName) {
-			return true;
-		}
-	}
-	return false;
+	return list_all<VkExtensionProperties>(vkEnumerateInstanceExtensionProperties, p_layer);
 }
 
 bool has_validation_layer() {
-	uint32_t count = 0;
-	vkEnumerateInstanceLayerProperties(&count, nullptr);
-	std::vector<VkLayerProperties> layers(count);
-	vkEnumerateInstanceLayerProperties(&count, layers.data());
-	for (uint32_t index = 0; index < count; ++index) {
-		if (std::strcmp(layers[index].layerName, VALIDATION_LAYER) == 0) {
-			return true;
-		}
-	}
-	return false;
+	const auto layers = list_all<VkLayerProperties>(vkEnumerateInstanceLayerProperties);
+	return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties &p_layer) {
+		return std::strcmp(p_layer.layerName, VALIDATION_LAYER) == 0;
+	});
 }
+
+// The errors of the calls in use.
+const std::map<VkResult, std::string> RESULT_NAMES = {
+	{ VK_ERROR_OUT_OF_HOST_MEMORY, "VK_ERROR_OUT_OF_HOST_MEMORY" },
+	{ VK_ERROR_OUT_OF_DEVICE_MEMORY, "VK_ERROR_OUT_OF_DEVICE_MEMORY" },
+	{ VK_ERROR_INITIALIZATION_FAILED, "VK_ERROR_INITIALIZATION_FAILED" },
+	{ VK_ERROR_DEVICE_LOST, "VK_ERROR_DEVICE_LOST" },
+	{ VK_ERROR_LAYER_NOT_PRESENT, "VK_ERROR_LAYER_NOT_PRESENT" },
+	{ VK_ERROR_EXTENSION_NOT_PRESENT, "VK_ERROR_EXTENSION_NOT_PRESENT" },
+	{ VK_ERROR_FEATURE_NOT_PRESENT, "VK_ERROR_FEATURE_NOT_PRESENT" },
+	{ VK_ERROR_INCOMPATIBLE_DRIVER, "VK_ERROR_INCOMPATIBLE_DRIVER" },
+	{ VK_ERROR_TOO_MANY_OBJECTS, "VK_ERROR_TOO_MANY_OBJECTS" },
+	{ VK_ERROR_FORMAT_NOT_SUPPORTED, "VK_ERROR_FORMAT_NOT_SUPPORTED" },
+	{ VK_ERROR_SURFACE_LOST_KHR, "VK_ERROR_SURFACE_LOST_KHR" },
+	{ VK_ERROR_NATIVE_WINDOW_IN_USE_KHR, "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR" },
+	{ VK_ERROR_OUT_OF_DATE_KHR, "VK_ERROR_OUT_OF_DATE_KHR" },
+};
 
 } // namespace
 
+bool has_extension(
+		const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name) {
+	return std::any_of(p_extensions.begin(), p_extensions.end(),
+			[&](const VkExtensionProperties &p_extension) {
+				return p_name == p_extension.extensionName;
+			});
+}
+
 std::string get_result_name(VkResult p_result) {
-	switch (p_result) {
-		case VK_ERROR_OUT_OF_HOST_MEMORY:
-			return "VK_ERROR_OUT_OF_HOST_MEMORY";
-		case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-			return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-		case VK_ERROR_INITIALIZATION_FAILED:
-			return "VK_ERROR_INITIALIZATION_FAILED";
-		case VK_ERROR_DEVICE_LOST:
-			return "VK_ERROR_DEVICE_LOST";
-		case VK_ERROR_LAYER_NOT_PRESENT:
-			return "VK_ERROR_LAYER_NOT_PRESENT";
-		case VK_ERROR_EXTENSION_NOT_PRESENT:
-			return "VK_ERROR_EXTENSION_NOT_PRESENT";
-		case VK_ERROR_FEATURE_NOT_PRESENT:
-			return "VK_ERROR_FEATURE_NOT_PRESENT";
-		case VK_ERROR_INCOMPATIBLE_DRIVER:
-			return "VK_ERROR_INCOMPATIBLE_DRIVER";
-		case VK_ERROR_TOO_MANY_OBJECTS:
-			return "VK_ERROR_TOO_MANY_OBJECTS";
-		case VK_ERROR_FORMAT_NOT_SUPPORTED:
-			return "VK_ERROR_FORMAT_NOT_SUPPORTED";
-		case VK_ERROR_SURFACE_LOST_KHR:
-			return "VK_ERROR_SURFACE_LOST_KHR";
-		case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR:
-			return "VK_ERROR_NATIVE_WINDOW_IN_USE_KHR";
-		case VK_ERROR_OUT_OF_DATE_KHR:
-			return "VK_ERROR_OUT_OF_DATE_KHR";
-		default:
-			return text("VkResult ", static_cast<int>(p_result));
-	}
+	const auto found = RESULT_NAMES.find(p_result);
+	return found != RESULT_NAMES.end() ? found->second
+									   : text("VkResult ", static_cast<int>(p_result));
 }
 
 VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
@@ -89,19 +69,19 @@ VulkanInstance::VulkanInstance(const DeviceOptions &p_options) {
 		for (const VkExtensionProperties &extension : find_instance_extensions(VALIDATION_LAYER)) {
 			available.push_back(extension);
 		}
-		if (contains(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
+		if (has_extension(available, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME)) {
 			extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
 		}
 	}
 	for (const std::string &name : p_options.instance_extensions) {
-		if (!contains(available, name)) {
+		if (!has_extension(available, name)) {
 			fail("Vulkan lacks the instance extension ", name,
 					", which the window needs. Install a ",
 					"driver that can show windows, or run with --headless.");
 		}
 		extensions.push_back(name.c_str());
 	}
-	is_debug_utils_enabled = contains(available, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+	is_debug_utils_enabled = has_extension(available, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 	if (is_debug_utils_enabled) {
 		extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 	}

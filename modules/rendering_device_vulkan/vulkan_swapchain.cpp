@@ -43,7 +43,9 @@ VulkanSwapchain::VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_
 	}
 	try {
 		choose_format();
-		create_semaphores();
+		for (VkSemaphore &semaphore : acquisitions) {
+			create_semaphore(semaphore, "window image acquired");
+		}
 	} catch (...) {
 		for (VkSemaphore semaphore : acquisitions) {
 			vkDestroySemaphore(device.device, semaphore, nullptr);
@@ -67,24 +69,16 @@ VulkanSwapchain::~VulkanSwapchain() {
 	vkDestroySurfaceKHR(device.instance->get(), surface, nullptr);
 }
 
-glm::uvec2 VulkanSwapchain::get_size_px() const {
-	return size_px;
-}
-
-void VulkanSwapchain::create_semaphores() {
+void VulkanSwapchain::create_semaphore(VkSemaphore &r_semaphore, const std::string &p_name) {
 	const VkSemaphoreCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
-	for (VkSemaphore &semaphore : acquisitions) {
-		device.check(
-				vkCreateSemaphore(device.device, &info, nullptr, &semaphore), "vkCreateSemaphore");
-		device.set_name(VK_OBJECT_TYPE_SEMAPHORE, semaphore, "window image acquired");
-	}
+	device.check(
+			vkCreateSemaphore(device.device, &info, nullptr, &r_semaphore), "vkCreateSemaphore");
+	device.set_name(VK_OBJECT_TYPE_SEMAPHORE, r_semaphore, p_name);
 }
 
 void VulkanSwapchain::choose_format() {
-	uint32_t count = 0;
-	vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical.handle, surface, &count, nullptr);
-	std::vector<VkSurfaceFormatKHR> formats(count);
-	vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical.handle, surface, &count, formats.data());
+	const auto formats = list_all<VkSurfaceFormatKHR>(
+			vkGetPhysicalDeviceSurfaceFormatsKHR, device.physical.handle, surface);
 	for (const VkFormat wanted : { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM }) {
 		for (const VkSurfaceFormatKHR &offered : formats) {
 			if (offered.format == wanted &&
@@ -156,27 +150,18 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 	wanted_size_px = p_window_size_px;
 	is_out_of_date = false;
 
-	uint32_t count = 0;
-	vkGetSwapchainImagesKHR(device.device, swapchain, &count, nullptr);
-	std::vector<VkImage> handles(count);
-	vkGetSwapchainImagesKHR(device.device, swapchain, &count, handles.data());
-	for (uint32_t index = 0; index < count; ++index) {
+	for (VkImage handle : list_all<VkImage>(vkGetSwapchainImagesKHR, device.device, swapchain)) {
+		const size_t index = images.size();
 		TextureResource texture;
 		texture.desc = { text("window image ", index), get_format(), size_px, 1,
 			TextureUsage::COLOR_ATTACHMENT };
-		texture.image = handles[index];
+		texture.image = handle;
 		texture.is_swapchain = true;
 		device.set_name(VK_OBJECT_TYPE_IMAGE, texture.image, texture.desc.name);
 		Image image;
 		image.texture = device.textures.add(std::move(texture));
-		const VkSemaphoreCreateInfo semaphore_info = {
-			.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO
-		};
-		const VkResult semaphore_result =
-				vkCreateSemaphore(device.device, &semaphore_info, nullptr, &image.rendered);
 		images.push_back(image);
-		device.check(semaphore_result, "vkCreateSemaphore");
-		device.set_name(VK_OBJECT_TYPE_SEMAPHORE, image.rendered, text("image rendered ", index));
+		create_semaphore(images.back().rendered, text("image rendered ", index));
 	}
 	return true;
 }

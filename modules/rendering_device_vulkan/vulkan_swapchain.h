@@ -11,7 +11,7 @@ public:
 	VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_create_surface);
 	~VulkanSwapchain() override;
 	std::optional<TextureRID> acquire(glm::uvec2 p_window_size_px) override;
-	glm::uvec2 get_size_px() const override;
+	glm::uvec2 get_size_px() const override { return size_px; }
 
 	VulkanDevice &device;
 	VkSurfaceKHR surface = VK_NULL_HANDLE;
@@ -33,7 +33,7 @@ public:
 	VkSemaphore acquisitions[ACQUISITION_COUNT] = {};
 	size_t acquisition_index = 0; // of the image acquired last
 
-	void create_semaphores();
+	void create_semaphore(VkSemaphore &r_semaphore, const std::string &p_name);
 	void choose_format();
 	/// False while the window has no area.
 	bool recreate(glm::uvec2 p_window_size_px);
