@@ -11,22 +11,6 @@ void VulkanCommandList::check_recording(const char *p_call) const {
 	GNOMON_ASSERT(is_recording, p_call, " outside begin_commands .. submit_commands");
 }
 
-void VulkanCommandList::begin_span(const std::string &p_name) {
-	check_recording("begin_span");
-	GNOMON_ASSERT(!is_in_span && !is_rendering, "span '", p_name,
-			"' begins inside another or inside begin_rendering .. end_rendering");
-	device->begin_span(p_name);
-	is_in_span = true;
-}
-
-void VulkanCommandList::end_span() {
-	check_recording("end_span");
-	GNOMON_ASSERT(is_in_span && !is_rendering && !is_conditional,
-			"end_span without begin_span, or before end_rendering or end_conditional");
-	device->end_span();
-	is_in_span = false;
-}
-
 void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 		std::vector<VkMemoryBarrier2> &r_memory, std::vector<VkBufferMemoryBarrier2> &r_buffers,
 		std::vector<VkImageMemoryBarrier2> &r_images) {

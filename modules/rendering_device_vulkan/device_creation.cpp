@@ -188,9 +188,7 @@ VulkanDevice::~VulkanDevice() {
 		destroy(upload.staging);
 	}
 	drop_read_backs(0);
-	for (DeferredFree &freed : deferred_frees) {
-		std::visit([&](auto &r_resource) { destroy(r_resource); }, freed.resource);
-	}
+	destroy_freed(~uint64_t(0));
 	textures.for_each([&](TextureRID, TextureResource &r_texture) { destroy(r_texture); });
 	buffers.for_each([&](BufferRID, BufferResource &r_buffer) { destroy(r_buffer); });
 	samplers.for_each([&](SamplerRID, SamplerResource &r_sampler) { destroy(r_sampler); });

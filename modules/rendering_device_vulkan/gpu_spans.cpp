@@ -3,20 +3,30 @@
 
 namespace gnomon {
 
-void VulkanDevice::begin_span(const std::string &p_name) {
-	SubmissionSlot &slot = get_recording_slot();
+namespace {
+
+constexpr uint32_t SPANS_PER_QUERY_POOL = 64;
+
+} // namespace
+
+void VulkanCommandList::begin_span(const std::string &p_name) {
+	check_recording("begin_span");
+	GNOMON_ASSERT(!is_in_span && !is_rendering, "span '", p_name,
+			"' begins inside another or inside begin_rendering .. end_rendering");
+	is_in_span = true;
+	SubmissionSlot &slot = device->get_recording_slot();
 	const uint32_t index = static_cast<uint32_t>(slot.span_names.size());
 	slot.span_names.push_back(p_name);
-	if (begin_label) {
+	if (device->begin_label) {
 		const VkDebugUtilsLabelEXT label = { .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT,
 			.pLabelName = p_name.c_str() };
-		begin_label(slot.commands, &label);
+		device->begin_label(commands, &label);
 	}
-	if (index < MAX_BREADCRUMBS) {
-		vkCmdFillBuffer(slot.commands, slot.breadcrumbs.buffer, index * sizeof(uint32_t),
+	if (index < VulkanDevice::MAX_BREADCRUMBS) {
+		vkCmdFillBuffer(commands, slot.breadcrumbs.buffer, index * sizeof(uint32_t),
 				sizeof(uint32_t), static_cast<uint32_t>(slot.number));
 	}
-	if (timestamp_mask == 0) {
+	if (device->timestamp_mask == 0) {
 		return;
 	}
 	const uint32_t pool_index = index / SPANS_PER_QUERY_POOL;
@@ -25,30 +35,35 @@ void VulkanDevice::begin_span(const std::string &p_name) {
 			.queryType = VK_QUERY_TYPE_TIMESTAMP,
 			.queryCount = 2 * SPANS_PER_QUERY_POOL };
 		VkQueryPool pool = VK_NULL_HANDLE;
-		check(vkCreateQueryPool(device, &info, nullptr, &pool), "vkCreateQueryPool");
-		set_name(VK_OBJECT_TYPE_QUERY_POOL, pool, "span times");
+		device->check(
+				vkCreateQueryPool(device->device, &info, nullptr, &pool), "vkCreateQueryPool");
+		device->set_name(VK_OBJECT_TYPE_QUERY_POOL, pool, "span times");
 		slot.query_pools.push_back(pool);
 	}
 	const VkQueryPool pool = slot.query_pools[pool_index];
 	const uint32_t in_pool = index % SPANS_PER_QUERY_POOL;
 	if (in_pool == 0) {
-		vkCmdResetQueryPool(slot.commands, pool, 0, 2 * SPANS_PER_QUERY_POOL);
+		vkCmdResetQueryPool(commands, pool, 0, 2 * SPANS_PER_QUERY_POOL);
 	}
 	// "All commands" at both ends: a span begins when what was recorded before it is done, so that
 	// the spans of a frame do not overlap and add up.
-	vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
+	vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, 2 * in_pool);
 }
 
-void VulkanDevice::end_span() {
-	SubmissionSlot &slot = get_recording_slot();
+void VulkanCommandList::end_span() {
+	check_recording("end_span");
+	GNOMON_ASSERT(is_in_span && !is_rendering && !is_conditional,
+			"end_span without begin_span, or before end_rendering or end_conditional");
+	is_in_span = false;
+	SubmissionSlot &slot = device->get_recording_slot();
 	const uint32_t index = static_cast<uint32_t>(slot.span_names.size()) - 1;
-	if (timestamp_mask != 0) {
-		vkCmdWriteTimestamp2(slot.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+	if (device->timestamp_mask != 0) {
+		vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
 				slot.query_pools[index / SPANS_PER_QUERY_POOL],
 				2 * (index % SPANS_PER_QUERY_POOL) + 1);
 	}
-	if (end_label) {
-		end_label(slot.commands);
+	if (device->end_label) {
+		device->end_label(commands);
 	}
 }
 

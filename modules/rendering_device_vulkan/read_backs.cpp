@@ -10,14 +10,12 @@ BufferResource &VulkanDevice::add_read_back(
 	fail_if_lost();
 	GNOMON_ASSERT(recording.is_recording, "read_back of ", p_resource,
 			" outside begin_commands .. submit_commands");
-	PendingReadBack read_back;
-	read_back.submission_number = get_recording_slot().number;
-	read_back.staging = make_buffer({ .name = "read back " + p_resource,
-			.size_bytes = p_size_bytes,
-			.usage = BufferUsage::COPY_TARGET,
-			.memory = MemoryKind::READBACK });
-	read_back.callback = std::move(p_callback);
-	read_backs.push_back(std::move(read_back));
+	read_backs.push_back({ .submission_number = get_recording_slot().number,
+			.staging = make_buffer({ .name = "read back " + p_resource,
+					.size_bytes = p_size_bytes,
+					.usage = BufferUsage::COPY_TARGET,
+					.memory = MemoryKind::READBACK }),
+			.callback = std::move(p_callback) });
 	return read_backs.back().staging;
 }
 

@@ -23,11 +23,6 @@ void record_full_barrier(VkCommandBuffer p_commands, VkPipelineStageFlags2 p_tar
 	vkCmdPipelineBarrier2(p_commands, &dependency);
 }
 
-constexpr VkCommandBufferBeginInfo BEGIN_INFO = {
-	.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-	.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
-};
-
 } // namespace
 
 void VulkanDevice::create_slots() {
@@ -45,7 +40,8 @@ void VulkanDevice::create_slots() {
 		SubmissionSlot &slot = slots[index];
 		const VkCommandPoolCreateInfo pool_info = {
 			.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-			.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+			.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT |
+					VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
 			.queueFamilyIndex = physical.queue_family
 		};
 		check(vkCreateCommandPool(device, &pool_info, nullptr, &slot.pool), "vkCreateCommandPool");
@@ -89,12 +85,17 @@ uint64_t VulkanDevice::get_finished_number() {
 	return finished;
 }
 
-void VulkanDevice::collect() {
-	const uint64_t finished = get_finished_number();
-	while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
+void VulkanDevice::destroy_freed(uint64_t p_finished_number) {
+	while (!deferred_frees.empty() &&
+			deferred_frees.front().submission_number <= p_finished_number) {
 		std::visit([&](auto &r_resource) { destroy(r_resource); }, deferred_frees.front().resource);
 		deferred_frees.pop_front();
 	}
+}
+
+void VulkanDevice::collect() {
+	const uint64_t finished = get_finished_number();
+	destroy_freed(finished);
 	SubmissionSlot *newest = nullptr;
 	for (SubmissionSlot &slot : slots) {
 		const bool is_finished = slot.has_unread_spans && slot.number <= finished;
@@ -114,11 +115,7 @@ template <typename Resource> void VulkanDevice::defer_free(Resource &&p_resource
 	uint64_t finished = 0;
 	if (lost_text.empty() &&
 			vkGetSemaphoreCounterValue(device, timeline, &finished) == VK_SUCCESS) {
-		while (!deferred_frees.empty() && deferred_frees.front().submission_number <= finished) {
-			std::visit([&](auto &r_resource) { destroy(r_resource); },
-					deferred_frees.front().resource);
-			deferred_frees.pop_front();
-		}
+		destroy_freed(finished);
 	}
 }
 template void VulkanDevice::defer_free(BufferResource &&);
@@ -191,54 +188,39 @@ void VulkanDevice::submit() {
 	recording.is_recording = false;
 	check(vkEndCommandBuffer(slot.commands), "vkEndCommandBuffer");
 	const bool is_to_hang = meet_fault(slot);
-	VkCommandBufferSubmitInfo command_infos[2] = {};
-	uint32_t command_count = 0;
-	const auto add_commands = [&](VkCommandBuffer p_commands) {
-		command_infos[command_count++] = { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-			.commandBuffer = p_commands };
-	};
+	std::vector<VkCommandBufferSubmitInfo> commands;
 	if (!pending_uploads.empty()) {
-		check(vkBeginCommandBuffer(slot.uploads, &BEGIN_INFO), "vkBeginCommandBuffer");
-		record_uploads(slot.uploads);
-		check(vkEndCommandBuffer(slot.uploads), "vkEndCommandBuffer");
-		add_commands(slot.uploads);
+		commands.push_back(record_uploads(slot));
 	}
-	add_commands(slot.commands);
+	commands.push_back({ .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+			.commandBuffer = slot.commands });
 
 	const bool is_waiting = swapchain && swapchain->must_wait();
 	const bool is_presenting = swapchain && swapchain->must_present();
-	VkSemaphoreSubmitInfo waits[2] = {};
-	uint32_t wait_count = 0;
-	const auto add_wait = [&](VkSemaphore p_semaphore, uint64_t p_value) {
-		waits[wait_count++] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+	const auto make_semaphore_info = [](VkSemaphore p_semaphore, uint64_t p_value) {
+		return VkSemaphoreSubmitInfo{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
 			.semaphore = p_semaphore,
 			.value = p_value,
 			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
 	};
+	std::vector<VkSemaphoreSubmitInfo> waits;
 	if (is_waiting) {
-		add_wait(swapchain->get_acquisition(), 0);
+		waits.push_back(make_semaphore_info(swapchain->get_acquisition(), 0));
 	}
 	if (is_to_hang) {
-		add_wait(never, 1);
+		waits.push_back(make_semaphore_info(never, 1));
 	}
-	VkSemaphoreSubmitInfo signals[2] = {
-		{ .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-				.semaphore = timeline,
-				.value = slot.number,
-				.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT },
-	};
+	std::vector<VkSemaphoreSubmitInfo> signals = { make_semaphore_info(timeline, slot.number) };
 	if (is_presenting) {
-		signals[1] = { .sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-			.semaphore = swapchain->get_rendered(),
-			.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT };
+		signals.push_back(make_semaphore_info(swapchain->get_rendered(), 0));
 	}
 	const VkSubmitInfo2 info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-		.waitSemaphoreInfoCount = wait_count,
-		.pWaitSemaphoreInfos = waits,
-		.commandBufferInfoCount = command_count,
-		.pCommandBufferInfos = command_infos,
-		.signalSemaphoreInfoCount = is_presenting ? 2u : 1u,
-		.pSignalSemaphoreInfos = signals };
+		.waitSemaphoreInfoCount = static_cast<uint32_t>(waits.size()),
+		.pWaitSemaphoreInfos = waits.data(),
+		.commandBufferInfoCount = static_cast<uint32_t>(commands.size()),
+		.pCommandBufferInfos = commands.data(),
+		.signalSemaphoreInfoCount = static_cast<uint32_t>(signals.size()),
+		.pSignalSemaphoreInfos = signals.data() };
 	check(vkQueueSubmit2(queue, 1, &info, VK_NULL_HANDLE), "vkQueueSubmit2");
 	submitted_number = slot.number;
 	slot.has_unread_spans = true;
@@ -263,10 +245,6 @@ void VulkanDevice::abandon_commands() {
 	recording.is_recording = false;
 	get_recording_slot().span_names.clear();
 	drop_read_backs(submitted_number);
-}
-
-const std::vector<GpuSpan> &VulkanDevice::get_gpu_spans() const {
-	return gpu_spans;
 }
 
 } // namespace gnomon

@@ -47,12 +47,10 @@ void VulkanDevice::add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t
 	const std::string &name = buffers.get(p_buffer).desc.name;
 	for (uint64_t offset = 0; offset < p_bytes.size(); offset += MAX_PENDING_BYTES) {
 		const uint64_t size = std::min<uint64_t>(MAX_PENDING_BYTES, p_bytes.size() - offset);
-		PendingUpload upload;
-		upload.staging = make_staging(name, p_bytes.subspan(offset, size));
-		upload.size_bytes = size;
-		upload.buffer = p_buffer;
-		upload.buffer_offset_bytes = offset;
-		pending_uploads.push_back(std::move(upload));
+		pending_uploads.push_back({ .staging = make_staging(name, p_bytes.subspan(offset, size)),
+				.size_bytes = size,
+				.buffer = p_buffer,
+				.buffer_offset_bytes = offset });
 		pending_upload_bytes += size;
 		flush_uploads_when_many();
 	}
@@ -70,7 +68,9 @@ void VulkanDevice::add_texture_upload(TextureRID p_texture, std::span<const uint
 	flush_uploads_when_many();
 }
 
-void VulkanDevice::record_uploads(VkCommandBuffer p_commands) {
+VkCommandBufferSubmitInfo VulkanDevice::record_uploads(const SubmissionSlot &p_slot) {
+	const VkCommandBuffer commands = p_slot.uploads;
+	check(vkBeginCommandBuffer(commands, &BEGIN_INFO), "vkBeginCommandBuffer");
 	std::vector<VkImageMemoryBarrier2> barriers;
 	for (const PendingUpload &upload : pending_uploads) {
 		if (upload.texture) {
@@ -85,7 +85,7 @@ void VulkanDevice::record_uploads(VkCommandBuffer p_commands) {
 		}
 	}
 	if (!barriers.empty()) {
-		record_image_barriers(p_commands, barriers);
+		record_image_barriers(commands, barriers);
 	}
 	for (const PendingUpload &upload : pending_uploads) {
 		if (upload.texture) {
@@ -94,13 +94,13 @@ void VulkanDevice::record_uploads(VkCommandBuffer p_commands) {
 																			 texture.desc.format),
 													   .layerCount = upload.layer_count },
 				.imageExtent = { texture.desc.size_px.x, texture.desc.size_px.y, 1 } };
-			vkCmdCopyBufferToImage(p_commands, upload.staging.buffer, texture.image,
+			vkCmdCopyBufferToImage(commands, upload.staging.buffer, texture.image,
 					VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 		} else {
 			const VkBufferCopy region = { .dstOffset = upload.buffer_offset_bytes,
 				.size = upload.size_bytes };
-			vkCmdCopyBuffer(p_commands, upload.staging.buffer, buffers.get(upload.buffer).buffer, 1,
-					&region);
+			vkCmdCopyBuffer(
+					commands, upload.staging.buffer, buffers.get(upload.buffer).buffer, 1, &region);
 		}
 	}
 	for (VkImageMemoryBarrier2 &barrier : barriers) {
@@ -121,7 +121,9 @@ void VulkanDevice::record_uploads(VkCommandBuffer p_commands) {
 		.pMemoryBarriers = &memory,
 		.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.size()),
 		.pImageMemoryBarriers = barriers.data() };
-	vkCmdPipelineBarrier2(p_commands, &dependency);
+	vkCmdPipelineBarrier2(commands, &dependency);
+	check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+	return { .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands };
 }
 
 void VulkanDevice::flush_uploads_when_many() {
@@ -129,39 +131,16 @@ void VulkanDevice::flush_uploads_when_many() {
 		return;
 	}
 	// A submission of its own, waited for: nothing recorded so far can depend on new resources.
-	VkCommandPool pool = VK_NULL_HANDLE;
-	const VkCommandPoolCreateInfo pool_info = { .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-		.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-		.queueFamilyIndex = physical.queue_family };
-	check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
-	const VkCommandBufferAllocateInfo allocate_info = {
-		.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-		.commandPool = pool,
-		.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-		.commandBufferCount = 1
-	};
-	VkCommandBuffer commands = VK_NULL_HANDLE;
-	VkResult result = vkAllocateCommandBuffers(device, &allocate_info, &commands);
+	SubmissionSlot &slot = get_recording_slot();
+	wait_for(std::min(slot.number, submitted_number)); // until its commands may be used again
+	const VkCommandBufferSubmitInfo commands_info = record_uploads(slot);
+	const VkSubmitInfo2 submit_info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+		.commandBufferInfoCount = 1,
+		.pCommandBufferInfos = &commands_info };
+	VkResult result = vkQueueSubmit2(queue, 1, &submit_info, VK_NULL_HANDLE);
 	if (result == VK_SUCCESS) {
-		const VkCommandBufferBeginInfo begin_info = {
-			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-			.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
-		};
-		vkBeginCommandBuffer(commands, &begin_info);
-		record_uploads(commands);
-		vkEndCommandBuffer(commands);
-		const VkCommandBufferSubmitInfo commands_info = {
-			.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = commands
-		};
-		const VkSubmitInfo2 submit_info = { .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-			.commandBufferInfoCount = 1,
-			.pCommandBufferInfos = &commands_info };
-		result = vkQueueSubmit2(queue, 1, &submit_info, VK_NULL_HANDLE);
-		if (result == VK_SUCCESS) {
-			result = vkQueueWaitIdle(queue);
-		}
+		result = vkQueueWaitIdle(queue);
 	}
-	vkDestroyCommandPool(device, pool, nullptr);
 	for (PendingUpload &upload : pending_uploads) {
 		destroy(upload.staging);
 	}

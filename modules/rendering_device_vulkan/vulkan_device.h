@@ -164,14 +164,17 @@ public:
 	void submit_commands(SubmitMode p_mode) override;
 	void abandon_commands() override;
 	void wait_idle() override;
-	const std::vector<GpuSpan> &get_gpu_spans() const override;
+	const std::vector<GpuSpan> &get_gpu_spans() const override { return gpu_spans; }
 
 	// read_backs.cpp
 	void read_back(BufferRID p_buffer, ReadBackCallback p_callback) override;
 	void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) override;
 
 	static constexpr uint32_t SLOT_COUNT = 2;
-	static constexpr uint32_t SPANS_PER_QUERY_POOL = 64;
+	static constexpr VkCommandBufferBeginInfo BEGIN_INFO = {
+		.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+		.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
+	};
 	static constexpr uint32_t MAX_BREADCRUMBS = 1024; // later spans of a submission leave none
 
 	DeviceOptions options;
@@ -260,7 +263,8 @@ public:
 	void add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t> p_bytes);
 	void add_texture_upload(TextureRID p_texture, std::span<const uint8_t> p_bytes);
 	BufferResource make_staging(const std::string &p_name, std::span<const uint8_t> p_bytes);
-	void record_uploads(VkCommandBuffer p_commands);
+	/// Into the slot's command buffer for uploads.
+	VkCommandBufferSubmitInfo record_uploads(const SubmissionSlot &p_slot);
 	void flush_uploads_when_many();
 	template <typename Handle> void drop_uploads(Handle p_target);
 
@@ -278,6 +282,7 @@ public:
 	void create_slots();
 	void destroy_slots();
 	uint64_t get_finished_number();
+	void destroy_freed(uint64_t p_finished_number);
 	/// Destroys what finished submissions no longer use and reads their timestamps.
 	void collect();
 	template <typename Resource> void defer_free(Resource &&p_resource);
@@ -295,8 +300,6 @@ public:
 	bool has_ended();
 
 	// gpu_spans.cpp
-	void begin_span(const std::string &p_name);
-	void end_span();
 	void read_spans(SubmissionSlot &r_slot);
 
 	// pipelines.cpp, raster_pipelines.cpp, pipeline_cache_file.cpp
