@@ -55,14 +55,11 @@ struct DeviceFeatures {
 	bool depth_clamp = false;
 	bool depth_bounds = false;
 	bool conditional_rendering = false;
-	bool precise_occlusion_query = false;
 	bool fragment_stores = false;
 	bool storage_texel_buffers = false; // buffers that are STORAGE and TEXEL at once
 	bool timestamps = false;
-	float timestamp_period_ns = 1.0f;
 	uint64_t max_storage_buffer_bytes = 0;
 	uint32_t max_texture_size_px = 0;
-	uint32_t max_texel_buffer_elements = 0;
 	uint32_t subgroup_size = 0;
 	bool subgroup_operations = false; // vote, arithmetic, ballot and shuffle in compute shaders
 };

@@ -109,11 +109,10 @@ struct BufferDesc {
 };
 
 enum class Filter { NEAREST, LINEAR };
-enum class AddressMode { CLAMP_TO_EDGE, REPEAT };
+/// Beyond its edge a texture has the colour of the edge.
 struct SamplerDesc {
 	std::string name;
 	Filter filter = Filter::NEAREST;
-	AddressMode address = AddressMode::CLAMP_TO_EDGE;
 };
 
 /// One resource at a binding of set 0. Which kind of descriptor it is, is read from the SPIR-V.
@@ -158,11 +157,12 @@ struct StencilTest {
 	uint32_t reference = 0; // what is compared with and what REPLACE writes, 0 to 255
 	auto operator<=>(const StencilTest &) const = default;
 };
+/// In the order that devices know.
 enum class CullMode { NONE, FRONT, BACK };
 /// NORMAL: front faces are counter-clockwise as seen in a y-up view. Mirrored transforms wind them
 /// the other way.
 enum class Winding { NORMAL, MIRRORED };
-enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY, TRIANGLE_STRIP, LINES, POINTS };
+enum class Topology { TRIANGLES, TRIANGLES_WITH_ADJACENCY };
 enum class BlendMode { OFF, ALPHA, ADD, MINIMUM, MAXIMUM };
 
 /// A specialization constant. Booleans are 0 and 1; floats by their bits.
@@ -228,8 +228,8 @@ struct RasterPipelineDesc {
 	auto operator<=>(const RasterPipelineDesc &) const = default;
 };
 
-/// Where an attachment's first content comes from.
-enum class LoadOp { CLEAR, KEEP, DISCARD };
+/// Where an attachment's first content comes from, in the order that devices know.
+enum class LoadOp { KEEP, CLEAR, DISCARD };
 struct ColorTarget {
 	TextureRID texture;
 	LoadOp load = LoadOp::CLEAR;
@@ -266,7 +266,7 @@ enum class Access {
 };
 bool is_write(Access p_access);
 
-/// One barrier on a whole resource. Leave both handles empty for a barrier on all memory.
+/// One barrier on a whole resource, a buffer or a texture.
 struct Barrier {
 	BufferRID buffer;
 	TextureRID texture;

@@ -7,6 +7,13 @@ namespace gnomon {
 
 namespace {
 
+/// What one Access means in Vulkan.
+struct AccessScope {
+	VkPipelineStageFlags2 stages = 0;
+	VkAccessFlags2 access = 0;
+	VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // of a texture in this use
+};
+
 constexpr VkPipelineStageFlags2 DEPTH_STAGES =
 		VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
 // Covers the geometry stage where the device has one, without asking for the feature.
@@ -73,13 +80,13 @@ const AccessScope SCOPES[] = {
 };
 static_assert(std::size(SCOPES) == static_cast<size_t>(Access::PRESENT) + 1);
 
-} // namespace
-
 const AccessScope &get_access_scope(Access p_access) {
 	const size_t index = static_cast<size_t>(p_access);
 	GNOMON_ASSERT(index < std::size(SCOPES), "access ", index);
 	return SCOPES[index];
 }
+
+} // namespace
 
 VkAccessFlags2 get_write_access(Access p_access) {
 	return get_access_scope(p_access).access & WRITES;
@@ -105,15 +112,6 @@ Dependency compute_dependency(const Barrier &p_barrier) {
 	Dependency dependency = { before.stages, get_write_access(p_barrier.before), after.stages,
 		after.access, before.layout, after.layout, true };
 	const bool is_texture = bool(p_barrier.texture);
-	if (!is_texture && !p_barrier.buffer) {
-		if (p_barrier.before == Access::NONE && p_barrier.after == Access::NONE) {
-			dependency.source_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-			dependency.source_access = VK_ACCESS_2_MEMORY_WRITE_BIT;
-			dependency.target_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-			dependency.target_access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-		}
-		return dependency;
-	}
 	if (p_barrier.before == Access::NONE) {
 		// The list begins with a barrier on everything. Naming the stage of the use to come chains
 		// the layout change to it, and through it to what earlier submissions did to the texture.

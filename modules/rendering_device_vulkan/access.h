@@ -5,13 +5,6 @@
 
 namespace gnomon {
 
-/// What one Access means in Vulkan.
-struct AccessScope {
-	VkPipelineStageFlags2 stages = 0;
-	VkAccessFlags2 access = 0;
-	VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED; // of a texture in this use
-};
-const AccessScope &get_access_scope(Access p_access);
 /// The part of an access that must be made available to later ones: its writes.
 VkAccessFlags2 get_write_access(Access p_access);
 

@@ -120,10 +120,6 @@ void VulkanDevice::free(BufferRID p_buffer) {
 	defer_free(std::move(buffer));
 }
 
-const BufferDesc &VulkanDevice::get_desc(BufferRID p_buffer) const {
-	return buffers.get(p_buffer).desc;
-}
-
 uint8_t *VulkanDevice::get_mapped(BufferRID p_buffer) {
 	const BufferResource &buffer = buffers.get(p_buffer);
 	GNOMON_ASSERT(buffer.desc.memory != MemoryKind::GPU, "buffer '", buffer.desc.name,

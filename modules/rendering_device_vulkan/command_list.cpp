@@ -12,9 +12,17 @@ void VulkanCommandList::check_recording(const char *p_call) const {
 }
 
 void VulkanCommandList::push_barrier(const Barrier &p_barrier,
-		std::vector<VkMemoryBarrier2> &r_memory, std::vector<VkBufferMemoryBarrier2> &r_buffers,
+		std::vector<VkBufferMemoryBarrier2> &r_buffers,
 		std::vector<VkImageMemoryBarrier2> &r_images) {
 	const Dependency dependency = compute_dependency(p_barrier);
+	const auto fill = [&](auto p_empty) {
+		p_empty.srcStageMask = dependency.source_stages;
+		p_empty.srcAccessMask = dependency.source_access;
+		p_empty.dstStageMask = dependency.target_stages;
+		p_empty.dstAccessMask = dependency.target_access;
+		p_empty.srcQueueFamilyIndex = p_empty.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+		return p_empty;
+	};
 	if (p_barrier.texture) {
 		TextureResource &texture = device->textures.get(p_barrier.texture);
 		GNOMON_ASSERT(dependency.new_layout != VK_IMAGE_LAYOUT_UNDEFINED, "texture '",
@@ -22,57 +30,38 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 		const Format format = texture.desc.format;
 		texture.recorded_layout = get_layout(dependency.new_layout, format);
 		if (dependency.is_needed) {
-			r_images.push_back({ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-					.srcStageMask = dependency.source_stages,
-					.srcAccessMask = dependency.source_access,
-					.dstStageMask = dependency.target_stages,
-					.dstAccessMask = dependency.target_access,
-					.oldLayout = get_layout(dependency.old_layout, format),
-					.newLayout = get_layout(dependency.new_layout, format),
-					.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-					.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-					.image = texture.image,
-					.subresourceRange = { .aspectMask = get_aspect(format),
-							.levelCount = 1,
-							.layerCount = VK_REMAINING_ARRAY_LAYERS } });
-		}
-	} else if (p_barrier.buffer) {
-		const BufferResource &buffer = device->buffers.get(p_barrier.buffer);
-		if (dependency.is_needed) {
-			r_buffers.push_back({ .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
-					.srcStageMask = dependency.source_stages,
-					.srcAccessMask = dependency.source_access,
-					.dstStageMask = dependency.target_stages,
-					.dstAccessMask = dependency.target_access,
-					.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-					.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-					.buffer = buffer.buffer,
-					.size = VK_WHOLE_SIZE });
+			r_images.push_back(
+					fill(VkImageMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+							.oldLayout = get_layout(dependency.old_layout, format),
+							.newLayout = texture.recorded_layout,
+							.image = texture.image,
+							.subresourceRange = { .aspectMask = get_aspect(format),
+									.levelCount = 1,
+									.layerCount = VK_REMAINING_ARRAY_LAYERS } }));
 		}
 	} else {
-		r_memory.push_back({ .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-				.srcStageMask = dependency.source_stages,
-				.srcAccessMask = dependency.source_access,
-				.dstStageMask = dependency.target_stages,
-				.dstAccessMask = dependency.target_access });
+		const BufferResource &buffer = device->buffers.get(p_barrier.buffer);
+		if (dependency.is_needed) {
+			r_buffers.push_back(
+					fill(VkBufferMemoryBarrier2{ .sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+							.buffer = buffer.buffer,
+							.size = VK_WHOLE_SIZE }));
+		}
 	}
 }
 
 void VulkanCommandList::barriers(std::span<const Barrier> p_barriers) {
 	check_recording("barriers");
 	GNOMON_ASSERT(!is_rendering, "barriers inside begin_rendering .. end_rendering");
-	std::vector<VkMemoryBarrier2> memory;
 	std::vector<VkBufferMemoryBarrier2> buffers;
 	std::vector<VkImageMemoryBarrier2> images;
 	for (const Barrier &barrier : p_barriers) {
-		push_barrier(barrier, memory, buffers, images);
+		push_barrier(barrier, buffers, images);
 	}
-	if (memory.empty() && buffers.empty() && images.empty()) {
+	if (buffers.empty() && images.empty()) {
 		return;
 	}
 	const VkDependencyInfo info = { .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-		.memoryBarrierCount = static_cast<uint32_t>(memory.size()),
-		.pMemoryBarriers = memory.data(),
 		.bufferMemoryBarrierCount = static_cast<uint32_t>(buffers.size()),
 		.pBufferMemoryBarriers = buffers.data(),
 		.imageMemoryBarrierCount = static_cast<uint32_t>(images.size()),

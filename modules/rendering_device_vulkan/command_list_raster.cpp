@@ -7,18 +7,6 @@ namespace gnomon {
 
 namespace {
 
-VkAttachmentLoadOp get_load_op(LoadOp p_op) {
-	switch (p_op) {
-		case LoadOp::CLEAR:
-			return VK_ATTACHMENT_LOAD_OP_CLEAR;
-		case LoadOp::KEEP:
-			return VK_ATTACHMENT_LOAD_OP_LOAD;
-		case LoadOp::DISCARD:
-			return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-	}
-	return VK_ATTACHMENT_LOAD_OP_LOAD;
-}
-
 VkClearColorValue make_clear_value(Format p_format, glm::vec4 p_value) {
 	VkClearColorValue value = {};
 	for (int channel = 0; channel < 4; ++channel) {
@@ -60,18 +48,22 @@ void VulkanCommandList::begin_rendering_of_size(
 	GNOMON_ASSERT(!is_rendering, "begin_rendering before end_rendering");
 	target_color_formats.clear();
 	std::vector<VkRenderingAttachmentInfo> colors;
-	for (const ColorTarget &target : p_colors) {
-		TextureResource &texture = device->textures.get(target.texture);
+	const auto get_target = [&](TextureRID p_texture, TextureUsage p_usage) -> TextureResource & {
+		TextureResource &texture = device->textures.get(p_texture);
 		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
 				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
 				p_size_px.x, " x ", p_size_px.y);
-		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::COLOR_ATTACHMENT), "target '",
-				texture.desc.name, "' lacks the usage COLOR_ATTACHMENT");
+		GNOMON_ASSERT(has_usage(texture.desc.usage, p_usage), "target '", texture.desc.name,
+				"' lacks the usage ", describe_usage(p_usage));
+		return texture;
+	};
+	for (const ColorTarget &target : p_colors) {
+		TextureResource &texture = get_target(target.texture, TextureUsage::COLOR_ATTACHMENT);
 		VkRenderingAttachmentInfo &info = colors.emplace_back(VkRenderingAttachmentInfo{
 				.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
 				.imageView = device->get_view(texture, ViewUse::ATTACHMENT, target.layer, false),
 				.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-				.loadOp = get_load_op(target.load),
+				.loadOp = static_cast<VkAttachmentLoadOp>(target.load),
 				.storeOp = VK_ATTACHMENT_STORE_OP_STORE });
 		info.clearValue.color = make_clear_value(texture.desc.format, target.clear);
 		target_color_formats.push_back(texture.desc.format);
@@ -80,12 +72,7 @@ void VulkanCommandList::begin_rendering_of_size(
 	target_depth_format.reset();
 	is_target_depth_read_only = false;
 	if (p_depth) {
-		TextureResource &texture = device->textures.get(p_depth->texture);
-		GNOMON_ASSERT(texture.desc.size_px == p_size_px, "target '", texture.desc.name, "' is ",
-				texture.desc.size_px.x, " x ", texture.desc.size_px.y, " px, the first one ",
-				p_size_px.x, " x ", p_size_px.y);
-		GNOMON_ASSERT(has_usage(texture.desc.usage, TextureUsage::DEPTH_ATTACHMENT), "target '",
-				texture.desc.name, "' lacks the usage DEPTH_ATTACHMENT");
+		TextureResource &texture = get_target(p_depth->texture, TextureUsage::DEPTH_ATTACHMENT);
 		const Format format = texture.desc.format;
 		target_depth_format = format;
 		const VkImageLayout read_only = get_layout(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
@@ -96,7 +83,7 @@ void VulkanCommandList::begin_rendering_of_size(
 		depth.imageLayout = is_target_depth_read_only
 				? read_only
 				: get_layout(VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, format);
-		depth.loadOp = get_load_op(p_depth->load);
+		depth.loadOp = static_cast<VkAttachmentLoadOp>(p_depth->load);
 		// Storing counts as a write, also of what was only tested against.
 		depth.storeOp = is_target_depth_read_only ? VK_ATTACHMENT_STORE_OP_NONE
 												  : VK_ATTACHMENT_STORE_OP_STORE;
@@ -130,11 +117,8 @@ void VulkanCommandList::set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_p
 	const glm::vec2 offset(p_offset_px);
 	const glm::vec2 size(p_size_px);
 	const VkViewport viewport = { offset.x, offset.y, size.x, size.y, 0.0f, 1.0f };
-	const VkRect2D scissor = { { static_cast<int32_t>(p_offset_px.x),
-									   static_cast<int32_t>(p_offset_px.y) },
-		{ p_size_px.x, p_size_px.y } };
 	vkCmdSetViewport(commands, 0, 1, &viewport);
-	vkCmdSetScissor(commands, 0, 1, &scissor);
+	set_scissor(p_offset_px, p_size_px);
 }
 
 void VulkanCommandList::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {

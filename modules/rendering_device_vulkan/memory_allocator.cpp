@@ -81,18 +81,6 @@ uint32_t MemoryAllocator::find_memory_type(uint32_t p_type_bits, MemoryKind p_ki
 	return best_type;
 }
 
-MemoryUse MemoryAllocator::get_use() const {
-	return use;
-}
-
-uint64_t MemoryAllocator::get_largest_heap_bytes() const {
-	uint64_t largest = 0;
-	for (uint32_t heap = 0; heap < properties.memoryHeapCount; ++heap) {
-		largest = std::max<uint64_t>(largest, properties.memoryHeaps[heap].size);
-	}
-	return largest;
-}
-
 void MemoryAllocator::refresh_heap_budgets() {
 	VkPhysicalDeviceMemoryBudgetPropertiesEXT reported = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT

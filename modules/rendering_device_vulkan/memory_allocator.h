@@ -58,9 +58,8 @@ public:
 	/// The best type for the kind among those allowed. Vulkan guarantees that there is one for
 	/// the bits that buffers and images ask for.
 	uint32_t find_memory_type(uint32_t p_type_bits, MemoryKind p_kind) const;
-	MemoryUse get_use() const;
+	MemoryUse get_use() const { return use; }
 	uint64_t compute_budget_bytes(uint32_t p_memory_type);
-	uint64_t get_largest_heap_bytes() const;
 
 private:
 	MemoryBlock *create_block(

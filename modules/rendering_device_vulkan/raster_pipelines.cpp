@@ -36,18 +36,6 @@ VkStencilOpState make_stencil_state(const StencilFace &p_face, uint32_t p_refere
 		all, p_reference };
 }
 
-VkCullModeFlags get_vulkan_cull_mode(CullMode p_mode) {
-	switch (p_mode) {
-		case CullMode::NONE:
-			return VK_CULL_MODE_NONE;
-		case CullMode::FRONT:
-			return VK_CULL_MODE_FRONT_BIT;
-		case CullMode::BACK:
-			return VK_CULL_MODE_BACK_BIT;
-	}
-	return VK_CULL_MODE_NONE;
-}
-
 bool may_write(const StencilFace &p_face) {
 	return p_face.fail != StencilOp::KEEP || p_face.depth_fail != StencilOp::KEEP ||
 			p_face.pass != StencilOp::KEEP;
@@ -60,37 +48,24 @@ std::optional<Format> get_depth_format(const RasterPipelineDesc &p_desc) {
 	return p_desc.has_stencil ? Format::D32_SFLOAT_S8_UINT : Format::D32_SFLOAT;
 }
 
-VkPrimitiveTopology get_vulkan_topology(Topology p_topology) {
-	switch (p_topology) {
-		case Topology::TRIANGLES:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-		case Topology::TRIANGLES_WITH_ADJACENCY:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY;
-		case Topology::TRIANGLE_STRIP:
-			return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-		case Topology::LINES:
-			return VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
-		case Topology::POINTS:
-			return VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-	}
-	return VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-}
-
 } // namespace
 
 void VulkanDevice::check_raster_features(const RasterPipelineDesc &p_desc) const {
 	const bool has_adjacency = p_desc.topology == Topology::TRIANGLES_WITH_ADJACENCY;
-	if ((has_adjacency || !p_desc.geometry_shader.empty()) && !features.geometry_shader) {
-		fail("Pipeline '", p_desc.name, "' needs geometry shaders, which device \"",
-				physical.info.name, "\" lacks. Choose another method or another device.");
-	}
-	if (p_desc.clamps_depth && !features.depth_clamp) {
-		fail("Pipeline '", p_desc.name, "' needs depth clamping, which device \"",
-				physical.info.name, "\" lacks. Choose another method or another device.");
-	}
-	if (p_desc.has_depth_bounds && !features.depth_bounds) {
-		fail("Pipeline '", p_desc.name, "' needs depth bounds, which device \"", physical.info.name,
-				"\" lacks. Choose another method or another device.");
+	const struct {
+		bool is_missing;
+		const char *name;
+	} NEEDS[] = {
+		{ (has_adjacency || !p_desc.geometry_shader.empty()) && !features.geometry_shader,
+				"geometry shaders" },
+		{ p_desc.clamps_depth && !features.depth_clamp, "depth clamping" },
+		{ p_desc.has_depth_bounds && !features.depth_bounds, "depth bounds" },
+	};
+	for (const auto &need : NEEDS) {
+		if (need.is_missing) {
+			fail("Pipeline '", p_desc.name, "' needs ", need.name, ", which device \"",
+					physical.info.name, "\" lacks. Choose another method or another device.");
+		}
 	}
 	for (const Format format : p_desc.color_formats) {
 		VkFormatProperties properties;
@@ -130,7 +105,9 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 	};
 	const VkPipelineInputAssemblyStateCreateInfo input_assembly = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-		.topology = get_vulkan_topology(p_desc.topology)
+		.topology = p_desc.topology == Topology::TRIANGLES
+				? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST
+				: VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY
 	};
 	const VkPipelineViewportStateCreateInfo viewport = {
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
@@ -142,7 +119,7 @@ VkPipeline VulkanDevice::create_raster_pipeline(const RasterPipelineDesc &p_desc
 		.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
 		.depthClampEnable = p_desc.clamps_depth,
 		.polygonMode = VK_POLYGON_MODE_FILL,
-		.cullMode = get_vulkan_cull_mode(p_desc.cull_mode),
+		.cullMode = static_cast<VkCullModeFlags>(p_desc.cull_mode),
 		.frontFace = p_desc.winding == Winding::NORMAL ? VK_FRONT_FACE_COUNTER_CLOCKWISE
 													   : VK_FRONT_FACE_CLOCKWISE,
 		.depthBiasEnable = has_bias,

@@ -156,17 +156,11 @@ void VulkanDevice::free(TextureRID p_texture) {
 	defer_free(std::move(texture));
 }
 
-const TextureDesc &VulkanDevice::get_desc(TextureRID p_texture) const {
-	return textures.get(p_texture).desc;
-}
-
 SamplerRID VulkanDevice::create_sampler(const SamplerDesc &p_desc) {
 	fail_if_lost();
 	const bool is_linear = p_desc.filter == Filter::LINEAR;
 	const VkFilter filter = is_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-	const VkSamplerAddressMode address = p_desc.address == AddressMode::REPEAT
-			? VK_SAMPLER_ADDRESS_MODE_REPEAT
-			: VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+	const VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
 	const VkSamplerCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
 		.magFilter = filter,
 		.minFilter = filter,

@@ -16,9 +16,11 @@ struct TextureResource;
 /// Records into the command buffer of one submission. Assigning a new one forgets the state.
 class VulkanCommandList final : public CommandList {
 public:
-	// command_list.cpp
+	// gpu_spans.cpp
 	void begin_span(const std::string &p_name) override;
 	void end_span() override;
+
+	// command_list.cpp
 	void barriers(std::span<const Barrier> p_barriers) override;
 	void bind_pipeline(PipelineRID p_pipeline) override;
 	void push_constants(std::span<const uint8_t> p_bytes) override;
@@ -76,8 +78,7 @@ private:
 	void prepare_dispatch(const char *p_call) const;
 	void check_bound(const char *p_call) const;
 	void check_copy(const char *p_call) const;
-	void push_barrier(const Barrier &p_barrier, std::vector<VkMemoryBarrier2> &r_memory,
-			std::vector<VkBufferMemoryBarrier2> &r_buffers,
+	void push_barrier(const Barrier &p_barrier, std::vector<VkBufferMemoryBarrier2> &r_buffers,
 			std::vector<VkImageMemoryBarrier2> &r_images);
 
 	std::vector<Format> target_color_formats;

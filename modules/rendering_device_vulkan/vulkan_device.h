@@ -145,8 +145,12 @@ public:
 	void free(TextureRID p_texture) override;
 	void free(SamplerRID p_sampler) override;
 	void free(MemoryRID p_memory) override;
-	const BufferDesc &get_desc(BufferRID p_buffer) const override;
-	const TextureDesc &get_desc(TextureRID p_texture) const override;
+	const BufferDesc &get_desc(BufferRID p_buffer) const override {
+		return buffers.get(p_buffer).desc;
+	}
+	const TextureDesc &get_desc(TextureRID p_texture) const override {
+		return textures.get(p_texture).desc;
+	}
 	uint8_t *get_mapped(BufferRID p_buffer) override;
 	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) override;
 	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) override;

@@ -26,12 +26,7 @@ const VkFormat FORMATS[] = {
 };
 static_assert(std::size(FORMATS) == static_cast<size_t>(Format::D32_SFLOAT_S8_UINT) + 1);
 
-struct TextureUsageRow {
-	TextureUsage usage;
-	VkImageUsageFlags flag;
-};
-
-const TextureUsageRow TEXTURE_USAGES[] = {
+const std::pair<TextureUsage, VkFlags> TEXTURE_USAGES[] = {
 	{ TextureUsage::SAMPLED, VK_IMAGE_USAGE_SAMPLED_BIT },
 	{ TextureUsage::STORAGE, VK_IMAGE_USAGE_STORAGE_BIT },
 	{ TextureUsage::COLOR_ATTACHMENT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT },
@@ -40,12 +35,7 @@ const TextureUsageRow TEXTURE_USAGES[] = {
 	{ TextureUsage::COPY_TARGET, VK_IMAGE_USAGE_TRANSFER_DST_BIT },
 };
 
-struct BufferUsageRow {
-	BufferUsage usage;
-	VkBufferUsageFlags flag;
-};
-
-const BufferUsageRow BUFFER_USAGES[] = {
+const std::pair<BufferUsage, VkFlags> BUFFER_USAGES[] = {
 	{ BufferUsage::VERTEX, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT },
 	{ BufferUsage::INDEX, VK_BUFFER_USAGE_INDEX_BUFFER_BIT },
 	{ BufferUsage::UNIFORM, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT },
@@ -56,6 +46,15 @@ const BufferUsageRow BUFFER_USAGES[] = {
 	{ BufferUsage::COPY_TARGET, VK_BUFFER_USAGE_TRANSFER_DST_BIT },
 	{ BufferUsage::TEXEL, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT },
 };
+
+template <typename Usage>
+VkFlags join_flags(Usage p_usage, std::span<const std::pair<Usage, VkFlags>> p_rows) {
+	VkFlags flags = 0;
+	for (const auto &[usage, flag] : p_rows) {
+		flags |= has_usage(p_usage, usage) ? flag : 0;
+	}
+	return flags;
+}
 
 } // namespace
 
@@ -73,19 +72,11 @@ VkImageAspectFlags get_aspect(Format p_format) {
 }
 
 VkImageUsageFlags get_vulkan_usage(TextureUsage p_usage) {
-	VkImageUsageFlags flags = 0;
-	for (const TextureUsageRow &row : TEXTURE_USAGES) {
-		flags |= has_usage(p_usage, row.usage) ? row.flag : 0;
-	}
-	return flags;
+	return join_flags<TextureUsage>(p_usage, TEXTURE_USAGES);
 }
 
 VkBufferUsageFlags get_vulkan_usage(BufferUsage p_usage) {
-	VkBufferUsageFlags flags = 0;
-	for (const BufferUsageRow &row : BUFFER_USAGES) {
-		flags |= has_usage(p_usage, row.usage) ? row.flag : 0;
-	}
-	return flags;
+	return join_flags<BufferUsage>(p_usage, BUFFER_USAGES);
 }
 
 VkFormat get_attribute_format(const VertexAttribute &p_attribute) {
