@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace gnomon;
 using SubmitMode = RenderingDevice::SubmitMode;
 
@@ -75,11 +77,20 @@ TEST_CASE("[GPU][RenderingDevice] an upload larger than the staging limit arrive
 	for (uint32_t index = 0; index < values.size(); ++index) {
 		values[index] = index;
 	}
-	const OwnedBuffer source = fixture.make_buffer("source", values, BufferUsage::COPY_SOURCE);
-	const OwnedBuffer readback = fixture.make_readback(values.size() * 4);
-	fixture.device->begin_commands().copy_buffer(source.get(), readback.get(), values.size() * 4);
-	fixture.device->submit_commands(SubmitMode::WAIT);
-	CHECK(fixture.read<uint32_t>(readback, values.size()) == values);
+	const uint64_t size_bytes = values.size() * sizeof(uint32_t);
+	const OwnedBuffer readback = fixture.make_readback(size_bytes);
+	const auto check = [&](const OwnedBuffer &p_source, CommandList &r_commands) {
+		r_commands.copy_buffer(p_source.get(), readback.get(), size_bytes);
+		fixture.device->submit_commands(SubmitMode::WAIT);
+		CHECK(fixture.read<uint32_t>(readback, values.size()) == values);
+	};
+	const OwnedBuffer before = fixture.make_buffer("before", values, BufferUsage::COPY_SOURCE);
+	check(before, fixture.device->begin_commands());
+	std::reverse(values.begin(), values.end());
+	CommandList &commands = fixture.device->begin_commands();
+	const OwnedBuffer meanwhile = fixture.make_buffer("while", values, BufferUsage::COPY_SOURCE);
+	check(meanwhile, commands);
+	CHECK(get_validation_message_count() == 0);
 }
 
 TEST_CASE(
