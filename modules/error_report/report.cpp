@@ -4,12 +4,12 @@
 
 namespace gnomon {
 
-const char *get_status_name(ReportStatus p_status) {
+const char *get_name(ReportStatus p_status) {
 	static const char *const NAMES[] = { "ok", "failed", "missing" };
 	return NAMES[static_cast<int>(p_status)];
 }
 
-const char *get_cause_name(ErrorCause p_cause) {
+const char *get_name(ErrorCause p_cause) {
 	static const char *const NAMES[] = { "method", "rounding", "truth" };
 	return NAMES[static_cast<int>(p_cause)];
 }

@@ -34,7 +34,7 @@ struct ReportTechnique {
 
 enum class ReportStatus { OK, FAILED, MISSING };
 /// "ok", "failed", "missing".
-const char *get_status_name(ReportStatus p_status);
+const char *get_name(ReportStatus p_status);
 
 /// The exact mask of a configuration, as far as the report keeps it.
 struct ReportTruth {
@@ -77,12 +77,11 @@ struct ReportConfiguration {
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
 	bool is_stability() const { return group == STABILITY_GROUP; }
-	/// Of a curve of cost; everything else is measured against a truth.
-	bool is_scaling() const {
-		return group == TRIANGLES_GROUP || group == LIGHT_SIZE_GROUP || group == LIGHTS_GROUP ||
-				group == RESOLUTION_GROUP;
+	/// A curve of cost has none; everything else is measured against one.
+	bool has_truth() const {
+		return group != TRIANGLES_GROUP && group != LIGHT_SIZE_GROUP && group != LIGHTS_GROUP &&
+				group != RESOLUTION_GROUP;
 	}
-	bool has_truth() const { return !is_scaling(); }
 };
 
 /// Over all receivers, and over those that see the whole disc above their own horizon.
@@ -98,7 +97,7 @@ enum class ErrorCause {
 	TRUTH,	  // the reference in float32 is off by as much
 };
 /// "method", "rounding", "truth".
-const char *get_cause_name(ErrorCause p_cause);
+const char *get_name(ErrorCause p_cause);
 
 /// How sensitive visibility is at some points, in double precision: means over the points.
 struct VisibilityCondition {

@@ -1,6 +1,5 @@
-#include "modules/error_report/report_csv.h"
-
 #include "modules/core/text.h"
+#include "modules/error_report/report_json.h"
 
 #include <vector>
 
@@ -94,7 +93,7 @@ std::string to_csv(const Report &p_report) {
 			text(at.value), at.scene, at.light, at.light_type, text(at.light_size_m),
 			text(at.light_angular_distance_deg), text(at.light_count), text(at.size_px.x),
 			text(at.size_px.y), text(at.triangle_count), text(at.edge_count), cell.technique,
-			cell.setting, join(cell.properties), get_status_name(cell.status), cell.message,
+			cell.setting, join(cell.properties), get_name(cell.status), cell.message,
 			at.has_truth() ? text(p_report.sample_count) : "",
 			has_truth ? text(at.truth.standard_error) : "" };
 		add_metrics(error ? &error->all.receiver : nullptr, fields);

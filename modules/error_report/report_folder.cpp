@@ -43,7 +43,7 @@ const RecordStore *choose_store(
 	const RecordStore *failed = nullptr;
 	for (const RecordStore &store : p_stores) {
 		const std::optional<Json> content = store.load(p_name);
-		if (content && content->value("status", "") == get_status_name(ReportStatus::OK)) {
+		if (content && content->value("status", "") == get_name(ReportStatus::OK)) {
 			return &store;
 		}
 		failed = content && !failed ? &store : failed;

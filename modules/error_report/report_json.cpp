@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <concepts>
 
 namespace gnomon {
 
@@ -15,159 +16,334 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// T may be const, where it is written.
+template <typename T, typename Plain>
+concept Either = std::same_as<std::remove_const_t<T>, Plain>;
+
+/// A form names each of its fields once, in describe(), for this and for the Reader.
+struct Writer {
+	Json &json;
+
+	/// Has the form a field that some lack?
+	bool has(const char * /*p_name*/, bool p_is_set) const { return p_is_set; }
+	/// What follows from the rest and is not read.
+	void add_computed(const char *p_name, const Json &p_value) const { json[p_name] = p_value; }
+
+	template <typename Describe> void part(const char *p_name, Describe p_describe) const {
+		p_describe(Writer{ json[p_name] = Json::object() });
+	}
+	template <typename T>
+	void operator()(const char *p_name, const std::optional<T> &p_value) const {
+		if (p_value) {
+			(*this)(p_name, *p_value);
+		}
+	}
+	void operator()(const char *p_name, const glm::uvec2 &p_value) const {
+		json[p_name] = { p_value.x, p_value.y };
+	}
+	template <typename T> void operator()(const char *p_name, const T &p_value) const {
+		if constexpr (std::is_enum_v<T>) {
+			json[p_name] = get_name(p_value);
+		} else if constexpr (requires { describe(*this, p_value); }) {
+			describe(Writer{ json[p_name] = Json::object() }, p_value);
+		} else if constexpr (requires { describe(*this, p_value.front()); }) {
+			json[p_name] = Json::array();
+			for (const auto &value : p_value) {
+				describe(Writer{ json[p_name].emplace_back(Json::object()) }, value);
+			}
+		} else {
+			json[p_name] = p_value;
+		}
+	}
+};
+
+struct Reader {
+	const Json &json;
+
+	bool has(const char *p_name, bool /*p_is_set*/) const { return json.contains(p_name); }
+	void add_computed(const char * /*p_name*/, const Json & /*p_value*/) const {}
+
+	template <typename Describe> void part(const char *p_name, Describe p_describe) const {
+		p_describe(Reader{ json.at(p_name) });
+	}
+	template <typename T> void operator()(const char *p_name, std::optional<T> &r_value) const {
+		r_value.reset();
+		if (json.contains(p_name)) {
+			(*this)(p_name, r_value.emplace());
+		}
+	}
+	void operator()(const char *p_name, glm::uvec2 &r_value) const {
+		r_value = { json.at(p_name).at(0), json.at(p_name).at(1) };
+	}
+	template <typename T> void operator()(const char *p_name, T &r_value) const {
+		const Json &value = json.at(p_name);
+		if constexpr (std::is_enum_v<T>) {
+			r_value = find_value<T>(p_name, value);
+		} else if constexpr (requires { describe(*this, r_value); }) {
+			describe(Reader{ value }, r_value);
+		} else if constexpr (requires { describe(*this, r_value.front()); }) {
+			r_value.clear();
+			for (const Json &item : value) {
+				describe(Reader{ item }, r_value.emplace_back());
+			}
+		} else {
+			value.get_to(r_value);
+		}
+	}
+
+private:
+	/// Each enum that a form holds has three values.
+	template <typename T> static T find_value(const char *p_field, const std::string &p_name) {
+		for (const T value : { T(0), T(1), T(2) }) {
+			if (p_name == get_name(value)) {
+				return value;
+			}
+		}
+		fail(p_field, " is \"", p_name, "\", must be ", get_name(T(0)), ", ", get_name(T(1)),
+				" or ", get_name(T(2)));
+	}
+};
+
+/// Names and fields in turn.
+template <typename Form, typename Value, typename... Rest>
+void describe_fields(const Form &p_form, const char *p_name, Value &r_value, Rest &...r_rest) {
+	p_form(p_name, r_value);
+	if constexpr (sizeof...(Rest) > 0) {
+		describe_fields(p_form, r_rest...);
+	}
+}
+
+void describe_values(const auto &p_form, Either<ErrorMetrics> auto &r_metrics) {
+	describe_fields(p_form, "mae", r_metrics.mae, "rmse", r_metrics.rmse, "p99", r_metrics.p99,
+			"bias", r_metrics.bias, "wrong", r_metrics.wrong); // absent in older reports
+}
+
 /// As `gnomon compare` prints it, but without the numbers of an empty set.
-Json error_to_json(const MaskMetrics &p_metrics) {
-	Json json = Json::parse(to_json(p_metrics));
-	if (p_metrics.receiver.pixel_count == 0) {
-		json.erase("receiver");
+void describe(const auto &p_form, Either<MaskMetrics> auto &r_metrics) {
+	p_form("pixels", r_metrics.receiver.pixel_count);
+	if (p_form.has("receiver", r_metrics.receiver.pixel_count > 0)) {
+		p_form.part("receiver",
+				[&](const auto &p_part) { describe_values(p_part, r_metrics.receiver); });
 	}
-	if (p_metrics.penumbra.pixel_count == 0) {
-		json.erase("penumbra");
+	if (p_form.has("penumbra", r_metrics.penumbra.pixel_count > 0)) {
+		p_form.part("penumbra", [&](const auto &p_part) {
+			p_part("pixels", r_metrics.penumbra.pixel_count);
+			describe_values(p_part, r_metrics.penumbra);
+			p_part("umbra_over", r_metrics.umbra_over);
+		});
 	}
-	return json;
 }
 
-Json time_to_json(const MaskTiming &p_time) {
-	Json json = { { "frames", p_time.frame_count }, { "cost_ms", p_time.cost_ms } };
-	json.update(to_json(p_time.total));
-	json["passes"] = to_json(p_time.passes);
-	return json;
+void describe(const auto &p_form, Either<ReportError> auto &r_error) {
+	describe_fields(p_form, "all", r_error.all, "whole_light", r_error.whole_light);
 }
 
-Json machine_to_json(const ReportMachine &p_machine) {
-	return { { "device", p_machine.device }, { "driver", p_machine.driver },
-		{ "cpu", p_machine.cpu }, { "threads", p_machine.threads } };
+void describe(const auto &p_form, Either<FrameCost> auto &r_cost) {
+	describe_fields(p_form, "gpu_ms", r_cost.gpu_ms, "gpu_ms_p90", r_cost.gpu_ms_p90, "wall_ms",
+			r_cost.wall_ms, "wall_ms_p90", r_cost.wall_ms_p90);
 }
 
-Json stability_to_json(const ReportStability &p_stability) {
-	Json json = { { "wrong_share", p_stability.wrong_share }, { "warnings", p_stability.warnings },
-		{ "refusal", p_stability.refusal } };
-	if (p_stability.temporal_rmse) {
-		json["temporal_rmse"] = *p_stability.temporal_rmse;
-	}
-	if (p_stability.condition) {
-		const VisibilityCondition &condition = *p_stability.condition;
-		json["condition"] = { { "number", condition.number }, { "rounding", condition.rounding },
-			{ "truth_error", condition.truth_error }, { "error", condition.error },
-			{ "cause", get_cause_name(condition.cause) } };
-	}
-	return json;
+void describe(const auto &p_form, Either<PassMedians> auto &r_pass) {
+	p_form("name", r_pass.name);
+	describe(p_form, r_pass.cost);
+	p_form("is_on_host", r_pass.is_on_host);
+}
+
+void describe(const auto &p_form, Either<MaskTiming> auto &r_time) {
+	describe_fields(p_form, "frames", r_time.frame_count, "cost_ms", r_time.cost_ms);
+	describe(p_form, r_time.total);
+	p_form("passes", r_time.passes);
+}
+
+void describe(const auto &p_form, Either<ReportMachine> auto &r_machine) {
+	describe_fields(p_form, "device", r_machine.device, "driver", r_machine.driver, "cpu",
+			r_machine.cpu, "threads", r_machine.threads);
+}
+
+void describe(const auto &p_form, Either<ReportTechnique> auto &r_technique) {
+	describe_fields(p_form, "id", r_technique.id, "name", r_technique.name, "source",
+			r_technique.source, "color", r_technique.color, "is_baseline", r_technique.is_baseline);
+}
+
+void describe(const auto &p_form, Either<VisibilityCondition> auto &r_condition) {
+	describe_fields(p_form, "number", r_condition.number, "rounding", r_condition.rounding,
+			"truth_error", r_condition.truth_error, "error", r_condition.error, "cause",
+			r_condition.cause);
+}
+
+void describe(const auto &p_form, Either<ReportStability> auto &r_stability) {
+	describe_fields(p_form, "wrong_share", r_stability.wrong_share, "warnings",
+			r_stability.warnings, "refusal", r_stability.refusal, "temporal_rmse",
+			r_stability.temporal_rmse, "condition", r_stability.condition);
 }
 
 /// Everything of a cell but which cell it is.
-void add_result(const ReportCell &p_cell, Json &r_json) {
-	r_json["status"] = get_status_name(p_cell.status);
-	r_json["message"] = p_cell.message;
-	if (p_cell.error) {
-		r_json["error"] = { { "all", error_to_json(p_cell.error->all) },
-			{ "whole_light", error_to_json(p_cell.error->whole_light) } };
+void describe_result(const auto &p_form, Either<ReportCell> auto &r_cell) {
+	describe_fields(p_form, "status", r_cell.status, "message", r_cell.message, "error",
+			r_cell.error, "stability", r_cell.stability);
+	if (r_cell.is_ok() && !r_cell.stability) { // a sweep's points are drawn, not timed
+		describe_fields(p_form, "time", r_cell.time, "bytes", r_cell.bytes);
 	}
-	if (p_cell.stability) {
-		r_json["stability"] = stability_to_json(*p_cell.stability);
-	}
-	if (p_cell.is_ok() && !p_cell.stability) { // a sweep's points are drawn, not timed
-		r_json["time"] = time_to_json(p_cell.time);
-		r_json["bytes"] = p_cell.bytes;
-	}
-	if (p_cell.is_ok()) {
-		r_json["image"] = p_cell.image;
+	if (r_cell.is_ok()) {
+		p_form("image", r_cell.image);
 	}
 }
 
-Json cell_to_json(const Report &p_report, const ReportCell &p_cell) {
-	Json json = { { "configuration", p_cell.configuration_index },
-		{ "technique", p_cell.technique }, { "setting", p_cell.setting },
-		{ "properties", p_cell.properties }, { "record", p_cell.record },
-		{ "machine", p_cell.machine_index } };
-	add_result(p_cell, json);
-	if (const std::optional<double> ratio = p_report.compute_time_ratio(p_cell)) {
-		json["time_ratio"] = *ratio;
+void describe(const auto &p_form, Either<ReportCell> auto &r_cell) {
+	describe_fields(p_form, "configuration", r_cell.configuration_index, "technique",
+			r_cell.technique, "setting", r_cell.setting, "properties", r_cell.properties, "record",
+			r_cell.record, "machine", r_cell.machine_index);
+	describe_result(p_form, r_cell);
+}
+
+/// What is known of a configuration's truth.
+void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
+	describe_fields(p_form, "status", r_configuration.status, "message", r_configuration.message);
+	const bool has_truth =
+			r_configuration.has_truth() && r_configuration.status == ReportStatus::OK;
+	if (p_form.has("truth", has_truth)) {
+		auto &truth = r_configuration.truth;
+		describe_fields(p_form, "receiver_pixels", truth.receiver_pixel_count, "penumbra_pixels",
+				truth.penumbra_pixel_count);
+		p_form.part("truth", [&](const auto &p_part) {
+			describe_fields(p_part, "standard_error", truth.standard_error, "wall_ms",
+					truth.wall_ms, "image", truth.image);
+			if (p_part.has("is_double", truth.is_double)) {
+				p_part("is_double", truth.is_double);
+			}
+		});
 	}
-	return json;
 }
 
-Json configuration_to_json(const ReportConfiguration &p_configuration) {
-	Json json = { { "id", p_configuration.id }, { "group", p_configuration.group },
-		{ "sweep", p_configuration.sweep }, { "value", p_configuration.value },
-		{ "scene", p_configuration.scene }, { "light", p_configuration.light },
-		{ "light_type", p_configuration.light_type },
-		{ "light_size_m", p_configuration.light_size_m },
-		{ "light_angular_distance_deg", p_configuration.light_angular_distance_deg },
-		{ "light_count", p_configuration.light_count },
-		{ "scene_size_m", p_configuration.scene_size_m },
-		{ "size_px", { p_configuration.size_px.x, p_configuration.size_px.y } },
-		{ "triangles", p_configuration.triangle_count }, { "edges", p_configuration.edge_count },
-		{ "record", p_configuration.record } };
-	json.update(truth_result_to_json(p_configuration));
-	return json;
+void describe(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
+	describe_fields(p_form, "id", r_configuration.id, "group", r_configuration.group);
+	if (p_form.has("sweep", true)) { // absent in older reports
+		p_form("sweep", r_configuration.sweep);
+	}
+	describe_fields(p_form, "value", r_configuration.value, "scene", r_configuration.scene, "light",
+			r_configuration.light, "light_type", r_configuration.light_type, "light_size_m",
+			r_configuration.light_size_m, "light_angular_distance_deg",
+			r_configuration.light_angular_distance_deg, "light_count", r_configuration.light_count,
+			"scene_size_m", r_configuration.scene_size_m, "size_px", r_configuration.size_px,
+			"triangles", r_configuration.triangle_count, "edges", r_configuration.edge_count,
+			"record", r_configuration.record);
+	describe_result(p_form, r_configuration);
 }
 
-Json technique_to_json(const ReportTechnique &p_technique) {
-	return { { "id", p_technique.id }, { "name", p_technique.name },
-		{ "source", p_technique.source }, { "color", p_technique.color },
-		{ "is_baseline", p_technique.is_baseline } };
+void describe(const auto &p_form, Either<Report> auto &r_report) {
+	describe_fields(p_form, "project", r_report.project, "samples", r_report.sample_count,
+			"precision_percent", r_report.precision_percent, "program", r_report.program);
+	p_form.add_computed("failed_count", r_report.count(ReportStatus::FAILED));
+	p_form.add_computed("missing_count", r_report.count(ReportStatus::MISSING));
+	describe_fields(p_form, "machines", r_report.machines, "techniques", r_report.techniques,
+			"configurations", r_report.configurations, "cells", r_report.cells);
+}
+
+Report read_report(const Json &p_json) {
+	if (p_json.value("format", "") != REPORT_FORMAT ||
+			p_json.value("version", 0) != REPORT_VERSION) {
+		fail("its format is not ", REPORT_FORMAT, " of version ", REPORT_VERSION);
+	}
+	Report report;
+	describe(Reader{ p_json }, report);
+	for (size_t index = 0; index < report.cells.size(); ++index) {
+		const ReportCell &cell = report.cells[index];
+		const bool has_machine = !cell.is_ok() || cell.machine_index < report.machines.size();
+		if (cell.configuration_index >= report.configurations.size() || !has_machine) {
+			fail("cell ", index, " names configuration ", cell.configuration_index, " of ",
+					report.configurations.size(), " and machine ", cell.machine_index, " of ",
+					report.machines.size());
+		}
+	}
+	return report;
+}
+
+/// Cell or configuration; one that cannot be read is as before.
+template <typename Owner> void read_result(const Json &p_json, Owner &r_owner) {
+	try {
+		Owner owner = r_owner;
+		describe_result(Reader{ p_json }, owner);
+		r_owner = std::move(owner);
+	} catch (const Json::exception &error) {
+		fail("Record \"", r_owner.record, "\" has another form: ", error.what());
+	}
 }
 
 } // namespace
-
-Json cell_result_to_json(const ReportCell &p_cell, const ReportMachine &p_machine) {
-	Json json;
-	add_result(p_cell, json);
-	json["machine"] = machine_to_json(p_machine);
-	return json;
-}
 
 std::string dump_json(const Json &p_json) {
 	return p_json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json truth_result_to_json(const ReportConfiguration &p_configuration) {
-	Json json = { { "status", get_status_name(p_configuration.status) },
-		{ "message", p_configuration.message } };
-	if (p_configuration.has_truth() && p_configuration.status == ReportStatus::OK) {
-		const ReportTruth &truth = p_configuration.truth;
-		json["receiver_pixels"] = truth.receiver_pixel_count;
-		json["penumbra_pixels"] = truth.penumbra_pixel_count;
-		json["truth"] = { { "standard_error", truth.standard_error }, { "wall_ms", truth.wall_ms },
-			{ "image", truth.image } };
-		if (truth.is_double) {
-			json["truth"]["is_double"] = true;
-		}
-	}
+Json cell_result_to_json(const ReportCell &p_cell, const ReportMachine &p_machine) {
+	Json json;
+	describe_result(Writer{ json }, p_cell);
+	Writer{ json }("machine", p_machine);
 	return json;
 }
 
+ReportMachine read_cell_machine(const Json &p_json) {
+	try {
+		ReportMachine machine;
+		Reader{ p_json }("machine", machine);
+		return machine;
+	} catch (const Json::exception &error) {
+		fail("A record has another form: ", error.what());
+	}
+}
+
+void read_cell_result(const Json &p_json, Report &r_report, ReportCell &r_cell) {
+	const ReportMachine machine = read_cell_machine(p_json);
+	read_result(p_json, r_cell);
+	auto &machines = r_report.machines;
+	const auto found = std::find(machines.begin(), machines.end(), machine);
+	r_cell.machine_index = static_cast<size_t>(found - machines.begin());
+	if (found == machines.end()) {
+		machines.push_back(machine);
+	}
+}
+
+Json truth_result_to_json(const ReportConfiguration &p_configuration) {
+	Json json;
+	describe_result(Writer{ json }, p_configuration);
+	return json;
+}
+
+void read_truth_result(const Json &p_json, ReportConfiguration &r_configuration) {
+	read_result(p_json, r_configuration);
+}
+
 Json to_json(const Report &p_report) {
-	Json json = { { "format", REPORT_FORMAT }, { "version", REPORT_VERSION },
-		{ "project", p_report.project }, { "samples", p_report.sample_count },
-		{ "precision_percent", p_report.precision_percent }, { "program", p_report.program },
-		{ "failed_count", p_report.count(ReportStatus::FAILED) },
-		{ "missing_count", p_report.count(ReportStatus::MISSING) } };
-	for (const char *list : { "machines", "techniques", "configurations", "cells" }) {
-		json[list] = Json::array();
-	}
-	for (const ReportMachine &machine : p_report.machines) {
-		json["machines"].push_back(machine_to_json(machine));
-	}
-	for (const ReportTechnique &technique : p_report.techniques) {
-		json["techniques"].push_back(technique_to_json(technique));
-	}
+	Json json = { { "format", REPORT_FORMAT }, { "version", REPORT_VERSION } };
+	describe(Writer{ json }, p_report);
 	for (size_t index = 0; index < p_report.configurations.size(); ++index) {
-		json["configurations"].push_back(configuration_to_json(p_report.configurations[index]));
 		if (!p_report.configurations[index].is_stability()) {
-			json["configurations"].back()["pareto"] = find_pareto_front(p_report, index);
+			json["configurations"][index]["pareto"] = find_pareto_front(p_report, index);
 		}
 	}
-	for (const ReportCell &cell : p_report.cells) {
-		json["cells"].push_back(cell_to_json(p_report, cell));
+	for (size_t index = 0; index < p_report.cells.size(); ++index) {
+		if (const auto ratio = p_report.compute_time_ratio(p_report.cells[index])) {
+			json["cells"][index]["time_ratio"] = *ratio;
+		}
 	}
 	json["ranking"] = to_json(rank_settings(p_report));
 	json["best_settings"] = to_json(rank_best_settings(p_report));
-	json["scaling"] = to_json(p_report, find_scaling_curves(p_report));
+	json["scaling"] = scaling_to_json(p_report);
 	for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
 		json[info.id] = info.part->to_json(p_report);
 	}
 	return json;
+}
+
+Report load_report(const std::filesystem::path &p_path) {
+	try {
+		return read_report(Json::parse(load_text_file(p_path)));
+	} catch (const Json::exception &error) {
+		fail("Report ", p_path, " cannot be read: ", error.what(),
+				". It must be a report.json or plan.json of this version of `gnomon report`.");
+	} catch (const Error &error) {
+		fail("Report ", p_path, " cannot be read: ", error.what(), ".");
+	}
 }
 
 } // namespace gnomon

@@ -19,6 +19,10 @@ nlohmann::ordered_json to_json(const Report &p_report);
 /// missing, damaged, or of another format or version is an Error naming it.
 Report load_report(const std::filesystem::path &p_path);
 
+/// One row a cell under a row of names; RFC 4180 but for its lines, which
+/// end as in Unix. Numbers that are absent are empty.
+std::string to_csv(const Report &p_report);
+
 /// As text for a file. Bytes that are no UTF-8, which file names may hold, are replaced.
 std::string dump_json(const nlohmann::ordered_json &p_json);
 

@@ -153,36 +153,6 @@ std::optional<size_t> find_within_budget(
 	return best;
 }
 
-std::vector<ScalingPlot> find_scaling_curves(const Report &p_report) {
-	std::vector<ScalingPlot> plots;
-	const std::pair<const char *, const char *> groups[] = { { TRIANGLES_GROUP, "triangles" },
-		{ LIGHT_SIZE_GROUP, "m" }, { LIGHTS_GROUP, "lights" }, { RESOLUTION_GROUP, "px" } };
-	for (const auto &[name, unit] : groups) {
-		ScalingPlot plot = { name, unit, {} };
-		for (const ReportTechnique &technique : p_report.techniques) {
-			ScalingCurve curve = { technique.id, {} };
-			for (size_t index = 0; index < p_report.cells.size(); ++index) {
-				const ReportCell &cell = p_report.cells[index];
-				const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
-				if (at.group == name && cell.technique == technique.id && cell.is_ok()) {
-					curve.points.push_back({ at.value, index });
-				}
-			}
-			std::stable_sort(curve.points.begin(), curve.points.end(),
-					[](const ScalingPoint &p_first, const ScalingPoint &p_second) {
-						return p_first.value < p_second.value;
-					});
-			if (!curve.points.empty()) {
-				plot.curves.push_back(std::move(curve));
-			}
-		}
-		if (!plot.curves.empty()) {
-			plots.push_back(std::move(plot));
-		}
-	}
-	return plots;
-}
-
 Json to_json(const std::vector<RankingRow> &p_rows) {
 	Json json = Json::array();
 	for (const RankingRow &row : p_rows) {
@@ -191,38 +161,49 @@ Json to_json(const std::vector<RankingRow> &p_rows) {
 				{ "penumbra_mae", row.penumbra_mae }, { "penumbra_rmse", row.penumbra_rmse },
 				{ "penumbra_p99", row.penumbra_p99 }, { "penumbra_bias", row.penumbra_bias },
 				{ "umbra_over", row.umbra_over }, { "cost_ms", row.cost_ms } });
-		if (row.penumbra_wrong) {
-			json.back()["penumbra_wrong"] = *row.penumbra_wrong;
-		}
-		if (row.receiver_wrong) {
-			json.back()["receiver_wrong"] = *row.receiver_wrong;
-		}
-		if (row.whole_light_penumbra_mae) {
-			json.back()["whole_light_penumbra_mae"] = *row.whole_light_penumbra_mae;
-		}
-		if (row.time_ratio) {
-			json.back()["time_ratio"] = *row.time_ratio;
+		const std::pair<const char *, std::optional<double>> optional_values[] = {
+			{ "penumbra_wrong", row.penumbra_wrong }, { "receiver_wrong", row.receiver_wrong },
+			{ "whole_light_penumbra_mae", row.whole_light_penumbra_mae },
+			{ "time_ratio", row.time_ratio }
+		};
+		for (const auto &[name, value] : optional_values) {
+			if (value) {
+				json.back()[name] = *value;
+			}
 		}
 	}
 	return json;
 }
 
-Json to_json(const Report &p_report, const std::vector<ScalingPlot> &p_plots) {
-	Json json = Json::array();
-	for (const ScalingPlot &plot : p_plots) {
+Json scaling_to_json(const Report &p_report) {
+	Json plots = Json::array();
+	const std::pair<const char *, const char *> groups[] = { { TRIANGLES_GROUP, "triangles" },
+		{ LIGHT_SIZE_GROUP, "m" }, { LIGHTS_GROUP, "lights" }, { RESOLUTION_GROUP, "px" } };
+	for (const auto &[name, unit] : groups) {
 		Json series = Json::array();
-		for (const ScalingCurve &curve : plot.curves) {
-			Json points = Json::array();
-			for (const ScalingPoint &point : curve.points) {
-				points.push_back({ { "value", point.value },
-						{ "cost_ms", p_report.cells[point.cell].time.cost_ms },
-						{ "cell", point.cell } });
+		for (const ReportTechnique &technique : p_report.techniques) {
+			std::multimap<double, size_t> cells; // by value
+			for (size_t index = 0; index < p_report.cells.size(); ++index) {
+				const ReportCell &cell = p_report.cells[index];
+				const ReportConfiguration &at = p_report.configurations[cell.configuration_index];
+				if (at.group == name && cell.technique == technique.id && cell.is_ok()) {
+					cells.insert({ at.value, index });
+				}
 			}
-			series.push_back({ { "technique", curve.technique }, { "points", points } });
+			Json points = Json::array();
+			for (const auto &[value, index] : cells) {
+				points.push_back({ { "value", value },
+						{ "cost_ms", p_report.cells[index].time.cost_ms }, { "cell", index } });
+			}
+			if (!points.empty()) {
+				series.push_back({ { "technique", technique.id }, { "points", points } });
+			}
 		}
-		json.push_back({ { "name", plot.name }, { "unit", plot.unit }, { "series", series } });
+		if (!series.empty()) {
+			plots.push_back({ { "name", name }, { "unit", unit }, { "series", series } });
+		}
 	}
-	return json;
+	return plots;
 }
 
 } // namespace gnomon

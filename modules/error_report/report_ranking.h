@@ -41,23 +41,8 @@ std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configura
 std::optional<size_t> find_within_budget(
 		const Report &p_report, size_t p_configuration, double p_budget_ms);
 
-struct ScalingPoint {
-	double value = 0;
-	size_t cell = 0; // index
-};
-struct ScalingCurve {
-	std::string technique;
-	std::vector<ScalingPoint> points; // by rising value
-};
-struct ScalingPlot {
-	std::string name; // a group of configurations
-	std::string unit;
-	std::vector<ScalingCurve> curves;
-};
-/// One plot for each group that was measured.
-std::vector<ScalingPlot> find_scaling_curves(const Report &p_report);
-
 nlohmann::ordered_json to_json(const std::vector<RankingRow> &p_rows);
-nlohmann::ordered_json to_json(const Report &p_report, const std::vector<ScalingPlot> &p_plots);
+/// One plot for each group of the scaling curves that was measured, points by rising value.
+nlohmann::ordered_json scaling_to_json(const Report &p_report);
 
 } // namespace gnomon

@@ -5,7 +5,6 @@
 #include "modules/core/files.h"
 #include "modules/core/log.h"
 #include "modules/error_report/report_comparison.h"
-#include "modules/error_report/report_csv.h"
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 #include "modules/error_report/report_page.h"

@@ -45,9 +45,8 @@ MaskTiming TimingSamples::compute() const {
 	timing.frame_count = get_frame_count();
 	for (const std::string &name : names) {
 		const Values &values = passes.at(name);
-		const FrameCost cost = compute_frame_cost(values.gpu_ms, values.wall_ms);
-		timing.passes.push_back({ name, cost.gpu_ms, cost.wall_ms, values.is_on_host,
-				cost.gpu_ms_p90, cost.wall_ms_p90 });
+		timing.passes.push_back(
+				{ name, compute_frame_cost(values.gpu_ms, values.wall_ms), values.is_on_host });
 	}
 	timing.total = compute_frame_cost(totals.gpu_ms, totals.wall_ms);
 	timing.cost_ms = compute_percentile(costs_ms, 0.5);
@@ -87,9 +86,9 @@ Json to_json(const FrameCost &p_cost) {
 Json to_json(const std::vector<PassMedians> &p_passes) {
 	Json json = Json::array();
 	for (const PassMedians &pass : p_passes) {
-		json.push_back({ { "name", pass.name }, { "gpu_ms", pass.gpu_ms },
-				{ "gpu_ms_p90", pass.gpu_ms_p90 }, { "wall_ms", pass.wall_ms },
-				{ "wall_ms_p90", pass.wall_ms_p90 }, { "is_on_host", pass.is_on_host } });
+		Json &row = json.emplace_back(Json{ { "name", pass.name } });
+		row.update(to_json(pass.cost));
+		row["is_on_host"] = pass.is_on_host;
 	}
 	return json;
 }

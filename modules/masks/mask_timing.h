@@ -17,22 +17,19 @@ struct PassCost {
 	bool is_on_host = false; // it runs on the CPU: gpu_ms is 0
 };
 
-/// A pass over the frames of a measurement: medians and 90th percentiles, in milliseconds.
-struct PassMedians {
-	std::string name;
-	double gpu_ms = 0;
-	double wall_ms = 0;
-	bool is_on_host = false;
-	double gpu_ms_p90 = 0;
-	double wall_ms_p90 = 0;
-};
-
-/// Likewise for the sum of a frame's passes.
+/// What something costs over the frames of a measurement: medians and 90th percentiles, in
+/// milliseconds.
 struct FrameCost {
 	double gpu_ms = 0;
 	double gpu_ms_p90 = 0;
 	double wall_ms = 0;
 	double wall_ms_p90 = 0;
+};
+
+struct PassMedians {
+	std::string name;
+	FrameCost cost;
+	bool is_on_host = false;
 };
 
 /// What one light's mask costs.

@@ -1,4 +1,4 @@
-#include "modules/error_report/report_csv.h"
+#include "modules/error_report/report_json.h"
 
 #include <doctest/doctest.h>
 

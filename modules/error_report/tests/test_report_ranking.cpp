@@ -192,14 +192,14 @@ TEST_CASE("[ErrorReport] scaling curves rise in their group's value and lack wha
 	}
 	add_cell(report, 2, "hard", 9, 0).error.reset();
 	add_cell(report, 3, "hard", 9, 0).status = ReportStatus::FAILED;
-	CHECK(to_json(report, find_scaling_curves(report)).dump() ==
+	CHECK(scaling_to_json(report).dump() ==
 			R"([{"name":"triangles","unit":"triangles","series":[{"technique":"soft",)"
 			R"("points":[{"value":2000.0,"cost_ms":4.0,"cell":3}]}]},)"
 			R"({"name":"lights","unit":"lights","series":[{"technique":"hard",)"
 			R"("points":[{"value":4.0,"cost_ms":9.0,"cell":5}]},{"technique":"soft",)"
 			R"("points":[{"value":1.0,"cost_ms":2.0,"cell":1},)"
 			R"({"value":4.0,"cost_ms":3.0,"cell":2},{"value":16.0,"cost_ms":1.0,"cell":0}]}]}])");
-	CHECK(find_scaling_curves(make_report()).empty());
+	CHECK(scaling_to_json(make_report()).empty());
 }
 
 TEST_CASE("[ErrorReport] rows of the ranking have the documented keys, a ratio only where it is") {

@@ -72,10 +72,10 @@ TEST_CASE("[ErrorReport] each pass has the median of its frames, the total that 
 	const MaskTiming timing = samples.compute();
 	REQUIRE(timing.passes.size() == 2);
 	CHECK(timing.frame_count == 3);
-	CHECK(timing.passes[0].gpu_ms == 3);
-	CHECK(timing.passes[0].wall_ms == 4);
-	CHECK(timing.passes[1].gpu_ms == 4);
-	CHECK(timing.passes[1].wall_ms == 5);
+	CHECK(timing.passes[0].cost.gpu_ms == 3);
+	CHECK(timing.passes[0].cost.wall_ms == 4);
+	CHECK(timing.passes[1].cost.gpu_ms == 4);
+	CHECK(timing.passes[1].cost.wall_ms == 5);
 	// Sums of the frames are 10, 7, 7 and 12, 9, 9: not the passes' medians added.
 	CHECK(timing.total.gpu_ms == 7);
 	CHECK(timing.total.gpu_ms_p90 == doctest::Approx(9.4));
@@ -92,7 +92,7 @@ TEST_CASE("[ErrorReport] a pass on the host costs its wall time, one on the devi
 	REQUIRE(timing.passes.size() == 2);
 	CHECK_FALSE(timing.passes[0].is_on_host);
 	CHECK(timing.passes[1].is_on_host);
-	CHECK(timing.passes[1].wall_ms == 25);
+	CHECK(timing.passes[1].cost.wall_ms == 25);
 	CHECK(timing.cost_ms == 27); // (1 + 20 + 3 + 30) / 2
 	CHECK(timing.total.gpu_ms == 2);
 	CHECK(timing.total.wall_ms == 80);
@@ -107,8 +107,8 @@ TEST_CASE("[ErrorReport] a pass that some frames lack is 0 in their sums, not in
 	const MaskTiming timing = samples.compute();
 	REQUIRE(timing.passes.size() == 2);
 	CHECK(timing.frame_count == 4);
-	CHECK(timing.passes[1].gpu_ms == 6);
-	CHECK(timing.passes[1].wall_ms == 8);
+	CHECK(timing.passes[1].cost.gpu_ms == 6);
+	CHECK(timing.passes[1].cost.wall_ms == 8);
 	CHECK(timing.total.gpu_ms == 2); // of 2, 8, 2, 0
 	CHECK(timing.total.gpu_ms_p90 == doctest::Approx(6.2));
 	CHECK(timing.cost_ms == 2);
@@ -117,8 +117,8 @@ TEST_CASE("[ErrorReport] a pass that some frames lack is 0 in their sums, not in
 TEST_CASE("[ErrorReport] the times in JSON have the documented keys in their order") {
 	CHECK(to_json(FrameCost{ 0.5, 1.5, 2, 3 }).dump() ==
 			R"({"gpu_ms":0.5,"gpu_ms_p90":1.5,"wall_ms":2.0,"wall_ms_p90":3.0})");
-	const std::vector<PassMedians> passes = { { "depth", 0.5, 1, false, 0.75, 1.5 },
-		{ "trace", 0, 2, true, 0, 3 } };
+	const std::vector<PassMedians> passes = { { "depth", { 0.5, 0.75, 1, 1.5 }, false },
+		{ "trace", { 0, 0, 2, 3 }, true } };
 	CHECK(to_json(passes).dump() ==
 			R"([{"name":"depth","gpu_ms":0.5,"gpu_ms_p90":0.75,"wall_ms":1.0,"wall_ms_p90":1.5,)"
 			R"("is_on_host":false},{"name":"trace","gpu_ms":0.0,"gpu_ms_p90":0.0,"wall_ms":2.0,)"
