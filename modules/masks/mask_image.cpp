@@ -10,6 +10,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 
 #include <algorithm>
 #include <cstring>
@@ -25,23 +26,6 @@ constexpr const char *RECEIVER_CHANNEL = "receiver";
 /// that promises more than this for the bytes that follow is a lie, found before memory is taken.
 constexpr uint64_t MAX_PIXELS_PER_BYTE = 512;
 constexpr uint64_t FILE_LIMIT_BYTES = uint64_t(1) << 32;
-
-class MemoryOutput : public Imf::OStream {
-public:
-	explicit MemoryOutput(std::vector<uint8_t> &r_bytes) : Imf::OStream("memory"), bytes(r_bytes) {}
-	void write(const char p_data[], int p_count) override {
-		const size_t count = static_cast<size_t>(p_count);
-		bytes.resize(std::max(bytes.size(), position + count));
-		std::memcpy(bytes.data() + position, p_data, count);
-		position += count;
-	}
-	uint64_t tellp() override { return position; }
-	void seekp(uint64_t p_position) override { position = p_position; }
-
-private:
-	std::vector<uint8_t> &bytes;
-	size_t position = 0;
-};
 
 /// Bytes whose beginning is replaced.
 class MemoryInput : public Imf::IStream {
@@ -138,7 +122,7 @@ std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string
 					p_image.receiver.size() == p_image.get_pixel_count(),
 			p_name, ": ", p_image.visibility.size(), " and ", p_image.receiver.size(),
 			" values for ", p_image.get_pixel_count(), " pixels");
-	std::vector<uint8_t> bytes;
+	Imf::StdOSStream stream;
 	try {
 		const int width = static_cast<int>(p_image.size_px.x);
 		const int height = static_cast<int>(p_image.size_px.y);
@@ -154,14 +138,14 @@ std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string
 		buffer.insert(RECEIVER_CHANNEL,
 				make_slice(
 						const_cast<float *>(p_image.receiver.data()), { 0, 0 }, p_image.size_px.x));
-		MemoryOutput stream(bytes);
 		Imf::OutputFile file(stream, header, 0);
 		file.setFrameBuffer(buffer);
 		file.writePixels(height);
 	} catch (const std::exception &exception) {
 		fail("Mask ", p_name, ": cannot be encoded: ", exception.what());
 	}
-	return bytes;
+	const std::string bytes = stream.str();
+	return { bytes.begin(), bytes.end() };
 }
 
 MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p_name) {

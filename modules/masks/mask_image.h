@@ -14,8 +14,6 @@ namespace gnomon {
 
 /// What a technique answers for one light: one value per camera pixel, rows from the top.
 struct MaskImage {
-	/// Per side; a larger file is refused before memory is taken for it.
-
 	glm::uvec2 size_px = glm::uvec2(0u);
 	std::vector<float> visibility; // linear, 0 hidden .. 1 lit; 0 where there is no receiver
 	std::vector<float> receiver;   // 1 on receiver pixels, else 0
