@@ -1,5 +1,3 @@
-#include "modules/shadow_reference/area_light_visibility.h"
-
 #include "modules/core/error.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/disc_samples.h"
@@ -238,16 +236,7 @@ void compute_standard_error(const Job &p_job, VisibilityResult &r_result) {
 
 } // namespace
 
-AreaLightVisibility::AreaLightVisibility(std::span<const glm::vec3> p_positions,
-		std::span<const uint32_t> p_triangle_indices,
-		std::span<const TranslucentTriangles> p_translucent) :
-		scene(std::make_unique<CasterScene>(p_positions, p_triangle_indices, p_translucent)) {}
-
-AreaLightVisibility::~AreaLightVisibility() = default;
-AreaLightVisibility::AreaLightVisibility(AreaLightVisibility &&) noexcept = default;
-AreaLightVisibility &AreaLightVisibility::operator=(AreaLightVisibility &&) noexcept = default;
-
-VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_points,
+VisibilityResult CasterScene::compute(std::span<const ReceiverPoint> p_points,
 		const glm::uvec2 &p_size_px, const AreaLight &p_light,
 		const VisibilityOptions &p_options) const {
 	GNOMON_ASSERT(p_points.size() == static_cast<size_t>(p_size_px.x) * p_size_px.y &&
@@ -257,14 +246,14 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 	check_options(p_options);
 	VisibilityResult result;
 	result.visibility.assign(p_points.size(), 0.0f);
-	if (scene->is_colored()) {
+	if (is_colored()) {
 		result.colors.assign(p_points.size(), glm::vec3(0.0f));
 	}
 	// All samples of a point light are one.
 	const uint32_t sample_count = p_light.disc_radius == 0.0f ? 1 : p_options.sample_count;
 	VisibilityOptions options = p_options;
 	options.sample_count = sample_count;
-	Job job{ *scene, p_points, p_size_px, p_light, options,
+	Job job{ *this, p_points, p_size_px, p_light, options,
 		DiscSamples(sample_count - sample_count / 2, options.seed),
 		DiscSamples(std::max(sample_count / 2, 1u), options.seed), sample_count > 1,
 		result.visibility, result.colors, p_options.sample_count,
@@ -275,28 +264,23 @@ VisibilityResult AreaLightVisibility::compute(std::span<const ReceiverPoint> p_p
 		thread_count = std::max(1u, std::thread::hardware_concurrency());
 	}
 	thread_count = std::min(thread_count, std::max(1u, job.get_tile_count()));
-	std::exception_ptr failure; // of a thread, which may not throw itself: memory may run out
+	std::exception_ptr failure; // of any thread: memory may run out, and progress may throw
 	std::mutex failure_mutex;
+	const auto trace = [&](const std::function<void(float)> &p_progress) {
+		try {
+			trace_tiles(job, p_progress);
+		} catch (...) {
+			const std::lock_guard lock(failure_mutex);
+			failure = std::current_exception();
+			job.is_stopped = true; // ends the others
+		}
+	};
 	{
 		std::vector<std::jthread> threads;
-		struct StopOnExit {
-			Job &job;
-			bool is_armed = true;
-			~StopOnExit() { job.is_stopped = job.is_stopped || is_armed; }
-		} stop{ job };
 		for (uint32_t i = 1; i < thread_count; ++i) {
-			threads.emplace_back([&] {
-				try {
-					trace_tiles(job, nullptr);
-				} catch (...) {
-					const std::lock_guard lock(failure_mutex);
-					failure = std::current_exception();
-					job.is_stopped = true;
-				}
-			});
+			threads.emplace_back([&] { trace(nullptr); });
 		}
-		trace_tiles(job, options.progress); // when progress throws, `stop` ends the others first
-		stop.is_armed = false;
+		trace(options.progress);
 	}
 	if (failure) {
 		std::rethrow_exception(failure);

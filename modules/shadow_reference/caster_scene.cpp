@@ -8,35 +8,6 @@ namespace {
 
 constexpr uint32_t LANE_COUNT = 8;
 
-/// Notes each body that a ray crosses, once.
-class Crossings : public CrossingListener {
-public:
-	void clear() {
-		for (std::vector<uint32_t> &lane : bodies) {
-			lane.clear();
-		}
-	}
-	void cross(uint32_t p_ray_id, uint32_t p_geometry) override {
-		std::vector<uint32_t> &lane = bodies[p_ray_id];
-		if (std::find(lane.begin(), lane.end(), p_geometry) == lane.end()) {
-			lane.push_back(p_geometry);
-		}
-	}
-	/// In the bodies' order, so that rounding does not depend on the way through the tree.
-	glm::vec3 multiply(uint32_t p_ray_id, std::span<const glm::vec3> p_transmittances) {
-		std::vector<uint32_t> &lane = bodies[p_ray_id];
-		std::sort(lane.begin(), lane.end());
-		glm::vec3 left(1.0f);
-		for (const uint32_t body : lane) {
-			left *= p_transmittances[body];
-		}
-		return left;
-	}
-
-private:
-	std::vector<uint32_t> bodies[LANE_COUNT];
-};
-
 } // namespace
 
 CasterScene::CasterScene(std::span<const glm::vec3> p_positions,
@@ -64,10 +35,18 @@ void CasterScene::trace(const int *p_valid, RTCRay8 &r_rays, glm::vec3 *r_left) 
 	}
 	if (translucent) {
 		thread_local Crossings crossings;
-		crossings.clear();
+		for (std::vector<uint32_t> &bodies : crossings) {
+			bodies.clear();
+		}
 		find_crossings_8(translucent->get(), lit, again, crossings);
 		for (uint32_t i = 0; i < LANE_COUNT; ++i) {
-			r_left[i] *= crossings.multiply(i, transmittances);
+			// In the bodies' order, so that rounding does not depend on the way through the tree.
+			std::sort(crossings[i].begin(), crossings[i].end());
+			glm::vec3 left(1.0f);
+			for (const uint32_t body : crossings[i]) {
+				left *= transmittances[body];
+			}
+			r_left[i] *= left;
 		}
 	}
 }

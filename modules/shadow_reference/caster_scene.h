@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/embree_scene.h"
 
 #include <optional>
@@ -14,12 +15,26 @@ struct TranslucentTriangles {
 	glm::vec3 transmittance = glm::vec3(0.0f); // 0..1
 };
 
-/// All that hides a light. See AreaLightVisibility for what is allowed.
+/// All that hides a light.
 class CasterScene {
 public:
+	/// Three indices per triangle. Positions relative to an origin near the camera, so that float32
+	/// suffices. Triangles with a position that is not finite are left out; an index out of range
+	/// is our mistake. Embree failing is an Error.
+	/// p_translucent: each leaves its part of the rays that meet it; several multiply.
 	CasterScene(std::span<const glm::vec3> p_positions,
 			std::span<const uint32_t> p_triangle_indices,
-			std::span<const TranslucentTriangles> p_translucent);
+			std::span<const TranslucentTriangles> p_translucent = {});
+
+	/// The definition of truth (exact area-light visibility, float32): the share of the rays from
+	/// P, moved by 5e-5 S along its geometric normal, to stratified points of the light's disc that
+	/// meet no triangle. Triangles have two sides. Those at the disc and behind it do not occlude.
+	///
+	/// One v per point; points are the rows of an image of p_size_px. A light or an option out of
+	/// range is an Error. A point that is not finite, or whose normal is not, has v = 0; one
+	/// exactly on the light has v = 1. May be called from several threads.
+	VisibilityResult compute(std::span<const ReceiverPoint> p_points, const glm::uvec2 &p_size_px,
+			const AreaLight &p_light, const VisibilityOptions &p_options) const;
 
 	bool is_colored() const { return translucent.has_value(); }
 	/// What is left of each of eight rays, which start at one point; of those with valid = 0,

@@ -7,7 +7,10 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <vector>
 
 namespace gnomon {
 
@@ -53,14 +56,8 @@ inline void find_nearest_1(RTCScene p_scene, RTCRayHit &r_query) {
 #endif
 }
 
-/// Told of each geometry that a ray meets, once or more often.
-class CrossingListener {
-public:
-	virtual void cross(uint32_t p_ray_id, uint32_t p_geometry) = 0;
-
-protected:
-	~CrossingListener() = default;
-};
+/// The geometries that each ray of eight meets, by its id; each once.
+using Crossings = std::array<std::vector<uint32_t>, 8>;
 
 struct CrossingContext {
 #if RTC_VERSION_MAJOR >= 4
@@ -68,27 +65,30 @@ struct CrossingContext {
 #else
 	RTCIntersectContext base;
 #endif
-	CrossingListener *listener;
+	Crossings *crossings;
 };
 
-/// A geometry's filter for find_crossings_8: no hit counts, each is told.
+/// A geometry's filter for find_crossings_8: no hit counts, each is noted.
 inline void tell_crossing(const RTCFilterFunctionNArguments *p_arguments) {
-	CrossingListener *listener =
-			reinterpret_cast<CrossingContext *>(p_arguments->context)->listener;
+	Crossings &crossings = *reinterpret_cast<CrossingContext *>(p_arguments->context)->crossings;
 	for (unsigned int i = 0; i < p_arguments->N; ++i) {
 		if (p_arguments->valid[i] != 0) {
-			listener->cross(RTCRayN_id(p_arguments->ray, p_arguments->N, i),
-					RTCHitN_geomID(p_arguments->hit, p_arguments->N, i));
+			std::vector<uint32_t> &met = crossings[RTCRayN_id(p_arguments->ray, p_arguments->N, i)];
+			const uint32_t geometry = RTCHitN_geomID(p_arguments->hit, p_arguments->N, i);
+			if (std::find(met.begin(), met.end(), geometry) == met.end()) {
+				met.push_back(geometry);
+			}
 			p_arguments->valid[i] = 0;
 		}
 	}
 }
 
-/// All geometries with tell_crossing that the rays meet between tnear and tfar. Rays of any start.
+/// Adds all geometries with tell_crossing that the rays meet between tnear and tfar. Rays of any
+/// start.
 inline void find_crossings_8(
-		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, CrossingListener &r_listener) {
+		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, Crossings &r_crossings) {
 	CrossingContext context = {};
-	context.listener = &r_listener;
+	context.crossings = &r_crossings;
 #if RTC_VERSION_MAJOR >= 4
 	rtcInitRayQueryContext(&context.base);
 	RTCOccludedArguments arguments = {};

@@ -27,7 +27,7 @@ struct Triangles {
 /// may be traced from several threads. All scenes share one Embree device.
 class EmbreeScene {
 public:
-	/// See AreaLightVisibility.
+	/// See CasterScene.
 	EmbreeScene(
 			std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices);
 	/// A geometry for each, whose hits are told and do not count (tell_crossing).

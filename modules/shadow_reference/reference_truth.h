@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/shadow_reference/area_light_visibility.h"
+#include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
 #include "modules/shadows/truth_source.h"
 
@@ -19,7 +19,7 @@ public:
 private:
 	TruthQuestion question;
 	std::vector<ReceiverPoint> points;
-	std::optional<AreaLightVisibility> tracer;
+	std::optional<CasterScene> tracer;
 	std::optional<SpreadVisibility> spread_visibility;
 };
 

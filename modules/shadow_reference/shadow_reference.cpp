@@ -88,8 +88,8 @@ void ShadowReference::get_light_properties(PropertyList &r_list) const {
 void ShadowReference::compute(
 		const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth) {
 	const auto start = std::chrono::steady_clock::now();
-	const AreaLightVisibility tracer(p_job.triangles.opaque.positions,
-			p_job.triangles.opaque.indices, p_job.triangles.translucent);
+	const CasterScene tracer(p_job.triangles.opaque.positions, p_job.triangles.opaque.indices,
+			p_job.triangles.translucent);
 	Progress progress("Tracing the reference of light \"" + p_job.light_name + "\"");
 	VisibilityOptions options = p_job.options;
 	std::optional<SpreadVisibility> spread;
@@ -99,14 +99,11 @@ void ShadowReference::compute(
 	}
 	options.progress = [&](float p_fraction) { progress.update(p_fraction); };
 	VisibilityResult result = tracer.compute(p_points, p_job.size_px, p_job.light, options);
-	r_truth.visibility = std::move(result.visibility);
-	r_truth.colors = std::move(result.colors);
-	r_truth.standard_error = result.standard_error;
-	r_truth.penumbra_pixel_count = result.penumbra_pixel_count;
 	const double seconds =
 			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	log_info("Reference: ", result.ray_count, " rays in ", seconds, " s (",
 			result.ray_count / std::max(seconds, 1e-9) * 1e-6, " million a second).");
+	r_truth = std::move(result);
 }
 
 void ShadowReference::run(const Job &p_job, HostContext &p_context) {

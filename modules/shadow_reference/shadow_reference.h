@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/shadow_reference/area_light_visibility.h"
-#include "modules/shadow_reference/truth_cache.h"
+#include "modules/shadow_reference/truth_entry.h"
 #include "modules/shadows/shadow_technique.h"
 
 namespace gnomon {

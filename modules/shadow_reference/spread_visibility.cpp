@@ -41,11 +41,9 @@ SpreadVisibility::SpreadVisibility(
 		std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread) :
 		spread(p_spread) {
 	for (const Triangles &body : p_bodies) {
-		bodies.push_back(std::make_unique<EmbreeScene>(body.positions, body.indices));
+		bodies.emplace_back(body.positions, body.indices);
 	}
 }
-
-SpreadVisibility::~SpreadVisibility() = default;
 
 /// The body on which the receiver lies; null: none is as near.
 const EmbreeScene *SpreadVisibility::find_body(
@@ -53,11 +51,11 @@ const EmbreeScene *SpreadVisibility::find_body(
 	const EmbreeScene *nearest = nullptr;
 	float nearest_m = 2.0f * p_reach_m;
 	const glm::vec3 start = p_receiver.position + p_reach_m * p_receiver.normal;
-	for (const std::unique_ptr<EmbreeScene> &body : bodies) {
-		const SurfaceHit hit = body->find_nearest(start, -p_receiver.normal, nearest_m);
+	for (const EmbreeScene &body : bodies) {
+		const SurfaceHit hit = body.find_nearest(start, -p_receiver.normal, nearest_m);
 		if (hit.is_there) {
 			nearest_m = hit.distance;
-			nearest = body.get();
+			nearest = &body;
 		}
 	}
 	return nearest;

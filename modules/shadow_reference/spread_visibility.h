@@ -5,7 +5,6 @@
 #include "modules/shadows/surface_spread.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,7 +37,6 @@ class SpreadVisibility {
 public:
 	/// p_spread must outlive it.
 	SpreadVisibility(std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread);
-	~SpreadVisibility();
 
 	/// p_sample_count rays in all; p_offset_m: how far they start off the surface. May be called
 	/// from several threads.
@@ -55,7 +53,7 @@ private:
 	static std::optional<Point> find_point(const EmbreeScene &p_body,
 			const SpreadReceiver &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m);
 
-	std::vector<std::unique_ptr<EmbreeScene>> bodies;
+	std::vector<EmbreeScene> bodies;
 	const SurfaceSpread &spread;
 };
 

@@ -1,5 +1,7 @@
 #include "modules/shadow_reference/truth_entry.h"
 
+#include "modules/core/files.h"
+
 #include <cstring>
 
 namespace gnomon {
@@ -19,6 +21,10 @@ void copy_bytes(void *r_target, const void *p_source, size_t p_count) {
 	if (p_count > 0) {
 		std::memcpy(r_target, p_source, p_count);
 	}
+}
+
+std::string get_entry_name(uint64_t p_key) {
+	return "truth_" + format_hash(p_key);
 }
 
 } // namespace
@@ -63,6 +69,15 @@ std::optional<Truth> parse_truth_entry(
 		copy_bytes(truth.colors.data(), p_bytes.data() + sizeof(header) + value_bytes, color_bytes);
 	}
 	return truth;
+}
+
+void save_truth(uint64_t p_key, const Truth &p_truth) {
+	save_cache_entry(get_entry_name(p_key), build_truth_entry(p_key, p_truth));
+}
+
+std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
+	return parse_truth_entry(
+			load_cache_entry(get_entry_name(p_key)), p_key, p_pixel_count, p_is_colored);
 }
 
 } // namespace gnomon

@@ -18,8 +18,8 @@ namespace {
 const AreaLight LIGHT = { false, { 0.3f, 1.2f, 6.0f }, {}, 0.4f };
 constexpr glm::uvec2 SIZE_PX(40, 40);
 
-Triangles make_scene() {
-	Triangles triangles;
+TriangleBuilder make_scene() {
+	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
 	return triangles;
 }
@@ -88,7 +88,7 @@ TEST_CASE("[DiscSamples] every power of two puts one point in each cell of each 
 }
 
 TEST_CASE("[Reference] the result does not depend on threads; the seed alone decides it") {
-	const AreaLightVisibility truth = make_scene().build();
+	const CasterScene truth = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	VisibilityOptions options = make_options(100);
 	options.thread_count = 1;
@@ -106,7 +106,7 @@ TEST_CASE("[Reference] the result does not depend on threads; the seed alone dec
 }
 
 TEST_CASE("[Reference] the error falls faster than that of random samples") {
-	const AreaLightVisibility truth = make_scene().build();
+	const CasterScene truth = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	double error_before = 0;
 	for (const uint32_t sample_count : { 16u, 64u, 256u, 1024u, 4096u }) {
@@ -122,7 +122,7 @@ TEST_CASE("[Reference] the error falls faster than that of random samples") {
 }
 
 TEST_CASE("[Reference] the printed standard error is the real one within a quarter") {
-	const AreaLightVisibility truth = make_scene().build();
+	const CasterScene truth = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	for (const uint32_t sample_count : { 2u, 3u, 17u, 64u, 1000u, 1024u, 9216u }) {
 		CAPTURE(sample_count);
@@ -143,7 +143,7 @@ TEST_CASE("[Reference] a scene scaled with every length has the same mask") {
 	const VisibilityResult one =
 			make_scene().build().compute(points, SIZE_PX, LIGHT, make_options(256));
 	for (const float factor : { 1e-3f, 1e3f }) {
-		Triangles triangles = make_scene();
+		TriangleBuilder triangles = make_scene();
 		triangles.scale(factor);
 		std::vector<ReceiverPoint> scaled_points = points;
 		for (ReceiverPoint &point : scaled_points) {
@@ -199,7 +199,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 
 TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are left out") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
-	Triangles triangles = make_scene();
+	TriangleBuilder triangles = make_scene();
 	triangles.add_quad({ nan, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { INFINITY, 1, 1 });
 	triangles.add_quad({ 3, 0, 1 }, { 3, 0, 1 }, { 3, 0, 1 }, { 3, 0, 1 });
 	triangles.add_quad({ 0, 0, 1 }, { 1, 0, 1 }, { 2, 0, 1 }, { 3, 0, 1 });
@@ -209,7 +209,7 @@ TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are l
 }
 
 TEST_CASE("[Reference] a light or an option out of range is an error that names the range") {
-	const AreaLightVisibility truth = make_scene().build();
+	const CasterScene truth = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(1, 1.0f);
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	for (const float radius : { nan, -1.0f, INFINITY }) {
@@ -236,7 +236,7 @@ TEST_CASE("[Reference] a light or an option out of range is an error that names 
 }
 
 TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop the work") {
-	const AreaLightVisibility truth = make_scene().build();
+	const CasterScene truth = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	VisibilityOptions options = make_options(16);
 	float last = 0;

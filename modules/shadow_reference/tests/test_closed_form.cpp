@@ -47,9 +47,9 @@ TEST_CASE("[ClosedForm] the formulas meet their limits and known values") {
 }
 
 TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment of its disc") {
-	Triangles triangles;
+	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
-	const AreaLightVisibility truth = triangles.build();
+	const CasterScene truth = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	for (const float radius : { 0.08f, 0.4f, 1.2f }) {
 		CAPTURE(radius);
@@ -70,9 +70,9 @@ TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment
 }
 
 TEST_CASE("[Reference] a half-plane before a directional light hides a segment of the same form") {
-	Triangles triangles;
+	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
-	const AreaLightVisibility truth = triangles.build();
+	const CasterScene truth = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	const glm::vec3 direction(0.1f, -0.4f, -1.0f);
 	for (const float tangent : { 0.00465f, 0.1f, 0.5f }) { // the first is the sun's
@@ -102,7 +102,7 @@ TEST_CASE("[Reference] a disc before a spot light hides the lens of two circles"
 		for (const double offset : { 0.0, 0.1, 0.3, 0.7 }) {
 			CAPTURE(occluder_radius);
 			CAPTURE(offset);
-			Triangles triangles;
+			TriangleBuilder triangles;
 			triangles.add_disc(light_position - 2.0 * axis + offset * side, side,
 					glm::cross(axis, side), occluder_radius);
 			std::vector<ReceiverPoint> points;
@@ -128,9 +128,9 @@ TEST_CASE(
 	const glm::dvec3 axis = glm::normalize(glm::dvec3(0.2, 0.3, 1));
 	const glm::dvec3 side = glm::normalize(glm::cross(axis, glm::dvec3(1, 0, 0)));
 	const glm::dvec3 centre = 3.0 * axis;
-	Triangles triangles;
+	TriangleBuilder triangles;
 	triangles.add_disc(centre, side, glm::cross(axis, side), 0.5);
-	const AreaLightVisibility truth = triangles.build();
+	const CasterScene truth = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	for (const float tangent : { 0.05f, 0.3f }) {
 		const VisibilityResult result = truth.compute(points, { 24, 24 },
@@ -148,9 +148,9 @@ TEST_CASE(
 }
 
 TEST_CASE("[Reference] nothing in between is exactly 1, everything hidden exactly 0") {
-	Triangles cover;
+	TriangleBuilder cover;
 	cover.add_half_plane(250.0f, 2.5f);
-	Triangles elsewhere; // behind the light, below the ground, and the lamp's own surface
+	TriangleBuilder elsewhere; // behind the light, below the ground, and the lamp's own surface
 	elsewhere.add_half_plane(250.0f, 7.0f);
 	elsewhere.add_half_plane(250.0f, -0.1f);
 	const std::vector<ReceiverPoint> points = make_ground(8, 2.0f);
@@ -158,7 +158,7 @@ TEST_CASE("[Reference] nothing in between is exactly 1, everything hidden exactl
 		for (const AreaLight &light :
 				{ make_spot({ 0, 0, 6 }, 0.4f), make_spot({ 0, 0, 6 }, 0.0f) }) {
 			for (const float visibility :
-					Triangles()
+					TriangleBuilder()
 							.build()
 							.compute(points, { 8, 8 }, light, make_options(sample_count))
 							.visibility) {

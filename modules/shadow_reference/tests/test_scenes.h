@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/shadow_reference/area_light_visibility.h"
+#include "modules/shadow_reference/caster_scene.h"
 
 #include <glm/glm.hpp>
 
@@ -11,11 +11,8 @@
 /// Occluders and receivers whose truth is known. z is up; receivers lie in z = 0 and look up.
 namespace gnomon::test_scenes {
 
-struct Triangles {
-	std::vector<glm::vec3> positions;
-	std::vector<uint32_t> indices;
-
-	AreaLightVisibility build() const { return AreaLightVisibility(positions, indices); }
+struct TriangleBuilder : Triangles {
+	CasterScene build() const { return CasterScene(positions, indices); }
 	void scale(float p_factor) {
 		for (glm::vec3 &position : positions) {
 			position *= p_factor;

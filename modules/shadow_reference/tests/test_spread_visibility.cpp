@@ -1,4 +1,3 @@
-#include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
 
@@ -142,7 +141,7 @@ TEST_CASE("[SpreadVisibility] a spread far wider than its body leaves the receiv
 	const Triangles nothing;
 	for (const bool is_hidden : { false, true }) {
 		const Triangles &casters = is_hidden ? roof : nothing;
-		const AreaLightVisibility tracer(casters.positions, casters.indices);
+		const CasterScene tracer(casters.positions, casters.indices);
 		const VisibilityResult result =
 				tracer.compute(std::span(&point, 1), glm::uvec2(1), make_sun(), options);
 		CHECK(result.visibility[0] == (is_hidden ? 0.0f : 1.0f));
@@ -173,7 +172,7 @@ TEST_CASE("[CasterScene] each translucent body leaves its part once, however oft
 	CHECK(scene.trace(glm::vec3(0.5f, 0, 0), glm::vec3(0, 3, 0), 0.5f) == red); // ends before blue
 
 	// As a packet, and as the mask of a light with a size.
-	const AreaLightVisibility tracer(wall.positions, wall.indices, bodies);
+	const CasterScene tracer(wall.positions, wall.indices, bodies);
 	const ReceiverPoint points[] = { { glm::vec3(0.5f, 0, 0), glm::vec3(0, 1, 0), true },
 		{ glm::vec3(3, 0, 0), glm::vec3(0, 1, 0), true },
 		{ glm::vec3(0, 0, 0), glm::vec3(0, 1, 0), true } };
