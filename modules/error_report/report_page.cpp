@@ -36,46 +36,28 @@ std::string encode_base64(std::span<const uint8_t> p_bytes) {
 	return encoded;
 }
 
-void replace_marker(const std::string &p_marker, std::string_view p_text, std::string &r_page) {
-	size_t place = r_page.find(p_marker);
-	GNOMON_ASSERT(place != std::string::npos, "the page has no ", p_marker);
-	for (; place != std::string::npos; place = r_page.find(p_marker, place + p_text.size())) {
-		r_page.replace(place, p_marker.size(), p_text);
+std::string replace_all(std::string_view p_text, std::string_view p_old, std::string_view p_new) {
+	std::string replaced;
+	size_t begin = 0;
+	for (size_t place; (place = p_text.find(p_old, begin)) != std::string_view::npos;
+			begin = place + p_old.size()) {
+		replaced.append(p_text, begin, place - begin).append(p_new);
 	}
+	return replaced.append(p_text, begin);
+}
+
+void replace_marker(std::string_view p_marker, std::string_view p_text, std::string &r_page) {
+	GNOMON_ASSERT(r_page.find(p_marker) != std::string::npos, "the page has no ", p_marker);
+	r_page = replace_all(r_page, p_marker, p_text);
 }
 
 std::string escape_html(const std::string &p_text) {
-	std::string escaped;
-	for (const char letter : p_text) {
-		switch (letter) {
-			case '&':
-				escaped += "&amp;";
-				break;
-			case '<':
-				escaped += "&lt;";
-				break;
-			case '>':
-				escaped += "&gt;";
-				break;
-			default:
-				escaped += letter;
-		}
-	}
-	return escaped;
+	return replace_all(replace_all(replace_all(p_text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;");
 }
 
 /// JSON as it may stand inside a script element.
 std::string escape_script(const std::string &p_json) {
-	std::string escaped;
-	escaped.reserve(p_json.size());
-	for (const char letter : p_json) {
-		if (letter == '<') {
-			escaped += "\\u003c";
-		} else {
-			escaped += letter;
-		}
-	}
-	return escaped;
+	return replace_all(p_json, "<", "\\u003c");
 }
 
 /// The contents of the embedded files of that folder and ending, in the order of their names.
