@@ -57,9 +57,9 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 		request.wants_image = false;
 		request.may_keep = options.is_still;
 		save_file_atomically(options.time,
-				RunPartRegistry::find(MASKS_PART)->measure_frame_time(renderer, request, [&] {
-					return build_snapshot(r_scene, camera);
-				}));
+				RunPartRegistry::find(MASKS_PART)
+						->measure_time(renderer, request, WARM_UP_COUNT, MEASURED_COUNT,
+								[&] { return build_snapshot(r_scene, camera); }));
 	}
 }
 

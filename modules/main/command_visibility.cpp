@@ -24,9 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint32_t WARM_UP_COUNT = 5;
-constexpr uint32_t MEASURED_COUNT = 20;
-
 struct VisibilityOptions {
 	std::string scene;
 	std::string technique;
@@ -129,9 +126,9 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		// The truth takes seconds a frame and nobody draws with it: one frame tells what it costs.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
-				measure_mask_time(renderer, request,
+				measure_time(renderer, request,
 						is_reference ? 0 : std::min(WARM_UP_COUNT, p_options.timed_frame_count),
-						is_reference ? 1 : p_options.timed_frame_count));
+						is_reference ? 1 : p_options.timed_frame_count, {}));
 	}
 }
 

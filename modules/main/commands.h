@@ -15,6 +15,10 @@ namespace gnomon {
 
 inline constexpr const char *PROGRAM_VERSION = "0.1.0";
 
+/// Of `--time`: frames that are drawn first, and frames that are measured.
+inline constexpr uint32_t WARM_UP_COUNT = 5;
+inline constexpr uint32_t MEASURED_COUNT = 20;
+
 // See CommandInfo::add.
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);

@@ -23,7 +23,7 @@ std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
 
 void initialize_masks_part() {
 	CommandRegistry::add({ COMMAND, &add_visibility_command });
-	RunPartRegistry::add({ MASKS_PART, nullptr, &load_truth, &measure_frame_time });
+	RunPartRegistry::add({ MASKS_PART, nullptr, &load_truth, &measure_time });
 }
 
 void uninitialize_masks_part() {

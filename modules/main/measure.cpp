@@ -18,9 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the shadow
 
-constexpr uint32_t WARM_UP_COUNT = 5;
-constexpr uint32_t MEASURED_COUNT = 20;
-
 /// The passes of the light, or of every light, without its name.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
 	std::vector<PassCost> passes;
@@ -69,8 +66,6 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 	return samples.compute();
 }
 
-namespace {
-
 std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
 		uint32_t p_count, const RunPart::SnapshotMaker &p_make_snapshot) {
 	Progress progress("Measuring");
@@ -112,19 +107,6 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 		{ "draws", result.commands.draws }, { "dispatches", result.commands.dispatches },
 		{ "bytes", r_renderer.get_device().get_memory_use().used_bytes } };
 	return json.dump(2) + "\n";
-}
-
-} // namespace
-
-std::string measure_mask_time(
-		Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count, uint32_t p_count) {
-	return measure_time(r_renderer, std::move(p_request), p_warm_up_count, p_count, {});
-}
-
-std::string measure_frame_time(Renderer &r_renderer, RenderRequest p_request,
-		const RunPart::SnapshotMaker &p_make_snapshot) {
-	return measure_time(
-			r_renderer, std::move(p_request), WARM_UP_COUNT, MEASURED_COUNT, p_make_snapshot);
 }
 
 } // namespace gnomon

@@ -21,7 +21,8 @@ struct RunPart {
 	/// The mask in an EXR.
 	std::shared_ptr<const TruthMask> (*load_truth)(const std::string &p_path) = nullptr;
 	/// See measure.h.
-	std::string (*measure_frame_time)(Renderer &r_renderer, RenderRequest p_request,
+	std::string (*measure_time)(Renderer &r_renderer, RenderRequest p_request,
+			uint32_t p_warm_up_count, uint32_t p_count,
 			const SnapshotMaker &p_make_snapshot) = nullptr;
 };
 class RunPartRegistry : public ExtensionRegistry<RunPart> {};
