@@ -44,7 +44,7 @@ void print_properties(const PropertyList &p_list) {
 	}
 }
 
-void list_techniques(bool p_as_json, const CommonOptions & /*p_common*/) {
+Json list_techniques(bool p_as_text, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
@@ -53,55 +53,50 @@ void list_techniques(bool p_as_json, const CommonOptions & /*p_common*/) {
 				{ "is_default", &info == chosen }, { "is_fallback", info.is_fallback },
 				{ "is_reference", info.is_reference },
 				{ "properties", describe_properties(properties) } });
-		if (!p_as_json) {
+		if (p_as_text) {
 			std::printf("%s%s\n    %s. Source: %s\n", info.id.c_str(),
 					&info == chosen ? " (default)" : "", info.name.c_str(), info.source.c_str());
 			print_properties(properties);
 		}
 	}
-	if (p_as_json) {
-		std::printf("%s\n", list.dump(2).c_str());
-		return;
+	if (p_as_text) {
+		std::printf("every light\n");
+		print_properties(Light3D::get_property_list());
 	}
-	std::printf("every light\n");
-	print_properties(Light3D::get_property_list());
+	return list;
 }
 
-void list_filters(bool p_as_json, const CommonOptions & /*p_common*/) {
+Json list_filters(bool p_as_text, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	for (const MaskFilterInfo &info : MaskFilterRegistry::get_all()) {
 		const PropertyList &properties = MaskFilterRegistry::get_light_properties(info.id);
 		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
 				{ "properties", describe_properties(properties) } });
-		if (!p_as_json) {
+		if (p_as_text) {
 			std::printf("%s\n    %s. Source: %s\n", info.id.c_str(), info.name.c_str(),
 					info.source.c_str());
 			print_properties(properties);
 		}
 	}
-	if (p_as_json) {
-		std::printf("%s\n", list.dump(2).c_str());
-	}
+	return list;
 }
 
-void list_modules(bool p_as_json, const CommonOptions & /*p_common*/) {
+Json list_modules(bool p_as_text, const CommonOptions & /*p_common*/) {
 	Json list = Json::array();
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		list.push_back({ { "name", module.name }, { "description", module.description },
 				{ "source", module.source }, { "version", module.version }, { "doc", module.doc },
 				{ "layer", module.layer }, { "can_disable", module.can_disable },
 				{ "is_enabled", module.is_enabled }, { "dependencies", module.dependencies } });
-		if (!p_as_json) {
+		if (p_as_text) {
 			std::printf("%-20s %s%s\n", module.name.c_str(), module.description.c_str(),
 					module.is_enabled ? "" : " (disabled)");
 		}
 	}
-	if (p_as_json) {
-		std::printf("%s\n", list.dump(2).c_str());
-	}
+	return list;
 }
 
-void print_info(bool p_as_json, const CommonOptions &p_common) {
+Json list_info(bool p_as_text, const CommonOptions &p_common) {
 	const std::vector<DeviceInfo> devices = find_rendering_devices();
 	// Creating it says which one a command would take, and why none can be.
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
@@ -112,7 +107,7 @@ void print_info(bool p_as_json, const CommonOptions &p_common) {
 				{ "type", info.type }, { "api_version", info.api_version },
 				{ "memory_bytes", info.memory_bytes }, { "is_usable", info.is_usable },
 				{ "refusal", info.refusal } });
-		if (!p_as_json) {
+		if (p_as_text) {
 			std::printf("%s%u: %s (%s), %s, Vulkan %s, %llu MiB%s%s\n",
 					info.index == chosen ? "* " : "  ", info.index, info.name.c_str(),
 					info.type.c_str(), info.driver.c_str(), info.api_version.c_str(),
@@ -121,28 +116,26 @@ void print_info(bool p_as_json, const CommonOptions &p_common) {
 		}
 	}
 	const unsigned threads = std::thread::hardware_concurrency();
-	if (p_as_json) {
-		const Json json = { { "version", PROGRAM_VERSION }, { "devices", list },
-			{ "chosen", chosen }, { "cpu", find_cpu_name() }, { "threads", threads },
-			{ "cache", get_cache_folder().string() } };
-		std::printf("%s\n", json.dump(2).c_str());
-	} else {
+	if (p_as_text) {
 		std::printf("CPU: %s, %u threads\nCache: %s\n", find_cpu_name().c_str(), threads,
 				get_cache_folder().c_str());
 	}
+	return { { "version", PROGRAM_VERSION }, { "devices", list }, { "chosen", chosen },
+		{ "cpu", find_cpu_name() }, { "threads", threads },
+		{ "cache", get_cache_folder().string() } };
 }
 
 struct ListCommand {
 	const char *id;
 	const char *description;
-	void (*print)(bool p_as_json, const CommonOptions &p_common);
+	Json (*list)(bool p_as_text, const CommonOptions &p_common); // prints it where text is wanted
 };
 const ListCommand LIST_COMMANDS[] = {
 	{ "techniques", "Shadow techniques and their properties", &list_techniques },
 	{ "filters", "Mask filters, which run after every technique, and their properties",
 			&list_filters },
 	{ "modules", "Modules of this build", &list_modules },
-	{ "info", "Devices, CPU, cache", &print_info },
+	{ "info", "Devices, CPU, cache", &list_info },
 };
 
 void add_list_command(const ListCommand &p_list, CLI::App &r_app, CommonOptions &r_common) {
@@ -151,7 +144,12 @@ void add_list_command(const ListCommand &p_list, CLI::App &r_app, CommonOptions 
 	command->add_flag("--json", as_json, "As JSON");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
-	command->callback([&p_list, &r_common] { p_list.print(as_json, r_common); });
+	command->callback([&p_list, &r_common] {
+		const Json json = p_list.list(!as_json, r_common);
+		if (as_json) {
+			std::printf("%s\n", json.dump(2).c_str());
+		}
+	});
 }
 
 } // namespace
