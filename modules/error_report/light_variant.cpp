@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace gnomon {
 
@@ -16,24 +17,22 @@ const double DISTANCE_IN_SCENE_SIZES = 1.5;
 const double WIDEST_CONE_RAD = 1.4; // half; beyond, one perspective view has no resolution left
 const double CONE_MARGIN = 1.1;		// the cone's rim would else touch the casters' ball
 
+/// What of a light a variant changes.
+auto tie_state(Light3D &r_light) {
+	return std::tie(r_light.type, r_light.parent_from_node, r_light.range_m, r_light.inner_cone_rad,
+			r_light.outer_cone_rad, r_light.properties);
+}
+
 /// A light's own state, given back when the variant is built.
 class LightKeeper {
 public:
-	explicit LightKeeper(Light3D &r_light) :
-			light(r_light), type(r_light.type), parent_from_node(r_light.parent_from_node),
-			range_m(r_light.range_m), inner_cone_rad(r_light.inner_cone_rad),
-			outer_cone_rad(r_light.outer_cone_rad), properties(r_light.properties) {
+	explicit LightKeeper(Light3D &r_light) : light(r_light), kept(tie_state(r_light)) {
 		for (const std::unique_ptr<Node3D> &child : r_light.children) {
 			light_from_children.push_back(child->parent_from_node);
 		}
 	}
 	~LightKeeper() {
-		light.type = type;
-		light.parent_from_node = parent_from_node;
-		light.range_m = range_m;
-		light.inner_cone_rad = inner_cone_rad;
-		light.outer_cone_rad = outer_cone_rad;
-		light.properties = properties;
+		tie_state(light) = kept;
 		for (size_t index = 0; index < light_from_children.size(); ++index) {
 			light.children[index]->parent_from_node = light_from_children[index];
 		}
@@ -43,12 +42,7 @@ public:
 
 private:
 	Light3D &light;
-	LightType type;
-	glm::dmat4 parent_from_node;
-	float range_m;
-	float inner_cone_rad;
-	float outer_cone_rad;
-	PropertyValues properties;
+	std::tuple<LightType, glm::dmat4, float, float, float, PropertyValues> kept;
 	std::vector<glm::dmat4> light_from_children;
 };
 
@@ -114,6 +108,21 @@ std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const C
 		r_light.properties[name] = value;
 	}
 	return build_snapshot(p_scene, p_camera);
+}
+
+bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
+		const glm::vec3 &p_position, const glm::vec3 &p_normal) {
+	const bool is_directional = p_light.type == LightType::DIRECTIONAL;
+	const glm::vec3 to_light = is_directional ? glm::vec3(-p_light.get_direction_world())
+											  : p_light_position - p_position;
+	const float distance = glm::length(to_light); // 1 for directional, whose radius is a tangent
+	if (!(distance > 0.0f)) {
+		return false;
+	}
+	// The disc is perpendicular to the way to its centre; its lowest point lies R sin below that.
+	const float cosine = glm::dot(to_light, p_normal) / distance;
+	const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+	return cosine * distance >= p_light.get_disc_radius() * sine;
 }
 
 } // namespace gnomon

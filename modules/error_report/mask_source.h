@@ -67,9 +67,4 @@ public:
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) = 0;
 };
 
-/// True when no part of the light's disc lies below the surface's own horizon: the population of
-/// the study (TECHNIQUES, section 0). Positions in one space; p_normal is unit.
-bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
-		const glm::vec3 &p_position, const glm::vec3 &p_normal);
-
 } // namespace gnomon

@@ -2,7 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/error_report/question_hash.h"
+#include "modules/core/text.h"
 #include "modules/error_report/report_part.h"
 #include "modules/error_report/scaling_scenes.h"
 #include "modules/mesh_tools/topology.h"
@@ -18,6 +18,8 @@ namespace {
 /// m.
 const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
 const char *const SCALING_SCENE_NAME = "torus_knot, generated";
+
+using SceneCache = LastValue<ScalingScene, std::shared_ptr<const Scene>>;
 
 enum class ExpensiveSettings { MEASURED, LEFT_OUT };
 
@@ -35,8 +37,52 @@ std::string make_record_name(
 	return make_slug(p_scene) + "-" + make_slug(p_what) + "-" + format_hash(p_hash);
 }
 
+uint64_t add_light(const LightSnapshot &p_light, uint64_t p_hash) {
+	p_hash = p_light.compute_hash(p_hash);
+	for (const float value : { p_light.inner_cone_rad, p_light.penumbra_outer_width_m,
+				 p_light.penumbra_inner_width_m }) {
+		p_hash = compute_value_hash(value, p_hash);
+	}
+	p_hash = compute_value_hash(p_light.casts_shadow, p_hash);
+	for (const auto &[name, value] : p_light.properties) {
+		p_hash = compute_text_hash(text(name, "=", format_property(value)), p_hash);
+	}
+	return p_hash;
+}
+
+uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
+	p_hash = p_instance.compute_hash(p_hash);
+	p_hash = compute_value_hash(p_instance.is_planar_receiver, p_hash);
+	p_hash = compute_value_hash(p_instance.material->scatter, p_hash);
+	p_hash = compute_value_hash(p_instance.material->scatter_distance_m, p_hash);
+	return compute_value_hash(p_instance.material->is_double_sided, p_hash);
+}
+
+/// 64 bits that change when anything changes that the mask could depend on: the casters and their
+/// places, what scatters, the camera, the light (all lights where the question names none) with all
+/// its properties, and the size of the picture.
+uint64_t compute_question_hash(const MaskQuestion &p_question) {
+	const SceneSnapshot &scene = *p_question.scene;
+	uint64_t hash = scene.camera.compute_hash(1);
+	hash = compute_value_hash(scene.scene_size_m, hash);
+	for (const InstanceSnapshot &instance : scene.instances) {
+		hash = add_instance(instance, hash);
+	}
+	for (const LightSnapshot &light : scene.lights) {
+		if (p_question.light.empty() || light.name == p_question.light) {
+			hash = add_light(light, hash);
+		}
+	}
+	hash = compute_value_hash(p_question.filter_hash, hash);
+	return compute_value_hash(p_question.size_px, hash);
+}
+
 PropertyValues derive_widths() {
 	return { { "penumbra_outer_width", -1.0 }, { "penumbra_inner_width", -1.0 } };
+}
+
+bool casts_shadow(const Light3D &p_light) {
+	return get_bool(Light3D::get_property_list(), p_light.properties, "shadow_enabled");
 }
 
 class Planner {
@@ -61,7 +107,7 @@ public:
 	}
 
 	void add_scaling() {
-		const auto cache = std::make_shared<ScalingSceneCache>();
+		const auto cache = std::make_shared<SceneCache>();
 		for (const ScalingSeries &series : get_scaling_series(options.scaling)) {
 			for (const double value : series.values) {
 				add_scaling_configuration(series.group, value, cache);
@@ -145,7 +191,7 @@ private:
 	}
 
 	void add_scaling_configuration(const std::string &p_group, double p_value,
-			const std::shared_ptr<ScalingSceneCache> &p_cache) {
+			const std::shared_ptr<SceneCache> &p_cache) {
 		ScalingScene description;
 		glm::uvec2 size_px = options.size_px;
 		if (p_group == TRIANGLES_GROUP) {
@@ -169,7 +215,8 @@ private:
 		add_configuration(
 				configuration,
 				[=](const PropertyValues &) {
-					const auto scene = p_cache->get(description);
+					const auto scene = p_cache->get(
+							description, [&] { return make_scaling_scene(description); });
 					return MaskQuestion{ build_snapshot(
 												 *scene, *scene->find_nodes<Camera3D>().front()),
 						has_many ? "" : "Light 1", size_px };
@@ -228,7 +275,7 @@ private:
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
 						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
 				if (is_expensive && !p_configuration.has_truth() &&
-						options.scaling == ScalingExtent::QUICK) {
+						options.scaling == ReportExtent::QUICK) {
 					continue;
 				}
 				settings.clear();
@@ -276,8 +323,25 @@ private:
 } // namespace
 
 bool ReportOptions::has_sweep(const std::string &p_id) const {
-	return stability != StabilityExtent::NONE &&
+	return stability != ReportExtent::NONE &&
 			(sweeps.empty() || std::find(sweeps.begin(), sweeps.end(), p_id) != sweeps.end());
+}
+
+ReportView find_report_view(const ReportScene &p_scene) {
+	if (!p_scene.scene) {
+		fail(p_scene.failure);
+	}
+	const std::vector<Camera3D *> cameras = p_scene.scene->find_nodes<Camera3D>();
+	if (cameras.empty()) {
+		fail("Scene \"", p_scene.name, "\" has no perspective camera. Add one, and export it too.");
+	}
+	ReportView view = { cameras.front(), p_scene.scene->find_nodes<Light3D>() };
+	std::erase_if(view.lights, [](const Light3D *p_light) { return !casts_shadow(*p_light); });
+	if (view.lights.empty()) {
+		fail("Scene \"", p_scene.name, "\" has no light that casts shadows. Add one ",
+				"(KHR_lights_punctual) with extras.shadow_enabled true.");
+	}
+	return view;
 }
 
 ReportPlan make_report_plan(const ReportOptions &p_options,

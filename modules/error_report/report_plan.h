@@ -3,7 +3,6 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/error_report/mask_source.h"
 #include "modules/error_report/report.h"
-#include "modules/error_report/report_scene.h"
 #include "modules/error_report/scaling_scenes.h"
 
 #include <cstdint>
@@ -14,13 +13,22 @@
 
 namespace gnomon {
 
-/// How much of the stability sweeps a report draws; NONE where no module adds them.
-enum class StabilityExtent {
-	NONE,
-	QUICK, // the ends of each sweep and its centre, 64 x 64 pixels
-	FULL,
-};
 inline constexpr const char *PROJECT_SCENES_SWEEP = "scenes"; // see ReportOptions::stability_scenes
+
+/// A scene of a project, or why it could not be loaded.
+struct ReportScene {
+	std::string name;
+	std::shared_ptr<const Scene> scene;
+	std::string failure;
+};
+
+/// What of a scene is measured: how it is seen, and the masks of which lights.
+struct ReportView {
+	Camera3D *camera = nullptr;
+	std::vector<Light3D *> lights; // those that cast shadows; at least one
+};
+/// An Error where the scene was not loaded, has no camera, or no light that casts shadows.
+ReportView find_report_view(const ReportScene &p_scene);
 
 struct ReportOptions {
 	std::string project;
@@ -33,10 +41,10 @@ struct ReportOptions {
 	uint32_t sample_count = 1024; // of the truth
 	double precision_percent = 5; // see Report
 	uint64_t filter_hash = 0;	  // see MaskQuestion
-	ScalingExtent scaling = ScalingExtent::QUICK;
-	StabilityExtent stability = StabilityExtent::QUICK;
-	std::vector<std::string> sweeps;		   // of stability; empty: all
-	std::vector<ReportScene> stability_scenes; // of the sweep "scenes"
+	ReportExtent scaling = ReportExtent::QUICK;
+	ReportExtent stability = ReportExtent::QUICK; // NONE where no module adds the sweeps
+	std::vector<std::string> sweeps;			  // of stability; empty: all
+	std::vector<ReportScene> stability_scenes;	  // of the sweep "scenes"
 
 	bool has_sweep(const std::string &p_id) const;
 };

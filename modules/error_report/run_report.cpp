@@ -61,7 +61,7 @@ template <typename Work> std::optional<std::string> find_failure(Work p_work) {
 class Runner {
 public:
 	Runner(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
-			const RunOptions &p_options) :
+			const ReportRunOptions &p_options) :
 			plan(p_plan),
 			source(r_source), store(r_store), options(p_options), report(p_plan.report),
 			machine(r_source.get_machine()) {}
@@ -259,7 +259,7 @@ private:
 	const ReportPlan &plan;
 	MaskSource &source;
 	RecordStore &store;
-	const RunOptions &options;
+	const ReportRunOptions &options;
 	Report report;
 	const ReportMachine machine;
 	std::vector<TracedTruth> truths; // of the configuration that is running, its own first
@@ -272,7 +272,7 @@ private:
 } // namespace
 
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
-		const RunOptions &p_options) {
+		const ReportRunOptions &p_options) {
 	if (!p_options.resumes) {
 		r_store.remove_others(list_records(p_plan.report));
 	}

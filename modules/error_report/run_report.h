@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-struct RunOptions {
+struct ReportRunOptions {
 	/// True: records of an earlier run that was stopped are used, where they belong to this plan.
 	/// False: they are removed.
 	bool resumes = false;
@@ -22,6 +22,6 @@ struct RunOptions {
 /// Measures what the plan asks for and keeps each result in the store at once. A truth or cell that
 /// fails is marked and the rest goes on; a lost device ends it with DeviceLost. Shows its progress.
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
-		const RunOptions &p_options);
+		const ReportRunOptions &p_options);
 
 } // namespace gnomon

@@ -97,11 +97,11 @@ const std::vector<ScalingSeries> FULL_SERIES = {
 
 } // namespace
 
-const std::vector<ScalingSeries> &get_scaling_series(ScalingExtent p_extent) {
+const std::vector<ScalingSeries> &get_scaling_series(ReportExtent p_extent) {
 	static const std::vector<ScalingSeries> NO_SERIES;
-	return p_extent == ScalingExtent::NONE	   ? NO_SERIES
-			: p_extent == ScalingExtent::QUICK ? QUICK_SERIES
-											   : FULL_SERIES;
+	return p_extent == ReportExtent::NONE	  ? NO_SERIES
+			: p_extent == ReportExtent::QUICK ? QUICK_SERIES
+											  : FULL_SERIES;
 }
 
 std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description) {

@@ -5,14 +5,18 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace gnomon {
 
-enum class ScalingExtent {
+/// How much of a part of the report is measured.
+enum class ReportExtent {
 	NONE,
-	QUICK, // three points a curve that a software device draws in seconds, no expensive technique
-	FULL,  // 2k to 1M triangles, 1 to 64 lights, 128 to 2048 pixels
+	/// Scaling: three points a curve that a software device draws in seconds, no expensive
+	/// technique. Stability: the ends of each sweep and its centre, 64 x 64 pixels.
+	QUICK,
+	FULL, // scaling: 2k to 1M triangles, 1 to 64 lights, 128 to 2048 pixels
 };
 
 /// One curve: a group of configurations and the values of its abscissa.
@@ -20,7 +24,7 @@ struct ScalingSeries {
 	const char *group;
 	std::vector<double> values;
 };
-const std::vector<ScalingSeries> &get_scaling_series(ScalingExtent p_extent);
+const std::vector<ScalingSeries> &get_scaling_series(ReportExtent p_extent);
 
 /// What the scaling curves vary, one at a time.
 struct ScalingScene {
@@ -36,22 +40,23 @@ struct ScalingScene {
 /// named "Light 1" and so on, the camera "Camera". S is 4 m.
 std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description);
 
-/// The last scene that was made: the techniques of one configuration draw the same meshes, whose
-/// topology is then built once.
-class ScalingSceneCache {
+/// What was made last: the techniques of one configuration draw the same meshes, whose topology is
+/// then built once.
+template <typename Key, typename Value> class LastValue {
 public:
-	std::shared_ptr<const Scene> get(const ScalingScene &p_description) {
-		if (!scene || description != p_description) {
-			scene.reset(); // before the next one takes memory
-			scene = make_scaling_scene(p_description);
-			description = p_description;
+	template <typename Make> const Value &get(const Key &p_key, Make p_make) {
+		if (key != p_key) {
+			key.reset();
+			value = {}; // before the next one takes memory
+			value = p_make();
+			key = p_key;
 		}
-		return scene;
+		return value;
 	}
 
 private:
-	ScalingScene description;
-	std::shared_ptr<const Scene> scene;
+	std::optional<Key> key;
+	Value value;
 };
 
 } // namespace gnomon

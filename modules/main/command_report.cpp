@@ -136,7 +136,7 @@ std::vector<ReportScene> load_scenes(const NamedFiles &p_files) {
 }
 
 void run_report_command(const ReportArguments &p_arguments, const CommonOptions &p_common) {
-	const RunOptions run_options = parse_run_options(p_arguments);
+	const ReportRunOptions run_options = parse_run_options(p_arguments);
 	const std::optional<Report> old_report = load_old_report(p_arguments);
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);

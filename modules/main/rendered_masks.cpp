@@ -5,6 +5,7 @@
 #include "modules/error_report/light_variant.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
+#include "modules/main/report_arguments.h"
 #include "modules/renderer/renderer.h"
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/shadow_registry.h"
@@ -78,14 +79,10 @@ TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t 
 	Renderer renderer(device);
 	// The reference says two lines for each truth; the report keeps what they say.
 	set_log_level(LogLevel::WARNING);
-	RenderResult result;
-	try {
-		result = renderer.render(request);
-	} catch (...) {
-		set_log_level(LogLevel::INFO);
-		throw;
-	}
-	set_log_level(LogLevel::INFO);
+	const struct Restore {
+		~Restore() { set_log_level(LogLevel::INFO); }
+	} restore;
+	RenderResult result = renderer.render(request);
 	TracedTruth truth;
 	truth.sees_whole_light = find_whole_light(p_question, result);
 	truth.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
@@ -214,16 +211,7 @@ TechniqueSource make_source(const MaskFilterInfo &p_info) {
 } // namespace
 
 std::vector<TechniqueSource> RenderedMasks::find_techniques(const std::vector<std::string> &p_ids) {
-	const std::vector<std::string> all = list_ids();
-	for (const std::string &id : p_ids) {
-		if (!contains(all, id)) {
-			std::string ids;
-			for (const std::string &known : all) {
-				ids += (ids.empty() ? "" : ", ") + known;
-			}
-			throw UsageError(text("--techniques: there is no \"", id, "\", must be of ", ids, "."));
-		}
-	}
+	check_known("--techniques", p_ids, list_ids());
 	std::vector<TechniqueSource> sources;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		if (p_ids.empty() ? !info.is_reference && !info.is_example : contains(p_ids, info.id)) {

@@ -28,6 +28,12 @@ LightType parse_light_type(const std::string &p_name) {
 			"\" must be own, or of spot, omni and directional, comma separated."));
 }
 
+ReportExtent parse_extent(const std::string &p_name) {
+	return p_name == "none"	   ? ReportExtent::NONE
+			: p_name == "full" ? ReportExtent::FULL
+							   : ReportExtent::QUICK;
+}
+
 NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_folder) {
 	NamedFiles named;
 	std::map<std::string, fs::path> by_name;
@@ -53,30 +59,32 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 					"` needs the module stability_report, which this build lacks. Build with ",
 					"module_stability_report_enabled=yes."));
 		}
-		r_options.stability = StabilityExtent::NONE;
+		r_options.stability = ReportExtent::NONE;
 		return;
 	}
-	r_options.stability = extent == "none" ? StabilityExtent::NONE
-			: extent == "full"			   ? StabilityExtent::FULL
-										   : StabilityExtent::QUICK;
-	const std::vector<std::string> known = part->list_sweeps();
-	for (const std::string &sweep : p_arguments.sweeps) {
-		if (std::find(known.begin(), known.end(), sweep) == known.end()) {
-			std::string names;
-			for (const std::string &name : known) {
-				names += (names.empty() ? "" : ", ") + name;
-			}
-			throw UsageError(
-					text("--sweeps: there is no \"", sweep, "\", must be of ", names, "."));
-		}
-		r_options.sweeps.push_back(sweep);
-	}
+	r_options.stability = parse_extent(extent);
+	check_known("--sweeps", p_arguments.sweeps, part->list_sweeps());
+	r_options.sweeps = p_arguments.sweeps;
 }
 
 } // namespace
 
-RunOptions parse_run_options(const ReportArguments &p_arguments) {
-	RunOptions options;
+void check_known(const char *p_option, const std::vector<std::string> &p_wanted,
+		const std::vector<std::string> &p_known) {
+	std::string names;
+	for (const std::string &name : p_known) {
+		names += (names.empty() ? "" : ", ") + name;
+	}
+	for (const std::string &name : p_wanted) {
+		if (std::find(p_known.begin(), p_known.end(), name) == p_known.end()) {
+			throw UsageError(
+					text(p_option, ": there is no \"", name, "\", must be of ", names, "."));
+		}
+	}
+}
+
+ReportRunOptions parse_run_options(const ReportArguments &p_arguments) {
+	ReportRunOptions options;
 	options.resumes = p_arguments.resumes;
 	if (!p_arguments.shard.empty()) {
 		const size_t slash = p_arguments.shard.find('/');
@@ -122,9 +130,7 @@ ReportOptions make_report_options(
 	options.size_px = parse_size(p_arguments.size);
 	options.sample_count = p_arguments.sample_count;
 	options.precision_percent = p_arguments.precision_percent;
-	options.scaling = p_arguments.scaling == "none" ? ScalingExtent::NONE
-			: p_arguments.scaling == "full"			? ScalingExtent::FULL
-													: ScalingExtent::QUICK;
+	options.scaling = parse_extent(p_arguments.scaling);
 	read_stability_options(p_arguments, options);
 	return options;
 }
@@ -153,19 +159,14 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 		all = { { selected.project, path } };
 	}
 	const auto &wanted = p_arguments.scenes;
-	std::string names;
+	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
-		names += (names.empty() ? "" : ", ") + name;
+		names.push_back(name);
 		if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
 			selected.scenes.push_back({ name, file });
 		}
 	}
-	for (const std::string &name : wanted) {
-		if (std::none_of(all.begin(), all.end(),
-					[&](const auto &p_named) { return p_named.first == name; })) {
-			throw UsageError(text("--scenes: there is no \"", name, "\", must be of ", names, "."));
-		}
-	}
+	check_known("--scenes", wanted, names);
 	if (selected.scenes.empty()) {
 		fail("Project ", selected.folder,
 				" names no scene that exists. Set scenes in its project.cfg.");

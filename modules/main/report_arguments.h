@@ -32,8 +32,11 @@ struct ReportArguments {
 	std::string merge_out;
 };
 
+/// A UsageError of that option where something is wanted that is not known.
+void check_known(const char *p_option, const std::vector<std::string> &p_wanted,
+		const std::vector<std::string> &p_known);
 // Each throws a UsageError that names the option, the value and what is allowed.
-RunOptions parse_run_options(const ReportArguments &p_arguments);
+ReportRunOptions parse_run_options(const ReportArguments &p_arguments);
 ReportOptions make_report_options(const ReportArguments &p_arguments, const std::string &p_project);
 
 using NamedFiles = std::vector<std::pair<std::string, std::filesystem::path>>;

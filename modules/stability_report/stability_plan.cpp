@@ -74,7 +74,7 @@ void plan_project_scenes(const ReportOptions &p_options,
 
 void plan_stability(const ReportOptions &p_options,
 		const std::function<void(ReportConfiguration, ReportPlan::Ask)> &p_add) {
-	const bool is_quick = p_options.stability == StabilityExtent::QUICK;
+	const bool is_quick = p_options.stability == ReportExtent::QUICK;
 	const auto cache = std::make_shared<QuestionCache>();
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
 		if (!p_options.has_sweep(sweep.id)) {

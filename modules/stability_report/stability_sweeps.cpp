@@ -90,12 +90,12 @@ const StabilitySweep *find_stability_sweep(const std::string &p_id) {
 	return nullptr;
 }
 
-uint32_t get_stability_size_px(StabilityExtent p_extent) {
-	return p_extent == StabilityExtent::QUICK ? QUICK_SIZE_PX : FULL_SIZE_PX;
+uint32_t get_stability_size_px(ReportExtent p_extent) {
+	return p_extent == ReportExtent::QUICK ? QUICK_SIZE_PX : FULL_SIZE_PX;
 }
 
 StabilityCase make_stability_case(
-		const StabilitySweep &p_sweep, LightType p_type, double p_value, StabilityExtent p_extent) {
+		const StabilitySweep &p_sweep, LightType p_type, double p_value, ReportExtent p_extent) {
 	StabilityCase result;
 	result.light = STABILITY_LIGHT_NAME;
 	result.size_px = glm::uvec2(get_stability_size_px(p_extent));

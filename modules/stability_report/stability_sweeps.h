@@ -42,9 +42,9 @@ struct StabilityCase {
 	glm::uvec2 size_px = glm::uvec2(0u);
 };
 /// Width and height of masks.
-uint32_t get_stability_size_px(StabilityExtent p_extent);
+uint32_t get_stability_size_px(ReportExtent p_extent);
 /// Of a sweep without project scenes. S is 4 m, but where the scale is what is swept.
 StabilityCase make_stability_case(
-		const StabilitySweep &p_sweep, LightType p_type, double p_value, StabilityExtent p_extent);
+		const StabilitySweep &p_sweep, LightType p_type, double p_value, ReportExtent p_extent);
 
 } // namespace gnomon

@@ -125,8 +125,8 @@ inline ReportOptions make_scripted_options() {
 	options.program = "test 1";
 	options.size_px = glm::uvec2(16u);
 	options.sample_count = 64;
-	options.scaling = ScalingExtent::NONE;
-	options.stability = StabilityExtent::NONE;
+	options.scaling = ReportExtent::NONE;
+	options.stability = ReportExtent::NONE;
 	return options;
 }
 

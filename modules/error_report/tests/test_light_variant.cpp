@@ -1,6 +1,5 @@
 #include "modules/core/error.h"
 #include "modules/error_report/light_variant.h"
-#include "modules/error_report/mask_source.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>

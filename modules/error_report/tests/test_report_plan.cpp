@@ -1,4 +1,3 @@
-#include "modules/error_report/question_hash.h"
 #include "modules/error_report/tests/scripted_masks.h"
 
 #include <doctest/doctest.h>
@@ -132,7 +131,7 @@ TEST_CASE("[ErrorReport] a scene that cannot be shown fails alone") {
 
 TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their common point") {
 	ReportOptions options = make_scripted_options();
-	options.scaling = ScalingExtent::QUICK;
+	options.scaling = ReportExtent::QUICK;
 	std::vector<TechniqueSource> techniques = make_scripted_techniques();
 	techniques[1].info.id = "other";
 	techniques[1].get_settings = techniques[0].get_settings;

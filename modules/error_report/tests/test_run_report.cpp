@@ -24,7 +24,7 @@ struct QuietLog {
 };
 
 Report run(const ReportPlan &p_plan, MaskSource &r_source, const fs::path &p_folder,
-		const RunOptions &p_options = {}) {
+		const ReportRunOptions &p_options = {}) {
 	RecordStore store(get_record_folder(p_folder));
 	save_plan(p_folder, p_plan.report);
 	return run_report(p_plan, r_source, store, p_options);
@@ -75,7 +75,7 @@ TEST_CASE("[ErrorReport] a run that is killed at any place and resumed gives the
 		masks.kill_after_count = kill_after_count;
 		CHECK_THROWS_AS(run(plan, masks, folder.path), Killed);
 		ScriptedMasks rest;
-		RunOptions options;
+		ReportRunOptions options;
 		options.resumes = true;
 		CHECK(to_text(run(plan, rest, folder.path, options)) == whole);
 		CHECK(rest.measure_count == cell_count - kill_after_count);

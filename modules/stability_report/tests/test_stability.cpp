@@ -25,7 +25,7 @@ bool contains(const std::vector<double> &p_values, double p_value) {
 
 ReportOptions make_options(const std::vector<std::string> &p_sweeps) {
 	ReportOptions options = make_scripted_options();
-	options.stability = StabilityExtent::QUICK;
+	options.stability = ReportExtent::QUICK;
 	options.sweeps = p_sweeps;
 	return options;
 }
@@ -81,7 +81,7 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 			CHECK(contains(sweep.values, value));
 			for (const LightType type : sweep.types) {
 				const StabilityCase point =
-						make_stability_case(sweep, type, value, StabilityExtent::QUICK);
+						make_stability_case(sweep, type, value, ReportExtent::QUICK);
 				const auto snapshot =
 						build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
 				REQUIRE(snapshot->find_light(point.light) != nullptr);
@@ -96,7 +96,7 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every place moved") {
 	const auto snap = [](const char *p_sweep, double p_value) {
 		const StabilityCase point = make_stability_case(
-				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, StabilityExtent::QUICK);
+				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, ReportExtent::QUICK);
 		return build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front());
 	};
 	const auto start = snap("scale", 1);
@@ -120,7 +120,7 @@ TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every
 TEST_CASE("[Stability] the light moves by a thousandth of its radius, and only that light") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		const StabilityCase point =
-				make_stability_case(get_stability_sweeps()[0], type, 0.05, StabilityExtent::QUICK);
+				make_stability_case(get_stability_sweeps()[0], type, 0.05, ReportExtent::QUICK);
 		const MaskQuestion question = { build_snapshot(*point.scene,
 												*point.scene->find_nodes<Camera3D>().front()),
 			point.light, point.size_px };
@@ -308,7 +308,7 @@ TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is
 			make_report_plan(options, {}, make_scripted_techniques()).report.configurations) {
 		CHECK(configuration.sweep == "scale");
 	}
-	options.stability = StabilityExtent::NONE;
+	options.stability = ReportExtent::NONE;
 	options.sweeps = {};
 	CHECK(make_report_plan(options, {}, make_scripted_techniques()).report.configurations.empty());
 }
