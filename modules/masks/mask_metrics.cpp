@@ -19,10 +19,6 @@ constexpr float UMBRA_OVER_RESULT = 0.01f; // ... and black in the result
 constexpr double PERCENTILE = 0.99;
 constexpr float WRONG_ERROR = 0.2f; // a float as masks are: 0.2f before 0 does not exceed it
 
-bool is_penumbra(float p_truth) {
-	return p_truth > PENUMBRA_MINIMUM && p_truth < PENUMBRA_MAXIMUM;
-}
-
 void check_finite(const MaskImage &p_image, const std::string &p_name) {
 	GNOMON_ASSERT(p_image.visibility.size() == p_image.get_pixel_count() &&
 					p_image.receiver.size() == p_image.get_pixel_count(),
@@ -108,6 +104,10 @@ void add_metrics(const ErrorMetrics &p_metrics, nlohmann::ordered_json &r_json) 
 }
 
 } // namespace
+
+bool is_penumbra(float p_truth) {
+	return p_truth > PENUMBRA_MINIMUM && p_truth < PENUMBRA_MAXIMUM;
+}
 
 MaskMetrics compute_mask_metrics(const MaskImage &p_truth, const MaskImage &p_result,
 		const std::string &p_truth_name, const std::string &p_result_name) {

@@ -21,6 +21,9 @@ struct ErrorMetrics {
 	std::optional<double> wrong = 0.0;
 };
 
+/// Of a truth: neither umbra nor fully lit.
+bool is_penumbra(float p_truth);
+
 /// A result against the truth. Both are linear visibility, before any tone mapping.
 struct MaskMetrics {
 	ErrorMetrics receiver; // pixels whose surface faces the light, in its cone and range

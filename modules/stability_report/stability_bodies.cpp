@@ -1,6 +1,4 @@
-#include "modules/stability_report/stability_bodies.h"
-
-#include "modules/scene/box_mesh.h"
+#include "modules/stability_report/stability_draft.h"
 
 #include <algorithm>
 #include <cmath>

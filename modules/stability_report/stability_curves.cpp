@@ -1,5 +1,6 @@
 #include "modules/stability_report/stability_curves.h"
 
+#include "modules/stability_report/stability_part.h"
 #include "modules/stability_report/stability_sweeps.h"
 
 #include <nlohmann/json.hpp>
@@ -166,9 +167,9 @@ std::vector<StabilityPlot> find_stability_plots(const Report &p_report) {
 	return plots;
 }
 
-Json to_json(const std::vector<StabilityPlot> &p_plots) {
+Json StabilityPart::to_json(const Report &p_report) const {
 	Json json = Json::array();
-	for (const StabilityPlot &plot : p_plots) {
+	for (const StabilityPlot &plot : find_stability_plots(p_report)) {
 		const StabilitySweep &sweep = *find_stability_sweep(plot.sweep);
 		Json series = Json::array();
 		for (const StabilityCurve &curve : plot.curves) {

@@ -2,8 +2,6 @@
 
 #include "modules/error_report/report.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,7 +56,5 @@ struct StabilityPlot {
 	std::vector<StabilityCurve> curves;
 };
 std::vector<StabilityPlot> find_stability_plots(const Report &p_report);
-
-nlohmann::ordered_json to_json(const std::vector<StabilityPlot> &p_plots);
 
 } // namespace gnomon

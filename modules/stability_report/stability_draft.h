@@ -2,13 +2,23 @@
 
 #include "modules/scene/box_mesh.h"
 #include "modules/scene/nodes.h"
-#include "modules/stability_report/stability_bodies.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace gnomon {
+
+/// A caster or receiver of a stability scene.
+struct StabilityBody {
+	std::string name;
+	std::shared_ptr<const Mesh> mesh;
+	glm::dmat4 world_from_node = glm::dmat4(1.0);
+	bool casts_shadow = true;
+};
 
 /// What a scene of the stability sweeps is made from; the start of all, as the demo scenes have it.
 struct StabilityDraft {
@@ -29,24 +39,35 @@ struct StabilityDraft {
 	glm::dvec3 offset_m = glm::dvec3(0.0);
 
 	double get_distance_m() const { return glm::length(light_target - light_position); }
-	/// Unit, from the target to the light.
-	glm::dvec3 get_way_to_light() const {
-		return (light_position - light_target) / get_distance_m();
-	}
 	/// Only the ground stays.
 	void clear_casters() { bodies.resize(1); }
-	StabilityBody &add_box(const char *p_name, const glm::dvec3 &p_center,
-			const glm::vec3 &p_half_size_m, double p_turn_rad = 0.0) {
-		bodies.push_back({ p_name, make_box_mesh(p_name, p_half_size_m),
+	void add_box(const char *p_name, const glm::vec3 &p_half_size_m,
+			const glm::dmat4 &p_world_from_node) {
+		bodies.push_back({ p_name, make_box_mesh(p_name, p_half_size_m), p_world_from_node });
+	}
+	void add_box(const char *p_name, const glm::dvec3 &p_center, const glm::vec3 &p_half_size_m,
+			double p_turn_rad = 0.0) {
+		add_box(p_name, p_half_size_m,
 				glm::rotate(glm::translate(glm::dmat4(1.0), p_center), p_turn_rad,
-						glm::dvec3(0, 1, 0)) });
-		return bodies.back();
+						glm::dvec3(0, 1, 0)));
 	}
 	void add_mesh(
 			const char *p_name, std::shared_ptr<const Mesh> p_mesh, const glm::dvec3 &p_center) {
 		bodies.push_back({ p_name, std::move(p_mesh), glm::translate(glm::dmat4(1.0), p_center) });
 	}
 };
+
+/// A closed sphere of 320 triangles.
+std::shared_ptr<const Mesh> make_globe(double p_radius_m);
+/// A closed cube each of whose faces is cut beside one of its edges, so that the strip's triangles
+/// have this ratio of length to width; at 1 in the middle.
+std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_ratio);
+/// A closed box whose faces look inwards.
+std::shared_ptr<const Mesh> make_turned_box(double p_half_size_m);
+/// One leaning triangle without thickness.
+std::shared_ptr<const Mesh> make_sheet();
+/// Triangles of no area, slivers, faces that lie on each other, and normals of length 0.
+std::shared_ptr<const Mesh> make_odd_mesh();
 
 /// Makes the draft the hostile scene of that index, see get_guard_names().
 void change_to_guard(StabilityDraft &r_draft, size_t p_index);

@@ -1,7 +1,6 @@
-#include "modules/stability_report/stability_plan.h"
-
 #include "modules/core/error.h"
 #include "modules/core/text.h"
+#include "modules/stability_report/stability_part.h"
 #include "modules/stability_report/stability_sweeps.h"
 
 #include <algorithm>
@@ -13,34 +12,23 @@ namespace {
 
 const char *const SCENE_NAME = "stability, generated";
 
-/// The last question that was built: all techniques of a point ask the same one.
-class QuestionCache {
-public:
-	MaskQuestion get(const StabilitySweep &p_sweep, LightType p_type, double p_value,
-			const ReportOptions &p_options) {
-		const Key key = { &p_sweep, p_type, p_value };
-		if (!is_there || key != last) {
-			question = {}; // before the next one takes memory
-			const StabilityCase point =
-					make_stability_case(p_sweep, p_type, p_value, p_options.stability);
-			question = { build_snapshot(*point.scene, *point.scene->find_nodes<Camera3D>().front()),
-				point.light, point.size_px, p_options.filter_hash };
-			last = key;
-			is_there = true;
-		}
-		return question;
-	}
+using QuestionCache =
+		LastValue<std::tuple<const StabilitySweep *, LightType, double>, MaskQuestion>;
 
-private:
-	using Key = std::tuple<const StabilitySweep *, LightType, double>;
-	bool is_there = false;
-	Key last;
-	MaskQuestion question;
-};
+/// All techniques of a point ask the same question.
+MaskQuestion get_question(QuestionCache &r_cache, const StabilitySweep &p_sweep, LightType p_type,
+		double p_value, const ReportOptions &p_options) {
+	return r_cache.get({ &p_sweep, p_type, p_value }, [&] {
+		const StabilityCase point =
+				make_stability_case(p_sweep, p_type, p_value, p_options.stability);
+		return MaskQuestion{ build_snapshot(
+									 *point.scene, *point.scene->find_nodes<Camera3D>().front()),
+			point.light, point.size_px, p_options.filter_hash };
+	});
+}
 
 /// The lights of the project's own scenes, as they are.
-void plan_project_scenes(const ReportOptions &p_options,
-		const std::function<void(ReportConfiguration, ReportPlan::Ask)> &p_add) {
+void plan_project_scenes(const ReportOptions &p_options, const ReportPart::Add &p_add) {
 	ReportConfiguration configuration;
 	configuration.group = STABILITY_GROUP;
 	configuration.sweep = PROJECT_SCENES_SWEEP;
@@ -72,8 +60,15 @@ void plan_project_scenes(const ReportOptions &p_options,
 
 } // namespace
 
-void plan_stability(const ReportOptions &p_options,
-		const std::function<void(ReportConfiguration, ReportPlan::Ask)> &p_add) {
+std::vector<std::string> StabilityPart::list_sweeps() const {
+	std::vector<std::string> ids;
+	for (const StabilitySweep &sweep : get_stability_sweeps()) {
+		ids.push_back(sweep.id);
+	}
+	return ids;
+}
+
+void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const {
 	const bool is_quick = p_options.stability == ReportExtent::QUICK;
 	const auto cache = std::make_shared<QuestionCache>();
 	for (const StabilitySweep &sweep : get_stability_sweeps()) {
@@ -100,12 +95,12 @@ void plan_stability(const ReportOptions &p_options,
 				configuration.scene = SCENE_NAME;
 				configuration.id = text("stability/", sweep.id, "/", get_light_type_name(type), "/",
 						sweep.describe_value(value));
-				const MaskQuestion question = cache->get(sweep, type, value, p_options);
+				const MaskQuestion question = get_question(*cache, sweep, type, value, p_options);
 				configuration.light = question.light;
 				configuration.light_count = uint32_t(question.scene->lights.size());
 				configuration.size_px = question.size_px;
 				p_add(configuration, [=, &sweep](const PropertyValues &) {
-					return cache->get(sweep, type, value, p_options);
+					return get_question(*cache, sweep, type, value, p_options);
 				});
 			}
 		}

@@ -1,9 +1,7 @@
-#include "modules/stability_report/stability_run.h"
-
 #include "modules/core/error.h"
 #include "modules/error_report/light_variant.h"
-#include "modules/stability_report/double_visibility.h"
 #include "modules/stability_report/stability_curves.h"
+#include "modules/stability_report/stability_part.h"
 #include "modules/stability_report/visibility_condition.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -49,9 +47,8 @@ double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
 		}
 		++receiver_count;
 		const float truth = p_truth.visibility[index];
-		if (truth <= 0.002f || truth >= 0.998f) {
-			wrong_count += std::abs(p_mask.visibility[index] - truth) > 0.5f ? 1 : 0;
-		}
+		const bool is_wrong = std::abs(p_mask.visibility[index] - truth) > 0.5f;
+		wrong_count += is_wrong && !is_penumbra(truth) ? 1 : 0;
 	}
 	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
 }
@@ -97,9 +94,8 @@ void mend_truth(const MaskQuestion &p_question, DoubleTruth p_when, TracedTruth 
 	};
 	// Shadows that are missing show anywhere, blurred ones in penumbras, of which there may be few.
 	std::vector<size_t> soft;
-	std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(soft), [&](size_t p_index) {
-		return mask.visibility[p_index] > 0.002f && mask.visibility[p_index] < 0.998f;
-	});
+	std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(soft),
+			[&](size_t p_index) { return is_penumbra(mask.visibility[p_index]); });
 	const auto compute_error = [&](const std::vector<size_t> &p_pixels) {
 		const size_t step = std::max<size_t>(1, p_pixels.size() / CHECKED_RECEIVERS);
 		double sum = 0;
@@ -145,8 +141,8 @@ MaskQuestion move_light(const MaskQuestion &p_question) {
 	return moved;
 }
 
-std::vector<TracedTruth> trace_stability_truths(
-		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) {
+std::vector<TracedTruth> StabilityPart::trace_truths(
+		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
 	const uint64_t pixel_count = uint64_t(p_question.size_px.x) * p_question.size_px.y;
 	const uint32_t sample_count = static_cast<uint32_t>(std::clamp<uint64_t>(
 			MOST_RAYS / pixel_count, std::min(LEAST_SAMPLES, p_sample_count), p_sample_count));
@@ -164,9 +160,9 @@ std::vector<TracedTruth> trace_stability_truths(
 	return truths;
 }
 
-MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_question,
-		std::span<const TracedTruth> p_truths, const ReportTruth &p_reported,
-		const ReportCell *p_center, ReportCell &r_cell) {
+MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
+		std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const {
+	ReportCell &cell = r_report.cells[p_cell];
 	const TracedTruth &still = p_truths.front();
 	const TracedTruth *moved = p_truths.size() > 1 ? &p_truths[1] : nullptr;
 	ReportStability stability;
@@ -176,12 +172,12 @@ MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_questio
 	}
 	DrawnMasks drawn;
 	try {
-		drawn = r_source.draw(questions, r_cell.technique);
+		drawn = r_source.draw(questions, cell.technique);
 	} catch (const DeviceLost &) {
 		throw; // no answer: the run ends, and goes on with --resume
 	} catch (const Error &error) {
 		stability.refusal = error.what();
-		r_cell.stability = stability;
+		cell.stability = stability;
 		return {};
 	}
 	stability.warnings = drawn.warnings;
@@ -190,23 +186,31 @@ MaskImage run_stability_cell(MaskSource &r_source, const MaskQuestion &p_questio
 	}
 	check_values(drawn.frames);
 	const MaskImage &mask = drawn.frames.front();
-	r_cell.error = ReportError{ compute_mask_metrics(still.mask, mask), {} };
-	r_cell.error->whole_light = r_cell.error->all;
+	cell.error = ReportError{ compute_mask_metrics(still.mask, mask), {} };
+	cell.error->whole_light = cell.error->all;
 	stability.wrong_share = compute_wrong_share(still.mask, mask);
 	if (moved != nullptr && still.mask.receiver == moved->mask.receiver) {
 		const MaskImage truths[] = { still.mask, moved->mask };
 		stability.temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
 	}
-	r_cell.stability = stability;
-	ReportCell judged = r_cell;
+	cell.stability = stability;
+	ReportCell judged = cell;
 	judged.status = ReportStatus::OK;
-	const StabilityState state = judge_stability(judged, p_reported, p_center);
+	const std::optional<size_t> center = find_stability_center(r_report, cell);
+	const StabilityState state =
+			judge_stability(judged, r_report.configurations[cell.configuration_index].truth,
+					center ? &r_report.cells[*center] : nullptr);
 	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
-		r_cell.stability->condition = compute_visibility_condition(*p_question.scene,
+		cell.stability->condition = compute_visibility_condition(*p_question.scene,
 				get_light(*p_question.scene, p_question.light), find_worst_points(still, mask));
 	}
-	const bool is_worth_seeing = state == StabilityState::NONSENSE || p_center == &r_cell;
+	const bool is_worth_seeing = state == StabilityState::NONSENSE || center == p_cell;
 	return is_worth_seeing ? std::move(drawn.frames.front()) : MaskImage();
+}
+
+bool StabilityPart::is_unusable(const ReportCell &p_cell) const {
+	const StabilityState state = judge_stability(p_cell, {}, nullptr);
+	return state == StabilityState::REFUSED || state == StabilityState::NONSENSE;
 }
 
 } // namespace gnomon

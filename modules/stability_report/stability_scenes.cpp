@@ -39,20 +39,17 @@ void change_depth_range(StabilityDraft &r_draft, double p_value) {
 	r_draft.clear_casters();
 	const double near_m = r_draft.get_distance_m() / p_value;
 	r_draft.light_size_m = 0.02 * near_m;
-	StabilityBody body = { "near", make_box_mesh("near", { 0.08f, 0.06f, 0.01f }),
-		look_at(r_draft.light_position, r_draft.light_target) };
-	body.world_from_node = glm::scale(
-			glm::translate(body.world_from_node, glm::dvec3(0, 0, -near_m)), glm::dvec3(near_m));
-	r_draft.bodies.push_back(body);
+	const glm::dmat4 at_light = look_at(r_draft.light_position, r_draft.light_target);
+	r_draft.add_box("near", glm::vec3(0.08f, 0.06f, 0.01f),
+			glm::scale(glm::translate(at_light, glm::dvec3(0, 0, -near_m)), glm::dvec3(near_m)));
 }
 
 /// A plate before the light, somewhat to the side, beside the casters that stay.
 void change_near_caster(StabilityDraft &r_draft, double p_radii) {
-	StabilityBody body = { "near", make_box_mesh("near", { 0.12f, 0.1f, 0.01f }),
-		look_at(r_draft.light_position, r_draft.light_target) };
-	body.world_from_node = glm::translate(
-			body.world_from_node, glm::dvec3(0.1, 0.05, -p_radii * r_draft.light_size_m - 0.01));
-	r_draft.bodies.push_back(body);
+	const glm::dmat4 at_light = look_at(r_draft.light_position, r_draft.light_target);
+	r_draft.add_box("near", glm::vec3(0.12f, 0.1f, 0.01f),
+			glm::translate(
+					at_light, glm::dvec3(0.1, 0.05, -p_radii * r_draft.light_size_m - 0.01)));
 }
 
 void change_slope(StabilityDraft &r_draft, double p_degrees) {
@@ -67,14 +64,10 @@ void change_slope(StabilityDraft &r_draft, double p_degrees) {
 void change_end_on(StabilityDraft &r_draft, double p_degrees) {
 	r_draft.clear_casters();
 	const glm::dvec3 middle(0.0, 1.4, 0.0);
-	StabilityBody rod = { "rod", make_box_mesh("rod", { 0.06f, 0.05f, 0.7f }),
-		look_at(middle, middle + r_draft.get_way_to_light()) };
-	if (r_draft.light_target != middle) { // towards the light itself, not along the cone
-		rod.world_from_node = look_at(middle, r_draft.light_position);
-	}
-	rod.world_from_node =
-			glm::rotate(rod.world_from_node, glm::radians(p_degrees), glm::dvec3(0, 1, 0));
-	r_draft.bodies.push_back(rod);
+	// Towards the light itself, not along the cone.
+	r_draft.add_box("rod", glm::vec3(0.06f, 0.05f, 0.7f),
+			glm::rotate(look_at(middle, r_draft.light_position), glm::radians(p_degrees),
+					glm::dvec3(0, 1, 0)));
 }
 
 void change_layers(StabilityDraft &r_draft, double p_count) {
@@ -89,11 +82,9 @@ void change_layers(StabilityDraft &r_draft, double p_count) {
 void change_inside(StabilityDraft &r_draft, double p_sizes) {
 	r_draft.clear_casters();
 	const float half = 0.5f;
-	StabilityBody around = { "around", make_box_mesh("around", glm::vec3(half)),
-		look_at(r_draft.light_position, r_draft.light_target) };
-	around.world_from_node = glm::translate(around.world_from_node,
-			glm::dvec3(0.1, 0.05, half + p_sizes * StabilityDraft::SCENE_SIZE_M));
-	r_draft.bodies.push_back(around);
+	r_draft.add_box("around", glm::vec3(half),
+			glm::translate(look_at(r_draft.light_position, r_draft.light_target),
+					glm::dvec3(0.1, 0.05, half + p_sizes * StabilityDraft::SCENE_SIZE_M)));
 	r_draft.add_box("block", { 0.2, 0.9, 0.1 }, { 0.35f, 0.25f, 0.35f }, 0.4);
 }
 

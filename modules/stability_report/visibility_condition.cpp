@@ -1,14 +1,16 @@
 #include "modules/stability_report/visibility_condition.h"
 
-#include "modules/stability_report/double_visibility.h"
+#include "shared/light_shared.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gnomon {
 
 namespace {
 
+const double GOLDEN_ANGLE_RAD = 2.39996322972865332;
 // Relative moves of the receiver. The first is what a few operations in float32 round away, 16
 // halves of the last bit; the second shows slopes that 256 rays cannot resolve otherwise.
 const double ROUNDING_MOVE = 1e-6;
@@ -17,6 +19,64 @@ const double WIDE_MOVE = 1e-4;
 const double EXPLAINING_SHARE = 0.5;
 
 } // namespace
+
+DoubleVisibility::DoubleVisibility(const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
+		scene(p_scene), light(p_light) {
+	for (const InstanceSnapshot &instance : p_scene.instances) {
+		const glm::dmat4 node_from_world = glm::inverse(instance.world_from_node);
+		const bool is_flat = !std::isfinite(
+				node_from_world[0][0] + node_from_world[1][1] + node_from_world[2][2]);
+		if (instance.casts_shadow && !is_flat) {
+			bodies.push_back({ node_from_world, instance.bounds_world,
+					std::make_unique<RayTree>(instance.mesh) });
+		}
+	}
+}
+
+double DoubleVisibility::get_distance_m(const glm::dvec3 &p_position_world) const {
+	return light.type == LightType::DIRECTIONAL
+			? scene.scene_size_m
+			: glm::length(light.position_world - p_position_world);
+}
+
+double DoubleVisibility::compute(
+		const glm::dvec3 &p_position_world, const glm::dvec3 &p_normal) const {
+	const glm::dvec3 origin =
+			p_position_world + double(RECEIVER_OFFSET) * scene.scene_size_m * p_normal;
+	const bool is_directional = light.type == LightType::DIRECTIONAL;
+	const glm::dvec3 way =
+			is_directional ? -light.get_direction_world() : light.position_world - origin;
+	const glm::dvec3 axis = glm::normalize(way);
+	const glm::dvec3 beside = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+	const glm::dvec3 u = glm::normalize(glm::cross(axis, beside));
+	const glm::dvec3 v = glm::cross(axis, u);
+	int seen_count = 0;
+	for (int sample = 0; sample < SAMPLE_COUNT; ++sample) {
+		// A spiral: rows and columns would let an edge fall between whole lines of points.
+		const double radius = light.get_disc_radius() * std::sqrt((sample + 0.5) / SAMPLE_COUNT);
+		const double angle = sample * GOLDEN_ANGLE_RAD;
+		const glm::dvec3 ray = way + radius * (std::cos(angle) * u + std::sin(angle) * v);
+		seen_count += is_blocked(origin, ray, is_directional) ? 0 : 1;
+	}
+	return double(seen_count) / SAMPLE_COUNT;
+}
+
+bool DoubleVisibility::is_blocked(
+		const glm::dvec3 &p_origin, const glm::dvec3 &p_ray, bool p_is_endless) const {
+	const double end = p_is_endless ? 1e300 : 1.0;
+	for (const Body &body : bodies) {
+		if (!find_box_entry(body.bounds_world, p_origin, p_ray, 0.0, end)) {
+			continue;
+		}
+		const glm::dvec3 origin = glm::dvec3(body.node_from_world * glm::dvec4(p_origin, 1.0));
+		const glm::dvec3 ray = glm::dvec3(body.node_from_world * glm::dvec4(p_ray, 0.0));
+		const std::optional<double> hit = body.tree->find_nearest(origin, ray);
+		if (hit && *hit < end) {
+			return true;
+		}
+	}
+	return false;
+}
 
 VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		const LightSnapshot &p_light, std::span<const ConditionPoint> p_points) {

@@ -4,7 +4,7 @@
 #include "modules/error_report/run_report.h"
 #include "modules/error_report/tests/scripted_masks.h"
 #include "modules/stability_report/stability_curves.h"
-#include "modules/stability_report/stability_run.h"
+#include "modules/stability_report/stability_part.h"
 #include "modules/stability_report/stability_sweeps.h"
 
 #include <doctest/doctest.h>
@@ -156,7 +156,7 @@ TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on 
 	CHECK(curve.points[6].state == StabilityState::OK);
 	CHECK(curve.points[10].state == StabilityState::DOUBLED);
 	CHECK(curve.points[11].state == StabilityState::OK);
-	const nlohmann::ordered_json json = to_json(plots);
+	const nlohmann::ordered_json json = StabilityPart().to_json(report);
 	CHECK(json[0]["series"][0]["break_after"] == "0.5");
 	CHECK(json[0]["series"][0]["points"][10]["state"] == "doubled");
 	// What no picture of 8 bits shows is no break.
@@ -296,7 +296,7 @@ TEST_CASE("[Stability] scenes of the project are drawn with each of their lights
 		labels.push_back(point.label);
 	}
 	CHECK(labels == std::vector<std::string>{ "yard/Light 1", "yard/Light 2", "hall/Light 1" });
-	const nlohmann::ordered_json json = to_json(plots);
+	const nlohmann::ordered_json json = StabilityPart().to_json(report);
 	CHECK(json[0]["has_cases"] == true);
 	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
 }

@@ -1,4 +1,3 @@
-#include "modules/stability_report/double_visibility.h"
 #include "modules/stability_report/stability_sweeps.h"
 #include "modules/stability_report/visibility_condition.h"
 
