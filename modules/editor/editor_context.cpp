@@ -19,6 +19,11 @@ const Light3D *EditorContext::find_light() const {
 	return nullptr;
 }
 
+std::string EditorContext::find_light_name() const {
+	const Light3D *light = find_light();
+	return light != nullptr ? light->name : "";
+}
+
 std::shared_ptr<const SceneSnapshot> EditorContext::build_viewport_snapshot() const {
 	Camera3D camera;
 	camera.name = "Viewport";
@@ -48,6 +53,16 @@ bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition)
 		shown_tab = p_name;
 	}
 	return is_shown;
+}
+
+void EditorContext::draw_tab(
+		const char *p_name, const std::function<void()> &p_draw, const std::string &p_addition) {
+	if (begin_tab(p_name, p_addition)) {
+		ImGui::BeginChild(p_name);
+		p_draw();
+		ImGui::EndChild();
+		ImGui::EndTabItem();
+	}
 }
 
 std::string EditorContext::describe_items(const EditorProgress &p_progress) const {

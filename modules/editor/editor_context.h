@@ -11,6 +11,7 @@
 #include "modules/renderer/renderer.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -137,6 +138,7 @@ struct EditorContext {
 	}
 	/// The light in question: the selected one, else the first that casts a shadow. Null: none.
 	const Light3D *find_light() const;
+	std::string find_light_name() const; // empty: none
 	/// The scene as the viewport's camera sees it.
 	std::shared_ptr<const SceneSnapshot> build_viewport_snapshot() const;
 	/// Notes where the widget is that was drawn last.
@@ -144,6 +146,9 @@ struct EditorContext {
 	/// Of the bar below the viewport; the caller ends it when it is true. p_addition: shown behind
 	/// the name.
 	bool begin_tab(const char *p_name, const std::string &p_addition = {});
+	/// As begin_tab, with all that p_draw shows.
+	void draw_tab(const char *p_name, const std::function<void()> &p_draw,
+			const std::string &p_addition = {});
 	/// These places, and what tests and benchmarks wait for, as JSON.
 	std::string describe_items(const EditorProgress &p_progress) const;
 	/// Runs what a user asked for; an Error becomes the status.
@@ -159,6 +164,10 @@ struct EditorContext {
 
 /// ImGuiWindowFlags of every panel: the layout gives it its place.
 extern const int PANEL_FLAGS;
+
+struct EditorLayout;
+/// All panels, over the whole window.
+void draw_layout(EditorContext &r_context, EditorLayout &r_layout);
 
 // The panels; each draws its window with Dear ImGui.
 void draw_toolbar(EditorContext &r_context);

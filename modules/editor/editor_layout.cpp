@@ -1,4 +1,5 @@
-#include "modules/editor/editor_layout.h"
+#include "modules/editor/editor_context.h"
+#include "modules/editor/editor_settings.h"
 
 #include <imgui.h>
 

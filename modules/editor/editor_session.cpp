@@ -3,8 +3,13 @@
 #include "modules/core/error.h"
 #include "modules/core/project_scene.h"
 #include "modules/core/text.h"
-#include "modules/editor/child_process.h"
 #include "modules/scene/node_properties.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <cstdlib>
+#include <functional>
 
 namespace gnomon {
 
@@ -12,7 +17,71 @@ namespace {
 
 const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
 
+/// As one word for the shell, whatever is in it.
+std::string quote(const std::string &p_text) {
+	std::string quoted = "'";
+	for (const char letter : p_text) {
+		quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+	}
+	return quoted + "'";
+}
+
+/// Starts a program with its arguments and returns at once; nobody waits for it. An Error when no
+/// process can be made; that there is no such program only it could tell, and nobody listens.
+void start_program(const std::vector<std::string> &p_words) {
+	std::string command;
+	for (const std::string &word : p_words) {
+		command += quote(word) + " ";
+	}
+	// By the shell, so that the program is nobody's child when it ends.
+	if (std::system((command + ">/dev/null 2>&1 &").c_str()) != 0) {
+		fail("No process can be started. Run it yourself: ", command);
+	}
+}
+
 } // namespace
+
+/// Something that must be answered before all else.
+struct EditorSession::Question {
+	const char *title = "";
+	std::string text;
+	const char *yes = "";
+	const char *no = "";
+	std::function<void()> on_yes;
+	std::function<void()> on_no;
+	bool may_cancel = false; // Escape and a third button: as if it had not been asked
+};
+
+/// Draws the question over everything. True once it is answered; the answer was done then.
+bool EditorSession::draw_question(const Question &p_question) {
+	ImGui::OpenPopup(p_question.title);
+	if (!ImGui::BeginPopupModal(p_question.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+		return false;
+	}
+	ImGui::TextUnformatted(p_question.text.c_str());
+	bool is_answered = false;
+	const auto draw_answer = [&](const char *p_label, const std::function<void()> &p_action) {
+		const bool is_pressed = ImGui::Button(p_label);
+		context.note_item(std::string("button ") + p_label);
+		if (is_pressed) {
+			p_action();
+			is_answered = true;
+		}
+	};
+	draw_answer(p_question.yes, p_question.on_yes);
+	ImGui::SameLine();
+	draw_answer(p_question.no, p_question.on_no);
+	if (p_question.may_cancel) {
+		ImGui::SameLine();
+		draw_answer("Cancel", [] {});
+		is_answered |= ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+	}
+	if (is_answered) {
+		ImGui::CloseCurrentPopup();
+	}
+	ImGui::EndPopup();
+	return is_answered;
+}
 
 EditorSession::EditorSession(EditorContext &r_context, std::filesystem::path p_program) :
 		context(r_context), document(r_context.document), program(std::move(p_program)),
@@ -148,27 +217,24 @@ void EditorSession::draw_questions() {
 	if (is_closing && !document.is_changed()) {
 		is_done = true;
 	} else if (is_closing) {
-		is_closing = !draw_question(context, make_closing_question());
+		is_closing = !draw_question(make_closing_question());
 		if (!is_closing && !is_done) {
 			next_path.clear(); // cancelled
 		}
 	} else if (asks_to_recover) {
-		asks_to_recover = !draw_question(context,
-				{ "Recover changes?",
-						"The editor ended without saving. What was changed was kept aside.",
-						"Recover", "Discard", [&] { recover(); },
-						[&] { document.discard_recovery(); } });
+		asks_to_recover = !draw_question({ "Recover changes?",
+				"The editor ended without saving. What was changed was kept aside.", "Recover",
+				"Discard", [&] { recover(); }, [&] { document.discard_recovery(); } });
 	} else if (asks_to_reload) {
-		asks_to_reload = !draw_question(context,
-				{ "Read the file anew?",
-						"Another program has written the file, and there are changes here.",
-						"Read it, drop the changes", "Keep the changes",
-						[&] { context.attempt([&] { document.reload(); }); },
-						[&] { document.keep_over_file(); } });
+		asks_to_reload = !draw_question({ "Read the file anew?",
+				"Another program has written the file, and there are changes here.",
+				"Read it, drop the changes", "Keep the changes",
+				[&] { context.attempt([&] { document.reload(); }); },
+				[&] { document.keep_over_file(); } });
 	}
 }
 
-EditorQuestion EditorSession::make_closing_question() {
+EditorSession::Question EditorSession::make_closing_question() {
 	const auto save = [&] {
 		if (document.is_file_newer()) {
 			asks_to_reload = true; // first: which of both is to be saved

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "modules/editor/editor_context.h"
-#include "modules/editor/editor_question.h"
 
 #include <chrono>
 #include <filesystem>
@@ -38,7 +37,9 @@ private:
 	void run(EditorCommand p_command);
 	void read_page();
 	void recover();
-	EditorQuestion make_closing_question();
+	struct Question;
+	bool draw_question(const Question &p_question);
+	Question make_closing_question();
 
 	EditorContext &context;
 	EditorDocument &document;

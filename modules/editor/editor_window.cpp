@@ -5,9 +5,8 @@
 #include "modules/core/module_registry.h"
 #include "modules/desktop/window.h"
 #include "modules/editor/editor_context.h"
-#include "modules/editor/editor_keys.h"
-#include "modules/editor/editor_layout.h"
 #include "modules/editor/editor_session.h"
+#include "modules/editor/editor_settings.h"
 #include "modules/editor/error_meter.h"
 #include "modules/editor/picture_maker.h"
 #include "modules/editor/shader_reloader.h"
@@ -18,6 +17,7 @@
 #include "modules/render_graph/transient_pool.h"
 #include "modules/renderer/present_pass.h"
 
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <chrono>
@@ -32,6 +32,36 @@ using Clock = EditorDocument::Clock;
 
 const std::chrono::milliseconds FRAME{ 16 };
 const uint32_t QUIET_FRAME_COUNT = 3; // after which the window shows all that there is
+
+/// What a key asks for, as in Godot and Blender; see doc/editor.md.
+EditorCommand find_command(const Window::KeyPress &p_press) {
+	const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
+	const bool has_shift = (p_press.modifiers & GLFW_MOD_SHIFT) != 0;
+	switch (p_press.key) {
+		case GLFW_KEY_O:
+			return has_control ? EditorCommand::ASK_TO_OPEN : EditorCommand::NONE;
+		case GLFW_KEY_S:
+			return has_control ? EditorCommand::SAVE : EditorCommand::NONE;
+		case GLFW_KEY_Z:
+			return !has_control ? EditorCommand::NONE
+					: has_shift ? EditorCommand::REDO
+								: EditorCommand::UNDO;
+		case GLFW_KEY_Y:
+			return has_control ? EditorCommand::REDO : EditorCommand::NONE;
+		case GLFW_KEY_D:
+			return has_control ? EditorCommand::DUPLICATE : EditorCommand::NONE;
+		case GLFW_KEY_F:
+			return has_control ? EditorCommand::NONE : EditorCommand::FRAME;
+		case GLFW_KEY_DELETE:
+			return EditorCommand::DELETE;
+		case GLFW_KEY_F5:
+			return EditorCommand::PLAY;
+		case GLFW_KEY_Q:
+			return has_control ? EditorCommand::QUIT : EditorCommand::NONE;
+		default:
+			return EditorCommand::NONE;
+	}
+}
 
 class Editor {
 public:

@@ -48,8 +48,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 	try {
 		const bool needs_truth = !state.is_stopped && state.refusal.empty() &&
 				(state.truth_hash == 0 || state.sample_count != traced_sample_count);
-		const Light3D *node = r_context.find_light();
-		const bool is_other = (node != nullptr ? node->name : std::string()) != state.light;
+		const bool is_other = r_context.find_light_name() != state.light;
 		if (p_picture_count != measured_picture || needs_truth || is_other) {
 			measured_picture = p_picture_count;
 			measure_mask(r_context);
@@ -103,7 +102,7 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	ErrorState &state = r_context.error;
 	state.refusal.clear();
 	const Light3D *node = r_context.find_light();
-	state.light = node != nullptr ? node->name : "";
+	state.light = r_context.find_light_name();
 	if (node == nullptr) {
 		refuse(state,
 				"No light of the scene casts a shadow. Add one, or set shadow_enabled of one that "

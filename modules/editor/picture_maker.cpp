@@ -17,16 +17,28 @@ const uint32_t GREATEST_DIVISOR = 4;
 const double QUICK_MS = 25;
 const double SLOW_MS = 70;
 
+/// Of a view of the light in question, where there is that view.
+RenderRequest make_request(
+		const EditorContext &p_context, glm::uvec2 p_size_px, const std::string &p_debug_view) {
+	RenderRequest request;
+	request.scene = p_context.build_viewport_snapshot();
+	request.size_px = p_size_px;
+	request.debug_view = p_debug_view;
+	request.needs_debug_view = false;
+	request.debug_light = p_context.find_light_name();
+	return request;
+}
+
 } // namespace
 
 void PictureMaker::update(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const Clock::time_point now = Clock::now();
 	const bool is_slow = r_context.device.type == "CPU";
-	const Light3D *light = r_context.find_light();
 	const bool asks_for_light =
 			!viewport.debug_view.empty() || !viewport.compared_technique.empty();
-	viewport.needs_picture |= asks_for_light && light != nullptr && light->name != drawn_light;
+	const std::string light = r_context.find_light_name();
+	viewport.needs_picture |= asks_for_light && !light.empty() && light != drawn_light;
 	if (viewport.needs_picture) {
 		last_change = now;
 	}
@@ -62,13 +74,7 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	const Clock::time_point start = Clock::now();
 	const ViewportState &viewport = r_context.viewport;
 	const ErrorState &error = r_context.error;
-	RenderRequest request;
-	request.scene = r_context.build_viewport_snapshot();
-	request.size_px = p_size_px;
-	request.debug_view = viewport.debug_view;
-	request.needs_debug_view = false;
-	const Light3D *light = r_context.find_light();
-	request.debug_light = light != nullptr ? light->name : "";
+	RenderRequest request = make_request(r_context, p_size_px, viewport.debug_view);
 	drawn_light = request.debug_light;
 	const LightSnapshot *seen = request.scene->find_light(request.debug_light);
 	if (error.truth && seen != nullptr && seen->casts_shadow &&
@@ -139,14 +145,8 @@ RenderResult PictureMaker::draw_into(
 void PictureMaker::list_debug_views(EditorContext &r_context) {
 	const glm::uvec2 LIST_SIZE_PX(32);
 	r_context.viewport.wants_debug_views = false;
-	RenderRequest request;
-	request.scene = r_context.build_viewport_snapshot();
-	request.size_px = LIST_SIZE_PX;
-	request.debug_view = "mask";
-	request.needs_debug_view = false;
-	const Light3D *light = r_context.find_light();
-	request.debug_light = light != nullptr ? light->name : "";
-	r_context.viewport.debug_views = renderer.render(request).debug_views;
+	r_context.viewport.debug_views =
+			renderer.render(make_request(r_context, LIST_SIZE_PX, "mask")).debug_views;
 }
 
 } // namespace gnomon

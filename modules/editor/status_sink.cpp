@@ -1,14 +1,12 @@
 #include "modules/editor/status_sink.h"
 
-#include <cstdio>
 #include <utility>
 
 namespace gnomon {
 
 StatusSink::StatusSink() {
 	before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
-		static const char *const PREFIXES[] = { "", "WARNING: ", "ERROR: " };
-		std::fprintf(stderr, "%s%s\n", PREFIXES[static_cast<int>(p_level)], p_line.c_str());
+		forward_log(before, p_level, p_line);
 		if (p_level != LogLevel::INFO) {
 			const std::lock_guard lock(mutex);
 			lines.push_back(p_line);

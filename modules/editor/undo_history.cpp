@@ -72,20 +72,18 @@ void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::s
 }
 
 void UndoHistory::add(Node3D &r_parent, std::unique_ptr<Node3D> p_node, const std::string &p_name) {
-	close();
 	Step step;
 	step.name = p_name;
 	step.node = p_node.get();
 	step.parent = &r_parent;
 	step.index = r_parent.children.size();
 	step.held = std::move(p_node);
-	put_in(step);
+	apply(step, nullptr, true);
 	push(std::move(step));
 }
 
 void UndoHistory::remove(Node3D &r_node, const std::string &p_name) {
 	GNOMON_ASSERT(r_node.parent, "the root cannot be removed");
-	close();
 	const auto &siblings = r_node.parent->children;
 	Step step;
 	step.name = p_name;
@@ -95,44 +93,32 @@ void UndoHistory::remove(Node3D &r_node, const std::string &p_name) {
 		return p_one.get() == &r_node;
 	}) - siblings.begin());
 	step.is_removal = true;
-	take_out(step);
+	apply(step, nullptr, false);
 	push(std::move(step));
 }
 
-void UndoHistory::take_out(Step &r_step) {
-	r_step.held = r_step.parent->remove_child(*r_step.node);
-}
-
-void UndoHistory::put_in(Step &r_step) {
-	r_step.parent->insert_child(std::move(r_step.held), r_step.index);
+Node3D *UndoHistory::apply(Step &r_step, const Node3D *p_state, bool p_is_put_in) {
+	close();
+	if (p_state != nullptr) {
+		r_step.node->assign(*p_state);
+	} else if (p_is_put_in) {
+		r_step.parent->insert_child(std::move(r_step.held), r_step.index);
+	} else {
+		r_step.held = r_step.parent->remove_child(*r_step.node);
+	}
+	return r_step.node;
 }
 
 Node3D *UndoHistory::undo() {
 	GNOMON_ASSERT(can_undo(), "nothing to undo");
-	close();
 	Step &step = steps[--place];
-	if (step.before) {
-		step.node->assign(*step.before);
-	} else if (step.is_removal) {
-		put_in(step);
-	} else {
-		take_out(step);
-	}
-	return step.node;
+	return apply(step, step.before.get(), step.is_removal);
 }
 
 Node3D *UndoHistory::redo() {
 	GNOMON_ASSERT(can_redo(), "nothing to redo");
-	close();
 	Step &step = steps[place++];
-	if (step.after) {
-		step.node->assign(*step.after);
-	} else if (step.is_removal) {
-		take_out(step);
-	} else {
-		put_in(step);
-	}
-	return step.node;
+	return apply(step, step.after.get(), !step.is_removal);
 }
 
 } // namespace gnomon

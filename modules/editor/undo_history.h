@@ -54,8 +54,8 @@ private:
 	};
 
 	void push(Step p_step);
-	static void take_out(Step &r_step);
-	static void put_in(Step &r_step);
+	/// Gives the step's node a state, else puts it into the tree or takes it out. Returns it.
+	Node3D *apply(Step &r_step, const Node3D *p_state, bool p_is_put_in);
 
 	std::vector<Step> steps;
 	size_t place = 0; // steps before it are done

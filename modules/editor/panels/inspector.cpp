@@ -13,17 +13,18 @@ namespace gnomon {
 
 namespace {
 
-/// One property of the selected node. Widgets give a new value, or none while nothing happens.
+/// The widget of one property of the selected node; changes the value that it is given.
 class PropertyEditor {
 public:
-	PropertyEditor(EditorContext &r_context, const PropertyInfo &p_info, PropertyValue p_value) :
-			context(r_context), info(p_info), value(std::move(p_value)) {}
+	PropertyEditor(EditorContext &r_context, const PropertyInfo &p_info, PropertyValue &r_value) :
+			context(r_context), info(p_info), value(r_value) {}
 
-	std::optional<PropertyValue> draw() {
+	/// True: the user has changed the value.
+	bool draw() {
 		ImGui::SetNextItemWidth(-1.0f);
 		switch (info.type) {
 			case PropertyType::BOOL:
-				return draw_flag();
+				return ImGui::Checkbox("##value", &std::get<bool>(value));
 			case PropertyType::ENUM:
 				return draw_choice();
 			case PropertyType::INT:
@@ -35,25 +36,20 @@ public:
 			case PropertyType::STRING:
 				return draw_text();
 		}
-		return std::nullopt;
+		return false;
 	}
 
 private:
-	std::optional<PropertyValue> draw_flag() {
-		bool flag = std::get<bool>(value);
-		return ImGui::Checkbox("##value", &flag) ? std::optional<PropertyValue>(flag)
-												 : std::nullopt;
-	}
-
-	std::optional<PropertyValue> draw_choice() {
-		const std::string &chosen = std::get<std::string>(value);
-		std::optional<PropertyValue> result;
+	bool draw_choice() {
+		const std::string chosen = std::get<std::string>(value);
+		bool is_changed = false;
 		if (ImGui::BeginCombo("##value", chosen.empty() ? "(default)" : chosen.c_str())) {
 			const std::vector<std::string> choices = get_choices(info);
 			for (size_t index = 0; index < choices.size(); ++index) {
 				const char *label = choices[index].empty() ? "(default)" : choices[index].c_str();
 				if (ImGui::Selectable(label, choices[index] == chosen)) {
-					result = choices[index];
+					value = choices[index];
+					is_changed = true;
 				}
 				context.note_item("choice " + choices[index]);
 				if (ImGui::IsItemHovered() && index < info.choice_tooltips.size()) {
@@ -62,24 +58,22 @@ private:
 			}
 			ImGui::EndCombo();
 		}
-		return result;
+		return is_changed;
 	}
 
-	std::optional<PropertyValue> draw_whole_number() {
+	bool draw_whole_number() {
 		const PropertyRange range = get_range(info);
-		int64_t number = std::get<int64_t>(value);
 		const int64_t least = static_cast<int64_t>(std::max(range.minimum, -1e15));
 		const int64_t greatest = static_cast<int64_t>(std::min(range.maximum, 1e15));
-		const bool is_changed = ImGui::DragScalar("##value", ImGuiDataType_S64, &number,
+		return ImGui::DragScalar("##value", ImGuiDataType_S64, &std::get<int64_t>(value),
 				std::max(float(range.step), 0.2f), &least, &greatest, nullptr,
 				ImGuiSliderFlags_AlwaysClamp);
-		return is_changed ? std::optional<PropertyValue>(number) : std::nullopt;
 	}
 
 	/// Dragged below the range, a value becomes the special one, such as -1 for "derived".
-	std::optional<PropertyValue> draw_number() {
+	bool draw_number() {
 		const PropertyRange range = get_range(info);
-		double number = std::get<double>(value);
+		double &number = std::get<double>(value);
 		double least = range.minimum;
 		double special = 0;
 		const bool has_special = !info.special.empty();
@@ -93,30 +87,27 @@ private:
 				float(range.step), &least, &range.maximum,
 				is_special ? (info.special + " (derived)").c_str() : "%.4g",
 				ImGuiSliderFlags_AlwaysClamp);
-		if (!is_changed) {
-			return std::nullopt;
-		}
-		if (has_special && number < range.minimum) {
+		if (is_changed && has_special && number < range.minimum) {
 			number = is_special && number > special ? range.minimum : special;
 		}
-		return number;
+		return is_changed;
 	}
 
-	std::optional<PropertyValue> draw_vector() {
+	bool draw_vector() {
 		const PropertyRange range = get_range(info);
 		// While it is dragged it goes on from what was shown: a node may give the same turn back in
 		// other angles.
 		static std::string dragged_name;
 		static glm::dvec3 dragged;
-		glm::dvec3 vector = dragged_name == info.name ? dragged : std::get<glm::dvec3>(value);
+		glm::dvec3 &vector = std::get<glm::dvec3>(value);
 		if (info.is_color) {
 			glm::vec3 color(vector);
 			const bool is_changed =
 					ImGui::ColorEdit3("##value", &color.x, ImGuiColorEditFlags_Float);
-			return is_changed ? std::optional<PropertyValue>(glm::dvec3(
-										glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f))))
-							  : std::nullopt;
+			vector = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+			return is_changed;
 		}
+		vector = dragged_name == info.name ? dragged : vector;
 		const bool is_changed =
 				ImGui::DragScalarN("##value", ImGuiDataType_Double, &vector.x, 3, float(range.step),
 						&range.minimum, &range.maximum, "%.4g", ImGuiSliderFlags_AlwaysClamp);
@@ -126,20 +117,21 @@ private:
 		} else if (dragged_name == info.name) {
 			dragged_name.clear();
 		}
-		return is_changed ? std::optional<PropertyValue>(vector) : std::nullopt;
+		return is_changed;
 	}
 
-	std::optional<PropertyValue> draw_text() {
+	bool draw_text() {
 		char text[512] = {};
 		std::strncpy(text, std::get<std::string>(value).c_str(), sizeof(text) - 1);
 		const bool is_done = ImGui::InputText(
 				"##value", text, sizeof(text), ImGuiInputTextFlags_EnterReturnsTrue);
-		return is_done ? std::optional<PropertyValue>(std::string(text)) : std::nullopt;
+		value = std::string(text);
+		return is_done;
 	}
 
 	EditorContext &context;
 	const PropertyInfo &info;
-	PropertyValue value;
+	PropertyValue &value;
 };
 
 void draw_label(const PropertyInfo &p_info) {
@@ -183,11 +175,11 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::TableNextColumn();
 	draw_label(p_info);
 	ImGui::TableNextColumn();
-	const std::optional<PropertyValue> changed =
-			PropertyEditor(r_context, p_info, get_node_property(p_node, p_info.name)).draw();
+	PropertyValue value = get_node_property(p_node, p_info.name);
+	const bool is_changed = PropertyEditor(r_context, p_info, value).draw();
 	r_context.note_item("property " + p_info.name);
-	if (changed) {
-		r_edit = { true, p_info.name, changed, ImGui::IsItemActive() };
+	if (is_changed) {
+		r_edit = { true, p_info.name, value, ImGui::IsItemActive() };
 	}
 	r_edit.ends_drag |= ImGui::IsItemDeactivated() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
 	ImGui::TableNextColumn();

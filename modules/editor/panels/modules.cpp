@@ -20,14 +20,11 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 			r_context.say((is_enabled ? "Enabled " : "Disabled ") + name);
 		});
 	}
-	ImGui::TableNextColumn();
-	ImGui::TextWrapped("%s", p_module.name.c_str());
-	ImGui::TableNextColumn();
-	ImGui::TextWrapped("%s", p_module.description.c_str());
-	ImGui::TableNextColumn();
-	ImGui::TextWrapped("%s", p_module.source.c_str());
-	ImGui::TableNextColumn();
-	ImGui::TextWrapped("%s", p_module.version.c_str());
+	for (const std::string *words :
+			{ &p_module.name, &p_module.description, &p_module.source, &p_module.version }) {
+		ImGui::TableNextColumn();
+		ImGui::TextWrapped("%s", words->c_str());
+	}
 	ImGui::TableNextColumn();
 	if (!p_module.doc.empty()) {
 		ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(120, 170, 255, 255));
@@ -43,33 +40,30 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 	}
 }
 
+void draw_table(EditorContext &r_context) {
+	if (!ImGui::BeginTable("modules", 6, ImGuiTableFlags_RowBg)) {
+		return;
+	}
+	const std::pair<const char *, float> COLUMNS[] = { { "on", 0.3f }, { "module", 1.2f },
+		{ "what it is", 1.8f }, { "source", 1.4f }, { "version", 0.5f }, { "page", 1.4f } };
+	for (const auto &[heading, weight] : COLUMNS) {
+		ImGui::TableSetupColumn(heading, ImGuiTableColumnFlags_WidthStretch, weight);
+	}
+	ImGui::TableHeadersRow();
+	// A copy: a checkbox changes the list.
+	const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
+	for (const ModuleInfo &module : modules) {
+		if (module.can_disable) {
+			draw_module(r_context, module);
+		}
+	}
+	ImGui::EndTable();
+}
+
 } // namespace
 
 void draw_modules(EditorContext &r_context) {
-	if (!r_context.begin_tab("Modules")) {
-		return;
-	}
-	ImGui::BeginChild("modules");
-	if (ImGui::BeginTable("modules", 6, ImGuiTableFlags_RowBg)) {
-		const char *const HEADINGS[] = { "on", "module", "what it is", "source", "version",
-			"page" };
-		const float WEIGHTS[] = { 0.3f, 1.2f, 1.8f, 1.4f, 0.5f, 1.4f };
-		for (int column = 0; column < 6; ++column) {
-			ImGui::TableSetupColumn(
-					HEADINGS[column], ImGuiTableColumnFlags_WidthStretch, WEIGHTS[column]);
-		}
-		ImGui::TableHeadersRow();
-		// A copy: a checkbox changes the list.
-		const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
-		for (const ModuleInfo &module : modules) {
-			if (module.can_disable) {
-				draw_module(r_context, module);
-			}
-		}
-		ImGui::EndTable();
-	}
-	ImGui::EndChild();
-	ImGui::EndTabItem();
+	r_context.draw_tab("Modules", [&] { draw_table(r_context); });
 }
 
 } // namespace gnomon

@@ -45,18 +45,8 @@ void draw_entries(const FramePlan &p_plan) {
 } // namespace
 
 void draw_plan(EditorContext &r_context) {
-	if (r_context.begin_tab("Frame plan")) {
-		ImGui::BeginChild("entries");
-		draw_entries(r_context.shown.plan);
-		ImGui::EndChild();
-		ImGui::EndTabItem();
-	}
-	if (r_context.begin_tab("Passes")) {
-		ImGui::BeginChild("timings");
-		draw_timings(r_context.shown);
-		ImGui::EndChild();
-		ImGui::EndTabItem();
-	}
+	r_context.draw_tab("Frame plan", [&] { draw_entries(r_context.shown.plan); });
+	r_context.draw_tab("Passes", [&] { draw_timings(r_context.shown); });
 }
 
 } // namespace gnomon

@@ -13,17 +13,18 @@ namespace gnomon {
 
 namespace {
 
-bool draw_button(EditorContext &r_context, const char *p_label, const char *p_tooltip,
-		bool p_is_enabled = true) {
+void draw_button(EditorContext &r_context, const char *p_label, EditorCommand p_command,
+		const std::string &p_tooltip, bool p_is_enabled = true) {
 	ImGui::BeginDisabled(!p_is_enabled);
-	const bool is_pressed = ImGui::Button(p_label);
+	if (ImGui::Button(p_label)) {
+		r_context.command = p_command;
+	}
 	ImGui::EndDisabled();
 	r_context.note_item(text("button ", p_label));
 	if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-		ImGui::SetTooltip("%s", p_tooltip);
+		ImGui::SetTooltip("%s", p_tooltip.c_str());
 	}
 	ImGui::SameLine();
-	return is_pressed;
 }
 
 void ask_to_open(EditorContext &r_context, const std::filesystem::path &p_path) {
@@ -69,35 +70,25 @@ void draw_toolbar(EditorContext &r_context) {
 	const UndoHistory &history = r_context.document.get_history();
 	if (ImGui::Begin("Toolbar", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
-		if (draw_button(r_context, "Open", "Ctrl+O: another scene or project")) {
-			r_context.asks_to_open = true;
-		}
+		draw_button(
+				r_context, "Open", EditorCommand::ASK_TO_OPEN, "Ctrl+O: another scene or project");
 		if (std::exchange(r_context.asks_to_open, false)) {
 			ImGui::OpenPopup("open");
 		}
 		draw_open_menu(r_context);
-		if (draw_button(r_context, "Save", "Ctrl+S: write the scene",
-					r_context.document.is_changed())) {
-			r_context.command = EditorCommand::SAVE;
-		}
-		if (draw_button(r_context, "Undo",
-					history.can_undo() ? ("Ctrl+Z: " + history.get_undo_name()).c_str()
-									   : "Ctrl+Z: nothing to undo",
-					history.can_undo())) {
-			r_context.command = EditorCommand::UNDO;
-		}
-		if (draw_button(r_context, "Redo",
-					history.can_redo() ? ("Ctrl+Shift+Z: " + history.get_redo_name()).c_str()
-									   : "Ctrl+Shift+Z: nothing to redo",
-					history.can_redo())) {
-			r_context.command = EditorCommand::REDO;
-		}
-		if (draw_button(r_context, "Frame", "F: show all of the selected node, or of the scene")) {
-			r_context.command = EditorCommand::FRAME;
-		}
-		if (draw_button(r_context, "Play", "F5: save, and run the game on this scene")) {
-			r_context.command = EditorCommand::PLAY;
-		}
+		draw_button(r_context, "Save", EditorCommand::SAVE, "Ctrl+S: write the scene",
+				r_context.document.is_changed());
+		draw_button(r_context, "Undo", EditorCommand::UNDO,
+				"Ctrl+Z: " + (history.can_undo() ? history.get_undo_name() : "nothing to undo"),
+				history.can_undo());
+		draw_button(r_context, "Redo", EditorCommand::REDO,
+				"Ctrl+Shift+Z: " +
+						(history.can_redo() ? history.get_redo_name() : "nothing to redo"),
+				history.can_redo());
+		draw_button(r_context, "Frame", EditorCommand::FRAME,
+				"F: show all of the selected node, or of the scene");
+		draw_button(
+				r_context, "Play", EditorCommand::PLAY, "F5: save, and run the game on this scene");
 		ImGui::AlignTextToFramePadding();
 		ImGui::TextDisabled("%s%s", r_context.document.get_path().filename().string().c_str(),
 				r_context.document.is_changed() ? " *" : "");
