@@ -13,6 +13,9 @@
 
 namespace gnomon {
 
+inline constexpr char GLTF_PUNCTUAL[] = "KHR_lights_punctual";
+inline constexpr char GLTF_AREA[] = "EXT_lights_area";
+
 /// A node as it was loaded. What still equals it is not written.
 struct GltfNodeState {
 	bool is_loaded = false; // false: in no scene, or in another one

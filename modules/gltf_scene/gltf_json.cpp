@@ -3,6 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 
@@ -125,6 +127,11 @@ std::optional<GltfObject> GltfObject::find_extension(std::string_view p_name) co
 	return extensions ? extensions->find_object(p_name) : std::nullopt;
 }
 
+std::optional<GltfObject> GltfObject::find_extras() const {
+	const Json *extras = find("extras");
+	return extras && extras->is_object() ? find_object("extras") : std::nullopt;
+}
+
 size_t GltfObject::get_count(std::string_view p_key) const {
 	const Json *value = find(p_key);
 	if (value && !value->is_array()) {
@@ -214,6 +221,11 @@ std::string GltfObject::get_text(std::string_view p_key) const {
 	return value && value->is_string() ? value->get<std::string>() : std::string();
 }
 
+std::string GltfObject::get_name(const std::string &p_otherwise) const {
+	const std::string name = to_one_line(get_text("name"));
+	return name.empty() ? p_otherwise : name;
+}
+
 double GltfObject::read_number(std::string_view p_key, double p_default, double p_minimum,
 		double p_maximum, std::string_view p_unit) const {
 	const Json *value = find(p_key);
@@ -283,6 +295,47 @@ void GltfObject::report_value(
 	messages->report(messages->describe(path_of(p_key),
 			text("is ", value ? describe_json(*value) : "missing", ", must be ", p_range, "; ",
 					p_default, " is used. Correct it in the file.")));
+}
+
+Json to_json_number(float p_value) {
+	char digits[32];
+	const auto written = std::to_chars(digits, digits + sizeof(digits), p_value);
+	double number = 0;
+	std::from_chars(digits, written.ptr, number);
+	return number;
+}
+
+Json to_json(const glm::vec3 &p_vector) {
+	return Json::array(
+			{ to_json_number(p_vector.x), to_json_number(p_vector.y), to_json_number(p_vector.z) });
+}
+
+Json &require_object(Json &r_parent, const char *p_key) {
+	Json &object = r_parent[p_key];
+	if (!object.is_object()) {
+		object = Json::object();
+	}
+	return object;
+}
+
+Json &require_extras(Json &r_object) {
+	Json &extras = r_object["extras"];
+	if (!extras.is_object()) {
+		// Extras may be any value; what was there moves one level down.
+		Json before = std::move(extras);
+		extras = Json::object();
+		if (!before.is_null()) {
+			extras["extras"] = std::move(before);
+		}
+	}
+	return extras;
+}
+
+void declare_extension(Json &r_root, const std::string &p_name) {
+	Json &used = r_root["extensionsUsed"];
+	if (std::find(used.begin(), used.end(), p_name) == used.end()) {
+		used.push_back(p_name);
+	}
 }
 
 } // namespace gnomon

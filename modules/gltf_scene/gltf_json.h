@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
@@ -69,6 +70,8 @@ public:
 	GltfObject require_object(std::string_view p_key) const;
 	/// `extensions.<name>`; absent: nothing.
 	std::optional<GltfObject> find_extension(std::string_view p_name) const;
+	/// `extras`, which may be any value: absent or not an object: nothing.
+	std::optional<GltfObject> find_extras() const;
 	/// The length of an array; 0 when absent. Not an array: fails.
 	size_t get_count(std::string_view p_key) const;
 	/// An array's element, which must be an object. p_index is below get_count.
@@ -87,6 +90,8 @@ public:
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
 	/// Text; absent or not text: empty, as no text decides whether a file can be drawn.
 	std::string get_text(std::string_view p_key) const;
+	/// Its name as one line; the other where it has none.
+	std::string get_name(const std::string &p_otherwise) const;
 
 	/// A number in p_minimum..p_maximum; any other value is reported and the default returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
@@ -108,5 +113,15 @@ private:
 	std::string path;
 	GltfMessages *messages;
 };
+
+/// The shortest decimal number that reads back as this float.
+Json to_json_number(float p_value);
+Json to_json(const glm::vec3 &p_vector);
+/// The value at a key, made an object if it was none.
+Json &require_object(Json &r_parent, const char *p_key);
+/// The object's `extras`, likewise; another value that was there moves one level down.
+Json &require_extras(Json &r_object);
+/// Names an extension in a document's `extensionsUsed`, once.
+void declare_extension(Json &r_root, const std::string &p_name);
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_lights.h"
 
 #include "modules/core/error.h"
+#include "modules/core/property_json.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -14,19 +15,19 @@ const double DEGREES_PER_RADIAN = 57.295779513082321;
 const float DEFAULT_OUTER_CONE_RAD = 0.785398163f; // KHR_lights_punctual: pi / 4
 const float MAX_CONE_RAD = 1.57079637f;			   // the float nearest to pi / 2
 
-const GltfPropertyAlias ALIASES[] = {
+/// Other names under which files hold a property of Light3D, in the order in which they are tried.
+struct PropertyAlias {
+	std::string_view property;
+	std::string_view alias;
+	double factor; // property = alias times this
+};
+const PropertyAlias ALIASES[] = {
 	{ "light_size", "radius", 1.0 },
 	{ "light_size", "shadow_soft_size", 1.0 },				   // Blender: radius of the light
 	{ "light_angular_distance", "angle", DEGREES_PER_RADIAN }, // Blender: full apparent diameter
 };
 /// What a node's extras hold for meshes, and a light does not take for a technique's property.
 const std::string_view NODE_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
-
-/// Extras may be any value; only objects hold properties.
-std::optional<GltfObject> find_extras(const GltfObject &p_object) {
-	const Json *extras = p_object.find("extras");
-	return extras && extras->is_object() ? p_object.find_object("extras") : std::nullopt;
-}
 
 /// Bools, numbers and texts as they stand; other values are no properties.
 std::optional<PropertyValue> to_property(const Json &p_value) {
@@ -79,7 +80,7 @@ void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfOb
 			take_property(extras, p_info.name, p_info, 1.0, r_properties);
 			return;
 		}
-		for (const GltfPropertyAlias &alias : ALIASES) {
+		for (const PropertyAlias &alias : ALIASES) {
 			if (alias.property == p_info.name && extras.find(alias.alias)) {
 				take_property(extras, alias.alias, p_info, alias.factor, r_properties);
 				return;
@@ -92,7 +93,7 @@ bool is_reserved(std::string_view p_key) {
 	if (Light3D::get_property_list().find(p_key)) {
 		return true;
 	}
-	for (const GltfPropertyAlias &alias : ALIASES) {
+	for (const PropertyAlias &alias : ALIASES) {
 		if (alias.alias == p_key) {
 			return true;
 		}
@@ -169,11 +170,79 @@ void read_cones(const GltfObject &p_light, Light3D &r_light) {
 			std::min(static_cast<float>(inner), std::nextafter(r_light.outer_cone_rad, 0.0f));
 }
 
-} // namespace
-
-std::span<const GltfPropertyAlias> get_gltf_property_aliases() {
-	return ALIASES;
+void check_finite(const Light3D &p_light, const char *p_what, double p_value) {
+	if (!std::isfinite(p_value)) {
+		fail("Light \"", p_light.name, "\": ", p_what,
+				" is not finite, and no file can hold that. Set it to a number.");
+	}
 }
+
+void check_light(const Light3D &p_light) {
+	check_finite(p_light, "color", p_light.color.x + p_light.color.y + p_light.color.z);
+	check_finite(p_light, "intensity", p_light.intensity);
+	check_finite(p_light, "range", p_light.range_m);
+	check_finite(p_light, "cone angle", p_light.inner_cone_rad + p_light.outer_cone_rad);
+	for (const auto &[name, value] : p_light.properties) {
+		if (const double *number = std::get_if<double>(&value)) {
+			check_finite(p_light, name.c_str(), *number);
+		}
+	}
+}
+
+void write_punctual(const Light3D &p_light, const LightSettings *p_before, Json &r_light) {
+	if (!p_before || p_light.type != p_before->type) {
+		r_light["type"] = p_light.type == LightType::OMNI ? "point"
+				: p_light.type == LightType::SPOT		  ? "spot"
+														  : "directional";
+	}
+	if (!p_before || p_light.color != p_before->color) {
+		r_light["color"] = to_json(p_light.color);
+	}
+	if (!p_before || p_light.intensity != p_before->intensity) {
+		r_light["intensity"] = to_json_number(p_light.intensity);
+	}
+	if (!p_before || p_light.range_m != p_before->range_m) {
+		r_light.erase("range");
+		if (p_light.range_m > 0) {
+			r_light["range"] = to_json_number(p_light.range_m);
+		}
+	}
+	const bool has_same_cones = p_before && p_light.type == p_before->type &&
+			p_light.inner_cone_rad == p_before->inner_cone_rad &&
+			p_light.outer_cone_rad == p_before->outer_cone_rad;
+	if (p_light.type == LightType::SPOT && !has_same_cones) {
+		Json &spot = require_object(r_light, "spot");
+		spot["innerConeAngle"] = to_json_number(p_light.inner_cone_rad);
+		spot["outerConeAngle"] = to_json_number(p_light.outer_cone_rad);
+	}
+}
+
+void erase_property(Json &r_object, const std::string &p_name) {
+	const auto extras = r_object.find("extras");
+	if (extras == r_object.end() || !extras->is_object()) {
+		return;
+	}
+	extras->erase(p_name);
+	for (const PropertyAlias &alias : ALIASES) {
+		if (alias.property == p_name) {
+			extras->erase(std::string(alias.alias));
+		}
+	}
+}
+
+void set_property(Json &r_light, const std::string &p_name, const PropertyValue &p_value) {
+	Json &extras = require_extras(r_light);
+	extras[p_name] = property_to_json<Json>(p_value);
+	// Programs that know only the other name must not read the old value.
+	for (const PropertyAlias &alias : ALIASES) {
+		const double *number = std::get_if<double>(&p_value);
+		if (alias.property == p_name && number && extras.contains(alias.alias)) {
+			extras[std::string(alias.alias)] = *number / alias.factor;
+		}
+	}
+}
+
+} // namespace
 
 bool read_light(
 		const GltfLightPlaces &p_places, const GltfLoadOptions &p_options, Light3D &r_light) {
@@ -202,11 +271,11 @@ bool read_light(
 	r_light.file_path = text("lights[", p_places.light_index, "]");
 
 	std::vector<GltfObject> all_extras;
-	if (const auto extras = find_extras(light)) {
+	if (const auto extras = light.find_extras()) {
 		all_extras.push_back(*extras);
 	}
 	for (const GltfObject &node : p_places.nodes) {
-		if (const auto extras = find_extras(node)) {
+		if (const auto extras = node.find_extras()) {
 			all_extras.push_back(*extras);
 		}
 	}
@@ -218,6 +287,32 @@ bool read_light(
 	}
 	read_technique_properties(all_extras, p_options, r_light.properties);
 	return true;
+}
+
+void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
+		const std::vector<Json *> &p_nodes, Json *r_area) {
+	check_light(p_light);
+	write_punctual(p_light, p_before, r_light);
+	const PropertyValues nothing;
+	const PropertyValues &before = p_before ? p_before->properties : nothing;
+	for (const auto &[name, value] : before) {
+		if (!p_light.properties.contains(name)) {
+			erase_property(r_light, name);
+			for (Json *node : p_nodes) {
+				erase_property(*node, name);
+			}
+		}
+	}
+	for (const auto &[name, value] : p_light.properties) {
+		const auto found = before.find(name);
+		if (found == before.end() || found->second != value) {
+			set_property(r_light, name, value);
+		}
+	}
+	if (r_area) {
+		const PropertyList &list = Light3D::get_property_list();
+		(*r_area)["size"] = 2 * get_float(list, p_light.properties, "light_size");
+	}
 }
 
 } // namespace gnomon

@@ -4,18 +4,9 @@
 #include "modules/gltf_scene/gltf_scene.h"
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace gnomon {
-
-/// Other names under which files hold a property of Light3D, in the order in which they are tried.
-struct GltfPropertyAlias {
-	std::string_view property;
-	std::string_view alias;
-	double factor; // property = alias times this
-};
-std::span<const GltfPropertyAlias> get_gltf_property_aliases();
 
 /// Where one light's values stand: the first place that has a value wins (DESIGN, scene files).
 struct GltfLightPlaces {
@@ -30,5 +21,12 @@ struct GltfLightPlaces {
 /// reported. A refused value is reported and its default stays.
 bool read_light(
 		const GltfLightPlaces &p_places, const GltfLoadOptions &p_options, Light3D &r_light);
+
+/// Writes what differs from p_before (all, when null) into a definition of KHR_lights_punctual. A
+/// property that was unset vanishes from p_nodes' extras too, else it would come back from there.
+/// r_area: a disc of EXT_lights_area that gets the light's size, as it outranks the extras; or
+/// null.
+void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
+		const std::vector<Json *> &p_nodes, Json *r_area);
 
 } // namespace gnomon

@@ -2,7 +2,6 @@
 
 #include "modules/core/error.h"
 #include "modules/core/limits.h"
-#include "modules/gltf_scene/gltf_light_writer.h"
 
 #include <algorithm>
 
@@ -14,11 +13,6 @@ const double MAX_EMISSIVE_CD_M2 = 1e9; // the sun's disc
 const char TRANSMISSION[] = "KHR_materials_transmission";
 const char VOLUME[] = "KHR_materials_volume";
 const char STRENGTH[] = "KHR_materials_emissive_strength";
-
-Json to_json(const glm::vec3 &p_vector) {
-	return Json::array(
-			{ to_json_number(p_vector.x), to_json_number(p_vector.y), to_json_number(p_vector.z) });
-}
 
 std::span<float, 3> to_span(glm::vec3 &r_color) {
 	return std::span<float, 3>(&r_color[0], 3);
@@ -70,20 +64,19 @@ float derive_scatter_distance(const Material &p_material) {
 }
 
 void read_extras(const GltfObject &p_material, Material &r_material) {
-	const Json *extras = p_material.find("extras");
-	if (!extras || !extras->is_object()) {
+	const std::optional<GltfObject> values = p_material.find_extras();
+	if (!values) {
 		return;
 	}
-	const GltfObject values = *p_material.find_object("extras");
-	r_material.scatter = static_cast<float>(values.read_number("scatter", 0, 0, 1));
-	r_material.scatter_distance_m = static_cast<float>(values.read_number(
+	r_material.scatter = static_cast<float>(values->read_number("scatter", 0, 0, 1));
+	r_material.scatter_distance_m = static_cast<float>(values->read_number(
 			"scatter_distance", derive_scatter_distance(r_material), 0, MAX_LENGTH_M, "m"));
-	if (values.find("shading_model")) {
-		const std::string name = values.get_text("shading_model");
+	if (values->find("shading_model")) {
+		const std::string name = values->get_text("shading_model");
 		if (name == get_shading_model_name(ShadingModel::PHONG)) {
 			r_material.shading_model = ShadingModel::PHONG;
 		} else if (name != get_shading_model_name(ShadingModel::METALLIC_ROUGHNESS)) {
-			values.report_value("shading_model", "metallic_roughness or phong",
+			values->report_value("shading_model", "metallic_roughness or phong",
 					get_shading_model_name(ShadingModel::METALLIC_ROUGHNESS));
 		}
 	}
@@ -94,14 +87,6 @@ void write_number(float p_value, float p_before, const char *p_key, Json &r_obje
 	if (p_value != p_before) {
 		r_object[p_key] = to_json_number(p_value);
 	}
-}
-
-Json &require_object(Json &r_parent, const char *p_key) {
-	Json &object = r_parent[p_key];
-	if (!object.is_object()) {
-		object = Json::object();
-	}
-	return object;
 }
 
 void write_surface(const Material &p_material, const Material &p_before, bool p_is_new,
@@ -203,13 +188,6 @@ void write_material(
 		if (p_material.shading_model != before.shading_model) {
 			extras["shading_model"] = get_shading_model_name(p_material.shading_model);
 		}
-	}
-}
-
-void declare_extension(Json &r_json, const std::string &p_name) {
-	Json &used = r_json["extensionsUsed"];
-	if (std::find(used.begin(), used.end(), p_name) == used.end()) {
-		used.push_back(p_name);
 	}
 }
 

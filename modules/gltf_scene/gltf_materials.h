@@ -15,7 +15,4 @@ Material read_material(const GltfObject &p_material, int p_index);
 void write_material(
 		const Material &p_material, const Material *p_before, Json &r_root, Json &r_material);
 
-/// Names an extension in `extensionsUsed`, once.
-void declare_extension(Json &r_json, const std::string &p_name);
-
 } // namespace gnomon

@@ -1,7 +1,6 @@
 #include "modules/gltf_scene/gltf_mesh_writer.h"
 
 #include "modules/core/files.h"
-#include "modules/gltf_scene/gltf_light_writer.h"
 #include "modules/gltf_scene/gltf_materials.h"
 
 #include <tiny_gltf.h>
@@ -11,11 +10,6 @@
 namespace gnomon {
 
 namespace {
-
-Json to_json(const glm::vec3 &p_vector) {
-	return Json::array(
-			{ to_json_number(p_vector.x), to_json_number(p_vector.y), to_json_number(p_vector.z) });
-}
 
 size_t append_element(Json &r_json, const char *p_list, Json p_element) {
 	Json &list = r_json[p_list];

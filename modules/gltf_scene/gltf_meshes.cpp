@@ -88,10 +88,7 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 	}
 	const GltfObject mesh = root.get_element("meshes", p_index);
 	const size_t primitive_count = mesh.get_count("primitives");
-	std::string name = to_one_line(mesh.get_text("name")); // cut: each primitive keeps it
-	if (name.empty()) {
-		name = text("Mesh ", p_index);
-	}
+	const std::string name = mesh.get_name(text("Mesh ", p_index)); // cut: each primitive keeps it
 	std::vector<MeshInstance3D::Surface> surfaces;
 	for (size_t index = 0; index < primitive_count; ++index) {
 		const GltfObject primitive = mesh.get_element("primitives", index);

@@ -1,6 +1,6 @@
 // What hangs on a node: its mesh, light and camera.
 #include "modules/core/error.h"
-#include "modules/gltf_scene/gltf_light_writer.h"
+#include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_materials.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
 
@@ -9,9 +9,6 @@
 namespace gnomon {
 
 namespace {
-
-const char PUNCTUAL[] = "KHR_lights_punctual";
-const char AREA[] = "EXT_lights_area";
 
 std::optional<PropertyValue> find_size(const PropertyValues &p_properties) {
 	const auto found = p_properties.find("light_size");
@@ -83,11 +80,11 @@ size_t GltfNodeWriter::place_definition(
 /// The area light of a node, as its own copy: other nodes may share the definition.
 Json *GltfNodeWriter::own_area_light(Json &r_node) {
 	const auto extensions = r_node.find("extensions");
-	if (extensions == r_node.end() || !extensions->contains(AREA)) {
+	if (extensions == r_node.end() || !extensions->contains(GLTF_AREA)) {
 		return nullptr;
 	}
-	Json &list = json["extensions"][AREA]["lights"];
-	Json &index = (*extensions)[AREA]["light"];
+	Json &list = json["extensions"][GLTF_AREA]["lights"];
+	Json &index = (*extensions)[GLTF_AREA]["light"];
 	Json copy = list[index.get<size_t>()];
 	if (copy.value("type", "") != "disk") {
 		return nullptr;
@@ -107,8 +104,8 @@ void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light
 	Json *area = nullptr;
 	if (before) {
 		Json &target = get_node(p_entry);
-		old_index = target["extensions"][PUNCTUAL]["light"].get<size_t>();
-		definition = document->container.json["extensions"][PUNCTUAL]["lights"][*old_index];
+		old_index = target["extensions"][GLTF_PUNCTUAL]["light"].get<size_t>();
+		definition = document->container.json["extensions"][GLTF_PUNCTUAL]["lights"][*old_index];
 		places.push_back(&target);
 		if (const auto owner = document->blender_owners.find(p_entry.index);
 				owner != document->blender_owners.end()) {
@@ -119,13 +116,13 @@ void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light
 		}
 	} else {
 		definition["name"] = p_light.name;
-		declare_extension(json, PUNCTUAL);
+		declare_extension(json, GLTF_PUNCTUAL);
 	}
 	write_light(p_light, before, definition, places, area);
 	const size_t index = place_definition(
-			json["extensions"][PUNCTUAL]["lights"], lights, old_index, std::move(definition));
+			json["extensions"][GLTF_PUNCTUAL]["lights"], lights, old_index, std::move(definition));
 	if (index != old_index) {
-		get_node(p_entry)["extensions"][PUNCTUAL]["light"] = index;
+		get_node(p_entry)["extensions"][GLTF_PUNCTUAL]["light"] = index;
 	}
 }
 

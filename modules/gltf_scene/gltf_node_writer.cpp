@@ -2,21 +2,12 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
-#include "modules/gltf_scene/gltf_light_writer.h"
-#include "modules/gltf_scene/gltf_transform_writer.h"
 #include "modules/gltf_scene/gltf_tree.h"
 
 #include <cmath>
 #include <typeinfo>
 
 namespace gnomon {
-
-namespace {
-
-const char PUNCTUAL[] = "KHR_lights_punctual";
-const char AREA[] = "EXT_lights_area";
-
-} // namespace
 
 void GltfNodeWriter::write(const Scene &p_scene) {
 	std::vector<size_t> roots;
@@ -144,8 +135,8 @@ void GltfNodeWriter::drop_lost_parts() {
 			node.erase("camera");
 		}
 		if (document->lights.contains(index) && !light_nodes.contains(index)) {
-			node["extensions"].erase(PUNCTUAL);
-			node["extensions"].erase(AREA);
+			node["extensions"].erase(GLTF_PUNCTUAL);
+			node["extensions"].erase(GLTF_AREA);
 		}
 	}
 }

@@ -1,7 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_document.h"
-#include "modules/gltf_scene/gltf_header.h"
 #include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_meshes.h"
 #include "modules/gltf_scene/gltf_scene.h"
@@ -16,12 +15,45 @@ namespace gnomon {
 
 namespace {
 
-const char PUNCTUAL[] = "KHR_lights_punctual";
-const char AREA[] = "EXT_lights_area";
 const double MAX_NEAR_M = 1e9;
 const double MAX_FOV_RAD = 3.14159;
 const double MIN_FOV_RAD = 1e-4; // narrower, and one pixel sees nothing
 const double MIN_NEAR_M = 1e-6;
+
+/// Extensions that change nothing that is read here, or are read.
+bool is_known_extension(std::string_view p_name) {
+	return p_name == GLTF_PUNCTUAL || p_name == GLTF_AREA || p_name.starts_with("KHR_materials_") ||
+			p_name == "KHR_texture_transform" || p_name == "KHR_mesh_quantization";
+}
+
+/// Fails on another version than 2.x and on a required extension that is neither read nor harmless;
+/// warns of what is not read.
+void check_header(const GltfObject &p_root) {
+	const GltfObject asset = p_root.require_object("asset");
+	const std::string version = asset.get_text("version");
+	if (!version.starts_with("2.")) {
+		asset.fail_value("version", "\"2.0\"");
+	}
+	if (asset.find("minVersion") && asset.get_text("minVersion") != "2.0") {
+		asset.fail_value("minVersion", "\"2.0\"");
+	}
+	const size_t required_count = p_root.get_count("extensionsRequired");
+	for (size_t index = 0; index < required_count; ++index) {
+		const Json &name = (*p_root.find("extensionsRequired"))[index];
+		if (!name.is_string() || !is_known_extension(name.get_ref<const std::string &>())) {
+			p_root.fail_at(text("extensionsRequired[", index, "]"),
+					text("is ", describe_json(name),
+							", which is not supported. Export the file without it."));
+		}
+	}
+	GltfMessages &messages = p_root.get_messages();
+	if (p_root.get_count("animations") > 0) {
+		messages.warn("animations", "animations", "are not read.");
+	}
+	if (p_root.get_count("skins") > 0) {
+		messages.warn("skins", "skins", "are not read.");
+	}
+}
 
 /// Gives every node of the scene its own name.
 class UniqueNames {
@@ -75,7 +107,7 @@ private:
 };
 
 void GltfReader::read(Scene &r_scene) {
-	check_gltf_header(root);
+	check_header(root);
 	const GltfTree tree = build_gltf_tree(root);
 	document.nodes.resize(tree.parents.size());
 	// A stack of our own visits children in order: those of a node are pushed last first.
@@ -110,14 +142,14 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 	const size_t scene_index = root.find_index("scene", scene_count).value_or(0);
 	document.scene_index = scene_index;
 	const GltfObject scene = root.get_element("scenes", scene_index);
-	if (const Json *extras = scene.find("extras"); extras && extras->is_object()) {
-		const GltfObject values = *scene.find_object("extras");
-		if (const Json *size = values.find("scene_size")) {
+	if (const std::optional<GltfObject> extras = scene.find_extras()) {
+		if (const Json *size = extras->find("scene_size")) {
 			const double size_m = size->is_number() ? size->get<double>() : 0.0;
 			if (size_m > 0 && std::isfinite(size_m)) {
 				r_scene.scene_size_m = size_m;
 			} else {
-				values.report_value("scene_size", "a finite number above 0 m", "the casters' size");
+				extras->report_value(
+						"scene_size", "a finite number above 0 m", "the casters' size");
 			}
 		}
 	}
@@ -160,10 +192,7 @@ Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_
 		parts.push_back(std::make_unique<Node3D>());
 		part_names.push_back(text("Node ", p_index));
 	}
-	const std::string own_name = to_one_line(node.get_text("name"));
-	if (!own_name.empty()) {
-		part_names[0] = own_name;
-	}
+	part_names[0] = node.get_name(part_names[0]);
 	parts[0]->parent_from_node = read_transform(node);
 	Node3D *first = nullptr;
 	for (size_t part = 0; part < parts.size(); ++part) {
@@ -196,27 +225,26 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(const GltfObject &p_node) {
 			document.kept_surfaces.push_back(instance->surfaces);
 		}
 	}
-	if (const Json *extras = p_node.find("extras"); extras && extras->is_object()) {
-		const GltfObject values = *p_node.find_object("extras");
-		instance->casts_shadow = values.read_bool("casts_shadow", true);
-		instance->is_planar_receiver = values.read_bool("shadow_planar_receiver", false);
+	if (const std::optional<GltfObject> extras = p_node.find_extras()) {
+		instance->casts_shadow = extras->read_bool("casts_shadow", true);
+		instance->is_planar_receiver = extras->read_bool("shadow_planar_receiver", false);
 	}
 	return instance;
 }
 
 std::optional<GltfObject> GltfReader::find_area_light(const GltfObject &p_node) const {
-	const std::optional<GltfObject> reference = p_node.find_extension(AREA);
+	const std::optional<GltfObject> reference = p_node.find_extension(GLTF_AREA);
 	if (!reference) {
 		return std::nullopt;
 	}
-	const std::optional<GltfObject> area = root.find_extension(AREA);
+	const std::optional<GltfObject> area = root.find_extension(GLTF_AREA);
 	const size_t count = area ? area->get_count("lights") : 0;
 	return area->get_element("lights", reference->require_index("light", count));
 }
 
 std::unique_ptr<Light3D> GltfReader::read_light_node(
 		size_t p_index, const GltfObject &p_node, const GltfTree &p_tree, std::string &r_name) {
-	const std::optional<GltfObject> reference = p_node.find_extension(PUNCTUAL);
+	const std::optional<GltfObject> reference = p_node.find_extension(GLTF_PUNCTUAL);
 	const std::optional<GltfObject> area = find_area_light(p_node);
 	if (!reference) {
 		if (area) {
@@ -226,7 +254,7 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 		}
 		return nullptr;
 	}
-	const std::optional<GltfObject> punctual = root.find_extension(PUNCTUAL);
+	const std::optional<GltfObject> punctual = root.find_extension(GLTF_PUNCTUAL);
 	const size_t count = punctual ? punctual->get_count("lights") : 0;
 	const size_t light_index = reference->require_index("light", count);
 	GltfLightPlaces places{ light_index, punctual->get_element("lights", light_index), area,
@@ -248,8 +276,7 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 				text("make more than ", GLTF_MAX_LIGHT_VALUE_COUNT,
 						" values in all nodes with lights. Shorten them, or split the scene."));
 	}
-	r_name = to_one_line(places.light.get_text("name"));
-	r_name = r_name.empty() ? text("Light ", light_index) : r_name;
+	r_name = places.light.get_name(text("Light ", light_index));
 	return light;
 }
 
@@ -271,8 +298,7 @@ std::unique_ptr<Camera3D> GltfReader::read_camera_node(
 			"yfov", node->vertical_fov_rad, MIN_FOV_RAD, MAX_FOV_RAD, "rad"));
 	node->near_m = static_cast<float>(
 			perspective->read_number("znear", node->near_m, MIN_NEAR_M, MAX_NEAR_M, "m"));
-	r_name = to_one_line(camera.get_text("name"));
-	r_name = r_name.empty() ? text("Camera ", *index) : r_name;
+	r_name = camera.get_name(text("Camera ", *index));
 	return node;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_json.h"
+#include "modules/scene/nodes.h"
 
 #include <glm/glm.hpp>
 
@@ -24,6 +25,10 @@ GltfTree build_gltf_tree(const GltfObject &p_root);
 
 /// A node's matrix, or its translation, rotation and scale. Not finite: fails.
 glm::dmat4 read_transform(const GltfObject &p_node);
+
+/// Writes a node's changed transform. Translation, rotation and scale are kept apart where they can
+/// say it (animations and people need them), else it becomes a matrix. Not finite: an Error.
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, Json &r_json);
 
 constexpr char BLENDER_ORIENTATION[] = "_Orientation";
 

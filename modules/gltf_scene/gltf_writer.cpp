@@ -1,7 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_document.h"
-#include "modules/gltf_scene/gltf_light_writer.h"
 #include "modules/gltf_scene/gltf_mesh_writer.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
 #include "modules/gltf_scene/gltf_scene.h"
