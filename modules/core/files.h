@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,18 @@ std::string load_text_file(
 /// the next one that saves there). An unwritable folder or a full disk is an Error naming the path.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
+
+/// How the files end that save_file_atomically has not renamed yet. They lie beside the target, and
+/// are locked as long as their writer lives: what a killed process left is removed by the next one
+/// that saves into the folder.
+inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";
+
+/// Removes the unfinished files in the folder that no living process writes.
+void remove_left_over_files(const std::filesystem::path &p_folder);
+
+/// Test hook: called after each step of each save, so that a test can end the process there. An
+/// empty function ends that. Returns the hook before.
+std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 
 /// True when the path, with `..` and links resolved, lies in the folder or below it.
 bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);

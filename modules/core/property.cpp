@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <type_traits>
 
 namespace gnomon {
 
@@ -249,19 +248,9 @@ bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::s
 	return std::get<bool>(get_property(p_list, p_values, p_name));
 }
 
-int64_t get_int(
-		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
-	return std::get<int64_t>(get_property(p_list, p_values, p_name));
-}
-
 double get_float(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
 	return std::get<double>(get_property(p_list, p_values, p_name));
-}
-
-const std::string &get_string(
-		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name) {
-	return std::get<std::string>(get_property(p_list, p_values, p_name));
 }
 
 } // namespace gnomon

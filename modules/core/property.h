@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -84,6 +85,18 @@ PropertyValue parse_property(
 		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object);
 /// As parse_property reads it.
 std::string format_property(const PropertyValue &p_value);
+/// A property's value as JSON: a vector is a list of three numbers.
+template <typename Json> Json property_to_json(const PropertyValue &p_value) {
+	return std::visit(
+			[](const auto &p_held) {
+				if constexpr (std::is_same_v<std::decay_t<decltype(p_held)>, glm::dvec3>) {
+					return Json::array({ p_held.x, p_held.y, p_held.z });
+				} else {
+					return Json(p_held);
+				}
+			},
+			p_value);
+}
 /// The allowed values in words: "1..3", "-1 or 0..10000 m", "hard, 2x2 or 3x3", "true or false".
 std::string describe_range(const PropertyInfo &p_info);
 
@@ -101,11 +114,7 @@ PropertyRange get_range(const PropertyInfo &p_info);
 const PropertyValue &get_property(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
-int64_t get_int(
-		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 double get_float(
-		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
-const std::string &get_string(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 
 } // namespace gnomon

@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
-#include "modules/core/project_scene.h"
+#include "modules/core/project.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/scene/node_properties.h"
 #include "modules/scene/scene_snapshot.h"

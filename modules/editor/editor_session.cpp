@@ -1,7 +1,7 @@
 #include "modules/editor/editor_session.h"
 
 #include "modules/core/error.h"
-#include "modules/core/project_scene.h"
+#include "modules/core/project.h"
 #include "modules/core/text.h"
 #include "modules/scene/node_properties.h"
 

@@ -1,7 +1,7 @@
 #include "modules/gltf_scene/gltf_lights.h"
 
 #include "modules/core/error.h"
-#include "modules/core/property_json.h"
+#include "modules/core/property.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/module_registry.h"
-#include "modules/core/property_json.h"
+#include "modules/core/property.h"
 #include "modules/main/commands.h"
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/shadow_registry.h"

@@ -2,7 +2,6 @@
 #include "modules/core/limits.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
-#include "modules/core/project_scene.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
 #include "modules/scene/light_setting.h"

@@ -22,7 +22,7 @@ SEED = 20100901
 TIMEOUT_S = 180
 LONGEST_DELAY_S = 1.5  # about as long as the programs run
 REPORT = ("--scenes", "contact_box,sphere", "--sizes", "0.2,0.8", *QUICK)
-UNFINISHED = ".*.gnomon_part"  # see modules/core/atomic_save.h
+UNFINISHED = ".*.gnomon_part"  # see modules/core/files.h
 
 
 def get_kill_count(default, divisor=1):

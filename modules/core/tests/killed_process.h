@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/core/atomic_save.h"
+#include "modules/core/files.h"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

@@ -1,4 +1,3 @@
-#include "modules/core/atomic_save.h"
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/log.h"

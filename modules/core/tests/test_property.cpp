@@ -61,7 +61,7 @@ TEST_CASE("[Property] what was not set has its default") {
 	PropertyValues values;
 	CHECK(get_float(list, values, "penumbra_outer_width") == -1.0);
 	values["layers"] = int64_t(1);
-	CHECK(get_int(list, values, "layers") == 1);
+	CHECK(std::get<int64_t>(get_property(list, values, "layers")) == 1);
 }
 
 TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
