@@ -64,19 +64,8 @@ glm::dvec3 sum_visible(const CasterScene &p_scene, const DiscView &p_view,
 		alignas(32) int valid[DiscSamples::PACKET_SIZE];
 		for (uint32_t i = 0; i < DiscSamples::PACKET_SIZE; ++i) {
 			valid[i] = i < lane_count ? -1 : 0;
-			rays.org_x[i] = p_view.origin.x;
-			rays.org_y[i] = p_view.origin.y;
-			rays.org_z[i] = p_view.origin.z;
-			const glm::vec3 ray = p_view.compute_ray(packet.x[i], packet.y[i]);
-			rays.dir_x[i] = ray.x;
-			rays.dir_y[i] = ray.y;
-			rays.dir_z[i] = ray.z;
-			rays.tnear[i] = 0.0f;
-			rays.tfar[i] = p_view.end;
-			rays.time[i] = 0.0f;
-			rays.mask[i] = 0xffffffffu;
-			rays.id[i] = 0;
-			rays.flags[i] = 0;
+			set_ray(rays, i, p_view.origin, p_view.compute_ray(packet.x[i], packet.y[i]),
+					p_view.end);
 		}
 		glm::vec3 left[DiscSamples::PACKET_SIZE];
 		p_scene.trace(valid, rays, left);
@@ -139,9 +128,8 @@ float compute_half_error(const glm::dvec3 &p_first_sum, double p_first_count,
 /// began on the body, which is far smaller than the spread.
 uint64_t trace_spread_pixel(Job &r_job, uint32_t p_pixel, float p_offset_m, uint64_t p_hash) {
 	const ReceiverPoint &point = r_job.points[p_pixel];
-	const SpreadMean mean = r_job.options.spread->compute(r_job.scene, r_job.light,
-			{ point.position, point.geometric_normal, point.spread_radius_m }, p_offset_m,
-			r_job.spread_sample_count, p_hash);
+	const SpreadMean mean = r_job.options.spread->compute(
+			r_job.scene, r_job.light, point, p_offset_m, r_job.spread_sample_count, p_hash);
 	const double count = mean.counts[0] + mean.counts[1];
 	if (count > 0) {
 		store_visibility(r_job, p_pixel, mean.compute_mean());

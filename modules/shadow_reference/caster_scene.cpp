@@ -10,6 +10,18 @@ constexpr uint32_t LANE_COUNT = 8;
 
 } // namespace
 
+void set_ray(RTCRay8 &r_rays, uint32_t p_lane, const glm::vec3 &p_origin, const glm::vec3 &p_ray,
+		float p_end) {
+	r_rays.org_x[p_lane] = p_origin.x;
+	r_rays.org_y[p_lane] = p_origin.y;
+	r_rays.org_z[p_lane] = p_origin.z;
+	r_rays.dir_x[p_lane] = p_ray.x;
+	r_rays.dir_y[p_lane] = p_ray.y;
+	r_rays.dir_z[p_lane] = p_ray.z;
+	r_rays.tfar[p_lane] = p_end;
+	r_rays.mask[p_lane] = 0xffffffffu;
+}
+
 CasterScene::CasterScene(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices,
 		std::span<const TranslucentTriangles> p_translucent) :
@@ -56,14 +68,7 @@ glm::vec3 CasterScene::trace(const glm::vec3 &p_origin, const glm::vec3 &p_ray, 
 		return glm::vec3(opaque.is_occluded(p_origin, p_ray, p_end) ? 0.0f : 1.0f);
 	}
 	alignas(32) RTCRay8 rays = {};
-	rays.org_x[0] = p_origin.x;
-	rays.org_y[0] = p_origin.y;
-	rays.org_z[0] = p_origin.z;
-	rays.dir_x[0] = p_ray.x;
-	rays.dir_y[0] = p_ray.y;
-	rays.dir_z[0] = p_ray.z;
-	rays.tfar[0] = p_end;
-	rays.mask[0] = 0xffffffffu;
+	set_ray(rays, 0, p_origin, p_ray, p_end);
 	alignas(32) const int valid[LANE_COUNT] = { -1 };
 	glm::vec3 left[LANE_COUNT];
 	trace(valid, rays, left);

@@ -15,6 +15,10 @@ struct TranslucentTriangles {
 	glm::vec3 transmittance = glm::vec3(0.0f); // 0..1
 };
 
+/// Sets one ray of eight whose other fields are 0.
+void set_ray(RTCRay8 &r_rays, uint32_t p_lane, const glm::vec3 &p_origin, const glm::vec3 &p_ray,
+		float p_end);
+
 /// All that hides a light.
 class CasterScene {
 public:

@@ -78,9 +78,7 @@ DiscSamples::DiscSamples(uint32_t p_count, uint64_t p_seed) : count(p_count) {
 		const uint32_t v = scramble_nested(compute_sobol_2(i), seed_v);
 		points[i] = { spread_bits(u) | (spread_bits(v) << 1), u, v };
 	}
-	std::sort(points.begin(), points.end(), [](const Point &p_left, const Point &p_right) {
-		return p_left.morton < p_right.morton;
-	});
+	std::ranges::sort(points, {}, &Point::morton);
 	const size_t padded = static_cast<size_t>(get_packet_count()) * PACKET_SIZE;
 	for (size_t i = 0; i < padded; ++i) {
 		const Point &point = points[std::min<size_t>(i, count - 1)];

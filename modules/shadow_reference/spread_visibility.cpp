@@ -47,12 +47,12 @@ SpreadVisibility::SpreadVisibility(
 
 /// The body on which the receiver lies; null: none is as near.
 const EmbreeScene *SpreadVisibility::find_body(
-		const SpreadReceiver &p_receiver, float p_reach_m) const {
+		const ReceiverPoint &p_receiver, float p_reach_m) const {
 	const EmbreeScene *nearest = nullptr;
 	float nearest_m = 2.0f * p_reach_m;
-	const glm::vec3 start = p_receiver.position + p_reach_m * p_receiver.normal;
+	const glm::vec3 start = p_receiver.position + p_reach_m * p_receiver.geometric_normal;
 	for (const EmbreeScene &body : bodies) {
-		const SurfaceHit hit = body.find_nearest(start, -p_receiver.normal, nearest_m);
+		const SurfaceHit hit = body.find_nearest(start, -p_receiver.geometric_normal, nearest_m);
 		if (hit.is_there) {
 			nearest_m = hit.distance;
 			nearest = &body;
@@ -62,10 +62,10 @@ const EmbreeScene *SpreadVisibility::find_body(
 }
 
 std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const EmbreeScene &p_body,
-		const SpreadReceiver &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m) {
+		const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m) {
 	// Both ways begin a little before the plane, so that a flat body is not missed.
-	const glm::vec3 up = p_receiver.normal;
-	const float reach_m = p_receiver.radius_m + p_offset_m;
+	const glm::vec3 up = p_receiver.geometric_normal;
+	const float reach_m = p_receiver.spread_radius_m + p_offset_m;
 	const SurfaceHit below = p_body.find_nearest(p_on_plane + p_offset_m * up, -up, reach_m);
 	const SurfaceHit above = p_body.find_nearest(
 			p_on_plane - p_offset_m * up, up, below.is_there ? below.distance : reach_m);
@@ -79,22 +79,23 @@ std::optional<SpreadVisibility::Point> SpreadVisibility::find_point(const Embree
 }
 
 SpreadMean SpreadVisibility::compute(const CasterScene &p_casters, const AreaLight &p_light,
-		const SpreadReceiver &p_receiver, float p_offset_m, uint32_t p_sample_count,
+		const ReceiverPoint &p_receiver, float p_offset_m, uint32_t p_sample_count,
 		uint64_t p_hash) const {
 	SpreadMean mean;
 	const EmbreeScene *body = find_body(p_receiver, BODY_REACH * p_offset_m);
 	glm::vec3 axis_x;
 	glm::vec3 axis_y;
-	find_basis(p_receiver.normal, axis_x, axis_y);
+	find_basis(p_receiver.geometric_normal, axis_x, axis_y);
 	for (uint32_t half = 0; half < 2; ++half) {
 		EvenPoints points(mix_bits(p_hash ^ (half + 1)));
 		for (uint32_t i = half; i < p_sample_count; i += 2) {
 			points.step();
-			const float distance_m = p_receiver.radius_m * spread.compute_distance(points.get(0));
+			const float distance_m =
+					p_receiver.spread_radius_m * spread.compute_distance(points.get(0));
 			const float angle_rad = TWO_PI * points.get(1);
 			const glm::vec3 on_plane = p_receiver.position +
 					distance_m * (std::cos(angle_rad) * axis_x + std::sin(angle_rad) * axis_y);
-			std::optional<Point> point = Point{ on_plane, p_receiver.normal };
+			std::optional<Point> point = Point{ on_plane, p_receiver.geometric_normal };
 			if (body != nullptr) {
 				point = find_point(*body, p_receiver, on_plane, p_offset_m);
 			}

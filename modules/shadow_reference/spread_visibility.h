@@ -11,13 +11,6 @@
 
 namespace gnomon {
 
-/// A receiver from which light leaves that entered about it.
-struct SpreadReceiver {
-	glm::vec3 position = glm::vec3(0.0f);
-	glm::vec3 normal = glm::vec3(0.0f); // unit
-	float radius_m = 0.0f;				// above 0, see SurfaceSpread
-};
-
 /// Means over rays of one receiver, in two halves that were drawn independently.
 struct SpreadMean {
 	glm::dvec3 visible_counts[2] = { glm::dvec3(0.0), glm::dvec3(0.0) }; // one for each colour
@@ -38,10 +31,11 @@ public:
 	/// p_spread must outlive it.
 	SpreadVisibility(std::span<const Triangles> p_bodies, const SurfaceSpread &p_spread);
 
-	/// p_sample_count rays in all; p_offset_m: how far they start off the surface. May be called
-	/// from several threads.
+	/// p_receiver: with a unit normal and a spread radius above 0, from which light leaves that
+	/// entered about it. p_sample_count rays in all; p_offset_m: how far they start off the
+	/// surface. May be called from several threads.
 	SpreadMean compute(const CasterScene &p_casters, const AreaLight &p_light,
-			const SpreadReceiver &p_receiver, float p_offset_m, uint32_t p_sample_count,
+			const ReceiverPoint &p_receiver, float p_offset_m, uint32_t p_sample_count,
 			uint64_t p_hash) const;
 
 private:
@@ -49,9 +43,9 @@ private:
 		glm::vec3 position;
 		glm::vec3 normal;
 	};
-	const EmbreeScene *find_body(const SpreadReceiver &p_receiver, float p_reach_m) const;
+	const EmbreeScene *find_body(const ReceiverPoint &p_receiver, float p_reach_m) const;
 	static std::optional<Point> find_point(const EmbreeScene &p_body,
-			const SpreadReceiver &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m);
+			const ReceiverPoint &p_receiver, const glm::vec3 &p_on_plane, float p_offset_m);
 
 	std::vector<EmbreeScene> bodies;
 	const SurfaceSpread &spread;

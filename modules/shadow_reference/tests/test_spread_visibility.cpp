@@ -43,8 +43,8 @@ SpreadMean trace(const Triangles &p_body, const Triangles &p_casters, const glm:
 	const CasterScene casters(p_casters.positions, p_casters.indices, {});
 	const Triangles bodies[] = { p_body };
 	return SpreadVisibility(bodies, EVEN)
-			.compute(casters, p_light, { p_position, glm::vec3(0, 1, 0), p_radius_m }, OFFSET_M,
-					16384, 7);
+			.compute(casters, p_light, { p_position, glm::vec3(0, 1, 0), true, p_radius_m },
+					OFFSET_M, 16384, 7);
 }
 
 double count_rays(const SpreadMean &p_mean) {
@@ -121,7 +121,7 @@ TEST_CASE("[SpreadVisibility] of several bodies the one counts on which the rece
 	const Triangles bodies[] = { far_body, near_body };
 	const SpreadMean mean =
 			SpreadVisibility(bodies, EVEN)
-					.compute(casters, make_sun(), { glm::vec3(0), glm::vec3(0, 1, 0), 1.0f },
+					.compute(casters, make_sun(), { glm::vec3(0), glm::vec3(0, 1, 0), true, 1.0f },
 							OFFSET_M, 1024, 7);
 	CHECK(mean.compute_mean().x == 1);
 }
