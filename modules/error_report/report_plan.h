@@ -39,7 +39,7 @@ struct ReportOptions {
 	std::vector<LightType> light_types;
 	glm::uvec2 size_px = glm::uvec2(256u);
 	uint32_t sample_count = 1024; // of the truth
-	double precision_percent = 5; // see Report
+	double precision_percent = 5; // see Report; a third of what a comparison calls a change
 	uint64_t filter_hash = 0;	  // see MaskQuestion
 	ReportExtent scaling = ReportExtent::QUICK;
 	ReportExtent stability = ReportExtent::QUICK; // NONE where no module adds the sweeps

@@ -11,7 +11,6 @@
 #include "modules/error_report/report_ranking.h"
 #include "modules/error_report/run_report.h"
 #include "modules/main/commands.h"
-#include "modules/main/optional_parts.h"
 #include "modules/main/rendered_masks.h"
 #include "modules/main/report_arguments.h"
 
@@ -161,7 +160,7 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	save_plan(out, plan.report);
 	log_info("Report: ", plan.report.configurations.size(), " configurations, ",
 			plan.report.cells.size(), " cells.");
-	RenderedMasks source(*device, p_arguments.precision_percent / 100);
+	RenderedMasks source(*device, options.precision_percent / 100);
 	const Report report = run_report(plan, source, store, run_options);
 	const bool is_part = run_options.shard_count > 1;
 	// Other shards may have measured into the same folder.
@@ -192,17 +191,18 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 			->delimiter(',')
 			->default_val(std::vector<std::string>{ "own" });
 	command->add_option("--size", arguments.size, "Of the picture; default 256x256");
-	command->add_option(
-				   "--samples", arguments.sample_count, "Of the truth, per pixel; default 1024")
+	command->add_option("--samples", arguments.options.sample_count,
+				   "Of the truth, per pixel; default 1024")
 			->check(CLI::Range(1u, 65536u));
 	command->add_option("--scaling", arguments.scaling, "Curves of cost: none, quick or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
 	command->add_option("--stability", arguments.stability,
 				   "Sweeps into stiff and extreme cases: none, quick or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
-	command->add_option("--sweeps", arguments.sweeps, "A,B: of stability, these sweeps only")
+	command->add_option(
+				   "--sweeps", arguments.options.sweeps, "A,B: of stability, these sweeps only")
 			->delimiter(',');
-	command->add_option("--precision", arguments.precision_percent,
+	command->add_option("--precision", arguments.options.precision_percent,
 				   "Percent: a cell may end before 20 frames once its median is known so well; 0 = "
 				   "never")
 			->check(CLI::Range(0.0, 100.0));

@@ -1,4 +1,5 @@
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/core/limits.h"
 #include "modules/core/log.h"
 #include "modules/core/project.h"
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <fstream>
 
 namespace gnomon {
 
@@ -138,11 +140,11 @@ void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_
 			parse_property(*info, setting.value, text("Light \"", p_light->name, "\""));
 }
 
-std::unique_ptr<RenderingDevice> create_device(const CommonOptions &p_common) {
-	DeviceOptions options;
-	options.device = p_common.device;
-	options.validation = p_common.validation;
-	return create_rendering_device(options);
+std::unique_ptr<RenderingDevice> create_device(
+		const CommonOptions &p_common, DeviceOptions p_options) {
+	p_options.device = p_common.device;
+	p_options.validation = p_common.validation;
+	return create_rendering_device(p_options);
 }
 
 void check_writable(const fs::path &p_path) {
@@ -154,6 +156,22 @@ void check_writable(const fs::path &p_path) {
 				": its folder must exist and be writable, and it must not be ",
 				"a folder itself. Choose another place.");
 	}
+}
+
+std::string find_cpu_name() {
+	std::ifstream stream("/proc/cpuinfo");
+	for (std::string line; std::getline(stream, line);) {
+		const size_t colon = line.find(": ");
+		if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
+			return line.substr(colon + 2);
+		}
+	}
+	return "unknown";
+}
+
+std::string describe_program() {
+	return std::string(PROGRAM_VERSION) + " " +
+			format_hash(compute_hash(load_file("/proc/self/exe")));
 }
 
 } // namespace gnomon

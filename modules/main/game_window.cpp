@@ -3,7 +3,6 @@
 #include "modules/core/log.h"
 #include "modules/desktop/window.h"
 #include "modules/main/fly_camera.h"
-#include "modules/main/optional_parts.h"
 #include "modules/main/overlay_text.h"
 #include "modules/main/run_part.h"
 #include "modules/shadows/shadow_registry.h"
@@ -127,11 +126,9 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	const Camera3D &start = choose_camera(r_scene, p_options.camera);
 	Window window("Gnomon", r_size_px, "Use --headless (with --capture FILE), or set DISPLAY.");
 	DeviceOptions device_options;
-	device_options.device = p_common.device;
-	device_options.validation = p_common.validation;
 	device_options.needs_surface = true;
 	device_options.instance_extensions = Window::get_instance_extensions();
-	const std::unique_ptr<RenderingDevice> device = create_rendering_device(device_options);
+	const std::unique_ptr<RenderingDevice> device = create_device(p_common, device_options);
 	const std::unique_ptr<Swapchain> swapchain = window.create_swapchain(*device);
 	Renderer renderer(*device);
 

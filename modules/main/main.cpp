@@ -56,11 +56,9 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 /// As --help lists them.
 std::vector<CommandInfo> list_commands() {
 	std::vector<CommandInfo> commands = CommandRegistry::get_all();
-	std::sort(commands.begin(), commands.end(),
-			[](const CommandInfo &p_first, const CommandInfo &p_second) {
-				return std::tie(p_first.help_order, p_first.id) <
-						std::tie(p_second.help_order, p_second.id);
-			});
+	std::ranges::sort(commands, {}, [](const CommandInfo &p_command) {
+		return std::tie(p_command.help_order, p_command.id);
+	});
 	return commands;
 }
 

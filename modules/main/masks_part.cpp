@@ -3,7 +3,6 @@
 #include "modules/core/command_registry.h"
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
-#include "modules/main/optional_parts.h"
 #include "modules/main/run_part.h"
 #include "modules/masks/mask_image.h"
 

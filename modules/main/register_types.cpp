@@ -2,7 +2,6 @@
 
 #include "modules/core/command_registry.h"
 #include "modules/main/commands.h"
-#include "modules/main/optional_parts.h"
 
 namespace gnomon {
 

@@ -178,7 +178,7 @@ std::vector<std::string> list_ids() {
 }
 
 bool contains(const std::vector<std::string> &p_ids, const std::string &p_id) {
-	return std::find(p_ids.begin(), p_ids.end(), p_id) != p_ids.end();
+	return std::ranges::find(p_ids, p_id) != p_ids.end();
 }
 
 TechniqueSource make_source(const ShadowTechniqueInfo &p_info) {

@@ -54,7 +54,7 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 	const ReportPart *part = ReportPartRegistry::find_part(STABILITY_GROUP);
 	if (part == nullptr) {
 		const bool is_requested = p_arguments.stability && extent != "none";
-		if (is_requested || !p_arguments.sweeps.empty()) {
+		if (is_requested || !r_options.sweeps.empty()) {
 			throw UsageError(text("`gnomon report ", is_requested ? "--stability" : "--sweeps",
 					"` needs the module stability_report, which this build lacks. Build with ",
 					"module_stability_report_enabled=yes."));
@@ -63,8 +63,7 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 		return;
 	}
 	r_options.stability = parse_extent(extent);
-	check_known("--sweeps", p_arguments.sweeps, part->list_sweeps());
-	r_options.sweeps = p_arguments.sweeps;
+	check_known("--sweeps", r_options.sweeps, part->list_sweeps());
 }
 
 } // namespace
@@ -76,7 +75,7 @@ void check_known(const char *p_option, const std::vector<std::string> &p_wanted,
 		names += (names.empty() ? "" : ", ") + name;
 	}
 	for (const std::string &name : p_wanted) {
-		if (std::find(p_known.begin(), p_known.end(), name) == p_known.end()) {
+		if (std::ranges::find(p_known, name) == p_known.end()) {
 			throw UsageError(
 					text(p_option, ": there is no \"", name, "\", must be of ", names, "."));
 		}
@@ -104,7 +103,7 @@ ReportRunOptions parse_run_options(const ReportArguments &p_arguments) {
 
 ReportOptions make_report_options(
 		const ReportArguments &p_arguments, const std::string &p_project) {
-	ReportOptions options;
+	ReportOptions options = p_arguments.options;
 	options.project = p_project;
 	options.program = describe_program();
 	options.filter_hash = compute_filter_hash();
@@ -128,8 +127,6 @@ ReportOptions make_report_options(
 		}
 	}
 	options.size_px = parse_size(p_arguments.size);
-	options.sample_count = p_arguments.sample_count;
-	options.precision_percent = p_arguments.precision_percent;
 	options.scaling = parse_extent(p_arguments.scaling);
 	read_stability_options(p_arguments, options);
 	return options;

@@ -18,11 +18,9 @@ struct ReportArguments {
 	std::vector<double> sizes_m;
 	std::vector<std::string> light_types;
 	std::string size = "256x256";
-	uint32_t sample_count = 1024;
 	std::string scaling = "quick";
 	std::optional<std::string> stability; // absent: "quick" where a module adds the sweeps
-	std::vector<std::string> sweeps;
-	double precision_percent = 5; // a third of what --against calls a change
+	ReportOptions options;				  // those that are taken as they are
 	std::string out;
 	bool resumes = false;
 	std::string against;
