@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <type_traits>
 
 namespace gnomon {
 
@@ -296,7 +297,7 @@ void read_cell_result(const Json &p_json, Report &r_report, ReportCell &r_cell) 
 	const ReportMachine machine = read_cell_machine(p_json);
 	read_result(p_json, r_cell);
 	auto &machines = r_report.machines;
-	const auto found = std::find(machines.begin(), machines.end(), machine);
+	const auto found = std::ranges::find(machines, machine);
 	r_cell.machine_index = static_cast<size_t>(found - machines.begin());
 	if (found == machines.end()) {
 		machines.push_back(machine);

@@ -55,11 +55,6 @@ std::string escape_html(const std::string &p_text) {
 	return replace_all(replace_all(replace_all(p_text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;");
 }
 
-/// JSON as it may stand inside a script element.
-std::string escape_script(const std::string &p_json) {
-	return replace_all(p_json, "<", "\\u003c");
-}
-
 /// The contents of the embedded files of that folder and ending, in the order of their names.
 std::string join_files(std::string_view p_folder, std::string_view p_ending) {
 	std::string joined;
@@ -136,8 +131,8 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	replace_marker("{{STYLE}}", join_files("", ".css"), page);
 	replace_marker("{{LIBRARIES}}", join_files("third_party", ".js"), page);
 	replace_marker("{{SCRIPT}}", join_files("", ".js"), page);
-	replace_marker("{{DATA}}",
-			escape_script(data.dump(-1, ' ', false, Json::error_handler_t::replace)), page);
+	const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+	replace_marker("{{DATA}}", replace_all(json, "<", "\\u003c"), page); // it lies in a script
 	return page;
 }
 

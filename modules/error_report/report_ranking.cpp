@@ -83,10 +83,7 @@ std::vector<RankingRow> summarize_all(const Report &p_report,
 	for (const auto &[key, cells] : p_lists) {
 		rows.push_back(summarize(p_report, key.first, key.second, cells));
 	}
-	std::stable_sort(
-			rows.begin(), rows.end(), [](const RankingRow &p_first, const RankingRow &p_second) {
-				return p_first.penumbra_mae < p_second.penumbra_mae;
-			});
+	std::ranges::stable_sort(rows, {}, &RankingRow::penumbra_mae);
 	return rows;
 }
 
@@ -126,11 +123,9 @@ std::vector<RankingRow> rank_best_settings(const Report &p_report) {
 std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration) {
 	std::vector<size_t> cells = p_report.find_cells(p_configuration);
 	std::erase_if(cells, [&](size_t p_index) { return !is_comparable(p_report.cells[p_index]); });
-	std::sort(cells.begin(), cells.end(), [&](size_t p_first, size_t p_second) {
-		const ReportCell &first = p_report.cells[p_first];
-		const ReportCell &second = p_report.cells[p_second];
-		return std::tuple(first.time.cost_ms, get_mae(first), p_first) <
-				std::tuple(second.time.cost_ms, get_mae(second), p_second);
+	std::ranges::sort(cells, {}, [&](size_t p_index) {
+		const ReportCell &cell = p_report.cells[p_index];
+		return std::tuple(cell.time.cost_ms, get_mae(cell), p_index);
 	});
 	std::vector<size_t> front;
 	for (const size_t index : cells) {

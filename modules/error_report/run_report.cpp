@@ -112,39 +112,32 @@ private:
 
 	/// Those of other shards stay, also where one question belongs to both.
 	void remove_own_records() {
-		std::set<std::string> kept;
-		const auto visit = [&](auto p_function) {
-			for (size_t index = 0; index < report.configurations.size(); ++index) {
-				p_function(is_mine(index), report.configurations[index].record);
+		std::set<std::string> own;
+		std::set<std::string> others;
+		for (size_t index = 0; index < report.configurations.size(); ++index) {
+			(is_mine(index) ? own : others).insert(report.configurations[index].record);
+		}
+		for (const ReportCell &cell : report.cells) {
+			(is_mine(cell.configuration_index) ? own : others).insert(cell.record);
+		}
+		for (const std::string &record : own) {
+			if (others.count(record) == 0) {
+				store.remove(record);
 			}
-			for (const ReportCell &cell : report.cells) {
-				p_function(is_mine(cell.configuration_index), cell.record);
-			}
-		};
-		visit([&](bool p_is_mine, const std::string &p_record) {
-			if (!p_is_mine) {
-				kept.insert(p_record);
-			}
-		});
-		visit([&](bool p_is_mine, const std::string &p_record) {
-			if (p_is_mine && kept.count(p_record) == 0) {
-				store.remove(p_record);
-			}
-		});
+		}
 	}
 
 	/// What made it fail may have gone away.
 	void retry_failures() {
-		for (size_t index = 0; index < report.configurations.size(); ++index) {
-			if (report.configurations[index].status == ReportStatus::FAILED) {
-				report.configurations[index] = plan.report.configurations[index];
+		const auto retry = [](auto &r_items, const auto &p_planned) {
+			for (size_t index = 0; index < r_items.size(); ++index) {
+				if (r_items[index].status == ReportStatus::FAILED) {
+					r_items[index] = p_planned[index];
+				}
 			}
-		}
-		for (size_t index = 0; index < report.cells.size(); ++index) {
-			if (report.cells[index].status == ReportStatus::FAILED) {
-				report.cells[index] = plan.report.cells[index];
-			}
-		}
+		};
+		retry(report.configurations, plan.report.configurations);
+		retry(report.cells, plan.report.cells);
 	}
 
 	void run_configuration(size_t p_index) {

@@ -86,22 +86,20 @@ void add_lights(Node3D &r_root, const ScalingScene &p_description) {
 	}
 }
 
-const std::vector<ScalingSeries> QUICK_SERIES = { { TRIANGLES_GROUP, { 2000, 30000, 120000 } },
-	{ LIGHT_SIZE_GROUP, { 0.08, 0.4, 1.2 } }, { LIGHTS_GROUP, { 1, 3, 8 } },
-	{ RESOLUTION_GROUP, { 128, 256, 512 } } };
-const std::vector<ScalingSeries> FULL_SERIES = {
-	{ TRIANGLES_GROUP, { 2000, 8000, 30000, 120000, 500000, 1000000 } },
-	{ LIGHT_SIZE_GROUP, { 0.02, 0.08, 0.4, 1.2, 2.4 } }, { LIGHTS_GROUP, { 1, 4, 16, 64 } },
-	{ RESOLUTION_GROUP, { 128, 256, 512, 1024, 2048 } }
+/// By extent.
+const std::vector<ScalingSeries> SERIES[] = {
+	{},
+	{ { TRIANGLES_GROUP, { 2000, 30000, 120000 } }, { LIGHT_SIZE_GROUP, { 0.08, 0.4, 1.2 } },
+			{ LIGHTS_GROUP, { 1, 3, 8 } }, { RESOLUTION_GROUP, { 128, 256, 512 } } },
+	{ { TRIANGLES_GROUP, { 2000, 8000, 30000, 120000, 500000, 1000000 } },
+			{ LIGHT_SIZE_GROUP, { 0.02, 0.08, 0.4, 1.2, 2.4 } }, { LIGHTS_GROUP, { 1, 4, 16, 64 } },
+			{ RESOLUTION_GROUP, { 128, 256, 512, 1024, 2048 } } },
 };
 
 } // namespace
 
 const std::vector<ScalingSeries> &get_scaling_series(ReportExtent p_extent) {
-	static const std::vector<ScalingSeries> NO_SERIES;
-	return p_extent == ReportExtent::NONE	  ? NO_SERIES
-			: p_extent == ReportExtent::QUICK ? QUICK_SERIES
-											  : FULL_SERIES;
+	return SERIES[static_cast<int>(p_extent)];
 }
 
 std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description) {

@@ -24,10 +24,11 @@ void TimingSamples::add_frame(const std::vector<PassCost> &p_passes) {
 	PassCost sum;
 	double cost_ms = 0;
 	for (const PassCost &pass : p_passes) {
-		if (passes.find(pass.name) == passes.end()) {
-			names.push_back(pass.name);
+		auto place = std::ranges::find(passes, pass.name, &Values::name);
+		if (place == passes.end()) {
+			place = passes.insert(place, { pass.name });
 		}
-		Values &values = passes[pass.name];
+		Values &values = *place;
 		values.gpu_ms.push_back(pass.gpu_ms);
 		values.wall_ms.push_back(pass.wall_ms);
 		values.is_on_host = pass.is_on_host;
@@ -43,10 +44,9 @@ void TimingSamples::add_frame(const std::vector<PassCost> &p_passes) {
 MaskTiming TimingSamples::compute() const {
 	MaskTiming timing;
 	timing.frame_count = get_frame_count();
-	for (const std::string &name : names) {
-		const Values &values = passes.at(name);
-		timing.passes.push_back(
-				{ name, compute_frame_cost(values.gpu_ms, values.wall_ms), values.is_on_host });
+	for (const Values &values : passes) {
+		timing.passes.push_back({ values.name, compute_frame_cost(values.gpu_ms, values.wall_ms),
+				values.is_on_host });
 	}
 	timing.total = compute_frame_cost(totals.gpu_ms, totals.wall_ms);
 	timing.cost_ms = compute_percentile(costs_ms, 0.5);

@@ -3,7 +3,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -57,12 +56,12 @@ public:
 
 private:
 	struct Values {
-		std::vector<double> gpu_ms;
-		std::vector<double> wall_ms;
+		std::string name;
+		std::vector<double> gpu_ms = {};
+		std::vector<double> wall_ms = {};
 		bool is_on_host = false;
 	};
-	std::vector<std::string> names;
-	std::map<std::string, Values> passes;
+	std::vector<Values> passes; // in the order in which they run
 	Values totals;
 	std::vector<double> costs_ms;
 };

@@ -69,7 +69,7 @@ std::shared_ptr<const Mesh> make_sheet();
 /// Triangles of no area, slivers, faces that lie on each other, and normals of length 0.
 std::shared_ptr<const Mesh> make_odd_mesh();
 
-/// Makes the draft the hostile scene of that index, see get_guard_names().
+/// Makes the draft the hostile scene of that index, see list_guard_names().
 void change_to_guard(StabilityDraft &r_draft, size_t p_index);
 
 } // namespace gnomon

@@ -96,15 +96,12 @@ const std::vector<Guard> &get_guards() {
 
 } // namespace
 
-const std::vector<const char *> &get_guard_names() {
-	static const std::vector<const char *> NAMES = [] {
-		std::vector<const char *> names;
-		for (const Guard &guard : get_guards()) {
-			names.push_back(guard.name);
-		}
-		return names;
-	}();
-	return NAMES;
+std::vector<std::string> list_guard_names() {
+	std::vector<std::string> names;
+	for (const Guard &guard : get_guards()) {
+		names.push_back(guard.name);
+	}
+	return names;
 }
 
 void change_to_guard(StabilityDraft &r_draft, size_t p_index) {

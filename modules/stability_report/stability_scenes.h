@@ -16,6 +16,6 @@ std::unique_ptr<Scene> make_stability_scene(
 		const std::string &p_sweep, LightType p_type, double p_value);
 
 /// Of the sweep "guards", whose values are indices of this list.
-const std::vector<const char *> &get_guard_names();
+std::vector<std::string> list_guard_names();
 
 } // namespace gnomon

@@ -53,9 +53,9 @@ std::vector<StabilitySweep> build_sweeps() {
 				{ 16, 32, 64, 128, 256, 512, 1024, 2048, 4096 }, 128, { 16, 128 } },
 	};
 	StabilitySweep guards = { "guards", "hostile scenes", ALL, {}, 0, {} };
-	for (const char *name : get_guard_names()) {
-		guards.values.push_back(double(guards.labels.size()));
-		guards.labels.push_back(name);
+	guards.labels = list_guard_names();
+	for (size_t index = 0; index < guards.labels.size(); ++index) {
+		guards.values.push_back(double(index));
 	}
 	guards.quick_values = guards.values;
 	sweeps.push_back(std::move(guards));
@@ -82,12 +82,9 @@ const std::vector<StabilitySweep> &get_stability_sweeps() {
 }
 
 const StabilitySweep *find_stability_sweep(const std::string &p_id) {
-	for (const StabilitySweep &sweep : get_stability_sweeps()) {
-		if (sweep.id == p_id) {
-			return &sweep;
-		}
-	}
-	return nullptr;
+	const std::vector<StabilitySweep> &sweeps = get_stability_sweeps();
+	const auto found = std::ranges::find(sweeps, p_id, &StabilitySweep::id);
+	return found == sweeps.end() ? nullptr : &*found;
 }
 
 uint32_t get_stability_size_px(ReportExtent p_extent) {
