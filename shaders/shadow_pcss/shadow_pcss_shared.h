@@ -5,8 +5,8 @@
 
 /// Push constants of resolve.comp.
 struct SHARED_ALIGN ShadowPcssPush {
-	uint empty_views; // bit i: view i has no casters, its layer was not drawn
-	uint tap_count;	  // of each of both steps
+	uint empty_views;  // bit i: view i has no casters, its layer was not drawn
+	uint tap_count;	   // of each of both steps
 	float disc_radius; // R in metres; directional: tangent of half the angular distance
 	float padding;
 	float nearest_w[8]; // of each view: no caster of it has a greater w, see LightViewConstants
