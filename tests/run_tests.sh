@@ -156,8 +156,8 @@ finish() {
     exit
 }
 
-# Options that leave out what cannot run without a device: the modules that depend on it. The backend
-# stays, since the test runner asks it for validation messages.
+# Options that leave out what cannot run without a device: the modules that depend on it. The render graph
+# stays, much of which needs none, and the backend, since the test runner asks it for validation messages.
 list_device_options() {
     python3 - <<'PYTHON'
 import sys
@@ -167,7 +167,7 @@ import modules_builders
 
 needing = {"rendering_device"}
 for module in modules_builders.find_modules("modules"):  # dependencies come first
-    if module.name != "rendering_device_vulkan" and needing & set(module.dependencies):
+    if module.name not in ("rendering_device_vulkan", "render_graph") and needing & set(module.dependencies):
         needing.add(module.name)
         print("module_%s_enabled=no" % module.name)
 PYTHON

@@ -7,16 +7,18 @@ namespace gnomon {
 
 bool is_pipeline_cache_of(
 		std::span<const uint8_t> p_bytes, const VkPhysicalDeviceProperties &p_device) {
-	VkPipelineCacheHeaderVersionOne header;
-	if (p_bytes.size() < sizeof(header)) {
+	VkPipelineCacheHeaderVersionOne expected = { .headerVersion =
+														 VK_PIPELINE_CACHE_HEADER_VERSION_ONE,
+		.vendorID = p_device.vendorID,
+		.deviceID = p_device.deviceID };
+	if (p_bytes.size() < sizeof(expected)) {
 		return false;
 	}
-	std::memcpy(&header, p_bytes.data(), sizeof(header));
-	// A later version may lengthen its header, but never beyond the bytes there are.
-	return header.headerSize >= sizeof(header) && header.headerSize <= p_bytes.size() &&
-			header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-			header.vendorID == p_device.vendorID && header.deviceID == p_device.deviceID &&
-			std::ranges::equal(header.pipelineCacheUUID, p_device.pipelineCacheUUID);
+	std::ranges::copy(p_device.pipelineCacheUUID, expected.pipelineCacheUUID);
+	// A later driver may lengthen its header, but never beyond the bytes there are.
+	std::memcpy(&expected.headerSize, p_bytes.data(), sizeof(expected.headerSize));
+	return expected.headerSize >= sizeof(expected) && expected.headerSize <= p_bytes.size() &&
+			std::memcmp(p_bytes.data(), &expected, sizeof(expected)) == 0;
 }
 
 } // namespace gnomon
