@@ -49,4 +49,14 @@ bool subgroup_all(bool p_value) {
 	return !subgroup_any(!p_value);
 }
 
+/// What the subgroup wrote to shared memory before is there for all of it. Subgroups of one work group may come here
+/// unequally often: llvmpipe 26 takes the barrier for one of the whole group, and loses those that come more often. Its
+/// subgroups go in step anyway.
+void sync_subgroup_memory() {
+	subgroupMemoryBarrierShared();
+	if (!USES_BUTTERFLY) {
+		subgroupBarrier();
+	}
+}
+
 #endif

@@ -416,8 +416,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 				choice = choose_from_list(next, end, chunk, box);
 			}
 			next = choice.next;
-			subgroupMemoryBarrierShared();
-			subgroupBarrier();
+			sync_subgroup_memory();
 			uint first = 0u;
 			do {
 				const uint count = min(choice.count - first, ROUND_SIZE);
@@ -427,8 +426,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 				result.edge_count += uint(bitCount(share.own));
 				first += ROUND_SIZE;
 			} while (first < choice.count);
-			subgroupMemoryBarrierShared();
-			subgroupBarrier();
+			sync_subgroup_memory();
 		} while (next < end);
 		waits = waits && !is_here;
 	} while (subgroup_any(waits));

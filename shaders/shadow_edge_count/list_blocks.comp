@@ -192,8 +192,7 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 		++iteration_count;
 	} while (r_next < p_bundle_count && count + GROUP_SIZE <= MOST_WANTED &&
 			iteration_count < MOST_ITERATIONS);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	return count;
 }
 
@@ -255,8 +254,7 @@ uint hold_bundles(CountBox p_box, uint p_wanted_count) {
 		first += GROUP_SIZE;
 		++iteration_count;
 	} while (first < p_wanted_count);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	return count;
 }
 
@@ -281,8 +279,7 @@ void list_held(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout floa
 
 /// Lists what each part needs of the chosen bundles, or of p_held_count edges in held_items; one of both numbers is 0.
 void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count, uint p_held_count) {
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	const bool has_bundles = p_wanted_count > 0u;
 	uint parts = p_wanted_count + p_held_count > 0u ? p_parts : 0u;
 	do {
@@ -301,8 +298,7 @@ void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count, ui
 		++iteration_count;
 		parts &= parts - 1u;
 	} while (parts != 0u && iteration_count < MOST_ITERATIONS);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 }
 
 /// Puts edges of the chosen bundles that the tile needs into held_items, from r_first on until all are tested or there
@@ -435,8 +431,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 	for (uint i = gl_SubgroupInvocationID; i < PARTS_PER_TILE; i += GROUP_SIZE) {
 		part_chains[i] = Chain(0u, 0u, 0u, true);
 	}
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	const uint parts = find_parts_of_tile(p_tile, p_view);
 	const BoxPair pair = find_tile_pair(p_tile, p_view, parts);
 	uint next = 0u;
@@ -461,8 +456,7 @@ void list_view(uvec2 p_tile, uint p_view) {
 			}
 		}
 	}
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	check_faces_of_view(p_tile, p_view, parts);
 }
 
@@ -494,8 +488,7 @@ void main() {
 		list_view(tile, views != 0u ? uint(findLSB(views)) : 0u);
 		views &= views - 1u;
 	} while (views != 0u && iteration_count < MOST_ITERATIONS);
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	for (uint i = gl_SubgroupInvocationID; i < BLOCKS_PER_TILE; i += GROUP_SIZE) {
 		const uint block = find_block(tile, i);
 		if (block != NO_BLOCK) {

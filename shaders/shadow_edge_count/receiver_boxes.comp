@@ -107,8 +107,7 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 			sort_keys[pixel] = depths[i];
 		}
 	}
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	for (uint other = 0u; other < PIXEL_COUNT; ++other) {
 		const float depth = sort_keys[other];
 		for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
@@ -122,8 +121,7 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 			sorted_pixels[ranks[i]] = pixel | parts[i] << EDGE_COUNT_ORDER_PART_SHIFT;
 		}
 	}
-	subgroupMemoryBarrierShared();
-	subgroupBarrier();
+	sync_subgroup_memory();
 	for (uint i = gl_SubgroupInvocationID; i < PIXEL_COUNT / 4u; i += GROUP_SIZE) {
 		receives[p_block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_ORDER) + i] =
 				sorted_pixels[4u * i] | sorted_pixels[4u * i + 1u] << 8 | sorted_pixels[4u * i + 2u] << 16 |
