@@ -8,7 +8,3 @@ def get_layer():
 
 def get_description():
     return "Welding, edges, adjacency, silhouettes and a BVH; pure functions without a GPU"
-
-
-def configure(env):
-    env.Append(LIBS=["meshoptimizer"])

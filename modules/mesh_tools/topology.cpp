@@ -1,15 +1,18 @@
 #include "modules/mesh_tools/topology.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 #include "modules/mesh_tools/edge_pairing.h"
 #include "modules/mesh_tools/mesh_parts.h"
 
 #include <glm/glm.hpp>
-#include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
+#include <unordered_map>
 
 namespace gnomon {
 
@@ -51,21 +54,22 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 		GNOMON_ASSERT(index < position_count, "mesh ", p_mesh.name, ": index ", index, " of ",
 				position_count);
 	}
-	std::vector<glm::vec3> positions = p_mesh.positions_node;
-	for (glm::vec3 &position : positions) {
-		position += 0.0f; // -0 becomes 0, all else stays; the remap compares bits
-	}
 	r_topology.welded_from_position.assign(position_count, NO_VERTEX);
-	if (p_mesh.indices.empty()) {
-		return;
-	}
-	const size_t welded_count = meshopt_generateVertexRemap(r_topology.welded_from_position.data(),
-			p_mesh.indices.data(), p_mesh.indices.size(), positions.data(), position_count,
-			sizeof(glm::vec3));
-	r_topology.welded_positions_node.resize(welded_count);
-	for (size_t i = 0; i < position_count; ++i) {
-		if (r_topology.welded_from_position[i] != NO_VERTEX) {
-			r_topology.welded_positions_node[r_topology.welded_from_position[i]] = positions[i];
+	// By bits, so that a position that is not a number equals itself.
+	using Bits = std::array<uint32_t, 3>;
+	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, 1); };
+	std::unordered_map<Bits, uint32_t, decltype(hash)> vertices(position_count, hash);
+	for (const uint32_t index : p_mesh.indices) {
+		uint32_t &welded = r_topology.welded_from_position[index];
+		if (welded != NO_VERTEX) {
+			continue;
+		}
+		const glm::vec3 position = p_mesh.positions_node[index] + 0.0f; // -0 becomes 0
+		const uint32_t next = static_cast<uint32_t>(r_topology.welded_positions_node.size());
+		const auto [vertex, is_new] = vertices.emplace(std::bit_cast<Bits>(position), next);
+		welded = vertex->second;
+		if (is_new) {
+			r_topology.welded_positions_node.push_back(position);
 		}
 	}
 }
