@@ -20,6 +20,10 @@ constexpr VkDescriptorPoolSize POOL_SIZES[] = {
 	{ VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4 * SETS_PER_POOL },
 };
 
+static_assert(uint32_t(ResourceKind::TEXEL_BUFFER) == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER &&
+		uint32_t(ResourceKind::STORAGE_BUFFER) == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER &&
+		uint32_t(ShaderStage::COMPUTE) == VK_SHADER_STAGE_COMPUTE_BIT);
+
 /// The writes of one set; deques, so that what they point to stays in place.
 struct SetWriter {
 	VulkanDevice &device;
@@ -34,19 +38,19 @@ struct SetWriter {
 			.dstSet = set,
 			.dstBinding = p_slot.binding,
 			.descriptorCount = 1,
-			.descriptorType = p_slot.type };
-		switch (p_slot.type) {
-			case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+			.descriptorType = static_cast<VkDescriptorType>(p_slot.kind) };
+		switch (p_slot.kind) {
+			case ResourceKind::UNIFORM_BUFFER:
 				write.pBufferInfo = add_buffer(p_binding, BufferUsage::UNIFORM, "UNIFORM");
 				break;
-			case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
+			case ResourceKind::STORAGE_BUFFER:
 				write.pBufferInfo = add_buffer(p_binding, BufferUsage::STORAGE, "STORAGE");
 				break;
-			case VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER:
+			case ResourceKind::TEXEL_BUFFER:
 				write.pTexelBufferView =
 						&get_buffer(p_binding, BufferUsage::TEXEL, "TEXEL").texel_view;
 				break;
-			case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE:
+			case ResourceKind::STORAGE_TEXTURE:
 				write.pImageInfo = add_image(p_slot, p_binding, VK_IMAGE_LAYOUT_GENERAL);
 				break;
 			default:
@@ -79,18 +83,18 @@ private:
 	const VkDescriptorImageInfo *add_image(
 			const ReflectedBinding &p_slot, const Binding &p_binding, VkImageLayout p_layout) {
 		VkDescriptorImageInfo info = {};
-		const bool needs_sampler = p_slot.type == VK_DESCRIPTOR_TYPE_SAMPLER ||
-				p_slot.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+		const bool needs_sampler = p_slot.kind == ResourceKind::SAMPLER ||
+				p_slot.kind == ResourceKind::TEXTURE_WITH_SAMPLER;
 		if (needs_sampler) {
 			GNOMON_ASSERT(p_binding.sampler, "pipeline '", pipeline.name, "': binding ",
 					p_binding.binding, " needs a sampler");
 			info.sampler = device.samplers.get(p_binding.sampler).sampler;
 		}
-		if (p_slot.type != VK_DESCRIPTOR_TYPE_SAMPLER) {
+		if (p_slot.kind != ResourceKind::SAMPLER) {
 			GNOMON_ASSERT(p_binding.texture, "pipeline '", pipeline.name, "': binding ",
 					p_binding.binding, " needs a texture");
 			TextureResource &texture = device.textures.get(p_binding.texture);
-			const bool is_storage = p_slot.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+			const bool is_storage = p_slot.kind == ResourceKind::STORAGE_TEXTURE;
 			GNOMON_ASSERT(has_usage(texture.desc.usage,
 								  is_storage ? TextureUsage::STORAGE : TextureUsage::SAMPLED),
 					"pipeline '", pipeline.name, "': texture '", texture.desc.name, "' at binding ",

@@ -27,8 +27,9 @@ PipelineStages::~PipelineStages() {
 void PipelineStages::add(const std::string &p_shader, VkShaderStageFlagBits p_expected_stage) {
 	const std::span<const uint32_t> words = find_embedded_shader(p_shader);
 	reflected.push_back(reflect_spirv(p_shader, words, constants));
-	GNOMON_ASSERT(reflected.back().stage == p_expected_stage, "shader ", p_shader, " is of stage ",
-			reflected.back().stage, ", expected ", p_expected_stage);
+	const auto stage = static_cast<VkShaderStageFlagBits>(reflected.back().stage);
+	GNOMON_ASSERT(stage == p_expected_stage, "shader ", p_shader, " is of stage ", stage,
+			", expected ", p_expected_stage);
 	const VkShaderModuleCreateInfo module_info = {
 		.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
 		.codeSize = words.size_bytes(),

@@ -1,55 +1,17 @@
 #include "modules/core/error.h"
 #include "modules/rendering_device_vulkan/pipeline_stages.h"
 
-#include <algorithm>
-
 namespace gnomon {
-
-namespace {
-
-constexpr uint32_t PUSH_CONSTANT_GRANULARITY = 16; // C++ blocks are padded to it
-
-void merge_bindings(const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders,
-		std::vector<ReflectedBinding> &r_bindings) {
-	for (const ReflectedShader &shader : p_shaders) {
-		for (const ReflectedBinding &binding : shader.bindings) {
-			const auto found = std::find_if(
-					r_bindings.begin(), r_bindings.end(), [&](const ReflectedBinding &p_other) {
-						return p_other.binding == binding.binding;
-					});
-			if (found == r_bindings.end()) {
-				r_bindings.push_back(binding);
-				continue;
-			}
-			if (found->type != binding.type || found->is_arrayed != binding.is_arrayed) {
-				fail("Pipeline '", p_pipeline, "': binding ", binding.binding,
-						" is declared as two kinds of resource. Give one of them another number.");
-			}
-			if (binding.is_used) {
-				found->stages = found->is_used ? found->stages | binding.stages : binding.stages;
-				found->is_used = true;
-			}
-		}
-	}
-	std::sort(r_bindings.begin(), r_bindings.end(), [](const auto &p_left, const auto &p_right) {
-		return p_left.binding < p_right.binding;
-	});
-}
-
-} // namespace
 
 void VulkanDevice::create_layout(
 		PipelineResource &r_pipeline, std::span<const ReflectedShader> p_shaders) {
-	merge_bindings(r_pipeline.name, p_shaders, r_pipeline.bindings);
-	uint32_t push_bytes = 0;
+	r_pipeline.bindings = merge_bindings(r_pipeline.name, p_shaders);
+	r_pipeline.push_constant_bytes = compute_push_constant_bytes(p_shaders);
 	for (const ReflectedShader &shader : p_shaders) {
 		if (shader.push_constant_bytes > 0) {
-			push_bytes = std::max(push_bytes, shader.push_constant_bytes);
-			r_pipeline.push_constant_stages |= shader.stage;
+			r_pipeline.push_constant_stages |= static_cast<VkShaderStageFlags>(shader.stage);
 		}
 	}
-	r_pipeline.push_constant_bytes = (push_bytes + PUSH_CONSTANT_GRANULARITY - 1) /
-			PUSH_CONSTANT_GRANULARITY * PUSH_CONSTANT_GRANULARITY;
 	if (r_pipeline.push_constant_bytes > limits.maxPushConstantsSize) {
 		fail("Pipeline '", r_pipeline.name, "' has ", r_pipeline.push_constant_bytes,
 				" bytes of push constants; device \"", physical.info.name, "\" has at most ",
@@ -59,7 +21,7 @@ void VulkanDevice::create_layout(
 	for (const ReflectedBinding &binding : r_pipeline.bindings) {
 		if (binding.is_used) {
 			bindings.push_back({ .binding = binding.binding,
-					.descriptorType = binding.type,
+					.descriptorType = static_cast<VkDescriptorType>(binding.kind),
 					.descriptorCount = 1,
 					.stageFlags = binding.stages });
 		}

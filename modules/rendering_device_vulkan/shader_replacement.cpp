@@ -9,7 +9,7 @@ namespace {
 using Replacements = std::map<std::string, std::vector<uint32_t>>;
 
 bool is_same_kind(const ReflectedBinding &p_left, const ReflectedBinding &p_right) {
-	return p_left.type == p_right.type && p_left.is_arrayed == p_right.is_arrayed;
+	return p_left.kind == p_right.kind && p_left.is_arrayed == p_right.is_arrayed;
 }
 
 bool uses_any(const ComputePipelineDesc &p_desc, const Replacements &p_shaders) {

@@ -4,7 +4,7 @@
 #include "modules/rendering_device/slot_table.h"
 #include "modules/rendering_device_vulkan/injected_fault.h"
 #include "modules/rendering_device_vulkan/memory_allocator.h"
-#include "modules/rendering_device_vulkan/spirv_reflection.h"
+#include "modules/rendering_device/spirv_reflection.h"
 #include "modules/rendering_device_vulkan/vulkan_command_list.h"
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
 #include "modules/rendering_device_vulkan/vulkan_instance.h"

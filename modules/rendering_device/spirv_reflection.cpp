@@ -1,4 +1,4 @@
-#include "modules/rendering_device_vulkan/spirv_reflection.h"
+#include "modules/rendering_device/spirv_reflection.h"
 
 #include "modules/core/error.h"
 
@@ -12,6 +12,7 @@ namespace gnomon {
 
 namespace {
 
+constexpr uint32_t PUSH_CONSTANT_GRANULARITY = 16;
 constexpr size_t SPIRV_HEADER_WORDS = 5;
 constexpr uint32_t IMAGE_IS_STORAGE = 2; // operand "Sampled" of OpTypeImage
 
@@ -34,6 +35,9 @@ public:
 					return p_left.binding < p_right.binding;
 				});
 		shader.local_size = compute_local_size();
+		for (const uint32_t id : booleans) {
+			shader.boolean_constants.push_back(find_decoration(id, spv::DecorationSpecId).value());
+		}
 		return shader;
 	}
 
@@ -87,6 +91,10 @@ private:
 			case spv::OpMemberDecorate:
 				member_decorations[{ p_in[1], p_in[2], p_in[3] }] = p_in.size() > 4 ? p_in[4] : 0;
 				break;
+			case spv::OpSpecConstantTrue:
+			case spv::OpSpecConstantFalse:
+				booleans.push_back(p_in[2]);
+				break;
 			case spv::OpVariable:
 				variables[p_in[2]] = { p_in[1], p_in[3], false };
 				break;
@@ -135,16 +143,16 @@ private:
 		}
 	}
 
-	VkShaderStageFlagBits get_stage(uint32_t p_model) const {
+	ShaderStage get_stage(uint32_t p_model) const {
 		switch (p_model) {
 			case spv::ExecutionModelVertex:
-				return VK_SHADER_STAGE_VERTEX_BIT;
+				return ShaderStage::VERTEX;
 			case spv::ExecutionModelGeometry:
-				return VK_SHADER_STAGE_GEOMETRY_BIT;
+				return ShaderStage::GEOMETRY;
 			case spv::ExecutionModelFragment:
-				return VK_SHADER_STAGE_FRAGMENT_BIT;
+				return ShaderStage::FRAGMENT;
 			case spv::ExecutionModelGLCompute:
-				return VK_SHADER_STAGE_COMPUTE_BIT;
+				return ShaderStage::COMPUTE;
 			default:
 				fail("Shader \"", name, "\" has execution model ", p_model,
 						"; vertex, geometry, fragment and compute are supported.");
@@ -194,27 +202,26 @@ private:
 		const uint32_t set = find_decoration(p_id, spv::DecorationDescriptorSet).value_or(0);
 		ReflectedBinding binding;
 		binding.binding = find_decoration(p_id, spv::DecorationBinding).value_or(0);
-		binding.stages = static_cast<VkShaderStageFlags>(stage);
+		binding.stages = static_cast<uint32_t>(stage);
 		binding.is_used = p_variable.is_used;
 		if (set != 0) {
 			fail("Shader \"", name, "\": binding ", binding.binding, " is in set ", set,
 					"; only set 0 is used. Change its layout.");
 		}
-		set_descriptor_type(type, p_variable.storage_class, binding);
+		set_kind(type, p_variable.storage_class, binding);
 		r_shader.bindings.push_back(binding);
 	}
 
-	void set_descriptor_type(
-			uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
+	void set_kind(uint32_t p_type, uint32_t p_storage_class, ReflectedBinding &r_binding) const {
 		Instruction type = get_definition(p_type);
 		if (p_storage_class == spv::StorageClassStorageBuffer) {
-			r_binding.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+			r_binding.kind = ResourceKind::STORAGE_BUFFER;
 			return;
 		}
 		if (p_storage_class == spv::StorageClassUniform) {
-			r_binding.type = find_decoration(p_type, spv::DecorationBufferBlock)
-					? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-					: VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+			r_binding.kind = find_decoration(p_type, spv::DecorationBufferBlock)
+					? ResourceKind::STORAGE_BUFFER
+					: ResourceKind::UNIFORM_BUFFER;
 			return;
 		}
 		const bool is_combined = get_op(type) == spv::OpTypeSampledImage;
@@ -222,7 +229,7 @@ private:
 			type = get_definition(type[2]);
 		}
 		if (get_op(type) == spv::OpTypeSampler) {
-			r_binding.type = VK_DESCRIPTOR_TYPE_SAMPLER;
+			r_binding.kind = ResourceKind::SAMPLER;
 			return;
 		}
 		if (get_op(type) != spv::OpTypeImage) {
@@ -237,12 +244,12 @@ private:
 					" is a storage texel buffer, which is not supported. Use a storage buffer.");
 		}
 		if (is_buffer) {
-			r_binding.type = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+			r_binding.kind = ResourceKind::TEXEL_BUFFER;
 		} else if (is_storage) {
-			r_binding.type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+			r_binding.kind = ResourceKind::STORAGE_TEXTURE;
 		} else {
-			r_binding.type = is_combined ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-										 : VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+			r_binding.kind =
+					is_combined ? ResourceKind::TEXTURE_WITH_SAMPLER : ResourceKind::TEXTURE;
 		}
 	}
 
@@ -294,13 +301,14 @@ private:
 
 	std::string_view name;
 	std::span<const SpecializationConstant> constants;
-	VkShaderStageFlagBits stage = VK_SHADER_STAGE_FLAG_BITS_MAX_ENUM;
+	ShaderStage stage = ShaderStage::NONE;
 	glm::uvec3 local_size = glm::uvec3(1);
 	std::optional<glm::uvec3> local_size_ids;
 	std::map<std::pair<uint32_t, uint32_t>, uint32_t> decorations;	// id, decoration -> operand
 	std::map<std::array<uint32_t, 3>, uint32_t> member_decorations; // type, member, decoration
 	std::map<uint32_t, Instruction> definitions;					// types and constants
 	std::map<uint32_t, Variable> variables;
+	std::vector<uint32_t> booleans; // specialization constants
 };
 
 } // namespace
@@ -308,6 +316,44 @@ private:
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants) {
 	return Reflector(p_name, p_constants).reflect(p_words);
+}
+
+std::vector<ReflectedBinding> merge_bindings(
+		const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders) {
+	std::vector<ReflectedBinding> merged;
+	for (const ReflectedShader &shader : p_shaders) {
+		for (const ReflectedBinding &binding : shader.bindings) {
+			const auto found = std::find_if(
+					merged.begin(), merged.end(), [&](const ReflectedBinding &p_other) {
+						return p_other.binding == binding.binding;
+					});
+			if (found == merged.end()) {
+				merged.push_back(binding);
+				continue;
+			}
+			if (found->kind != binding.kind || found->is_arrayed != binding.is_arrayed) {
+				fail("Pipeline '", p_pipeline, "': binding ", binding.binding,
+						" is declared as two kinds of resource. Give one of them another number.");
+			}
+			if (binding.is_used) {
+				found->stages = found->is_used ? found->stages | binding.stages : binding.stages;
+				found->is_used = true;
+			}
+		}
+	}
+	std::sort(merged.begin(), merged.end(), [](const auto &p_left, const auto &p_right) {
+		return p_left.binding < p_right.binding;
+	});
+	return merged;
+}
+
+uint32_t compute_push_constant_bytes(std::span<const ReflectedShader> p_shaders) {
+	uint32_t bytes = 0;
+	for (const ReflectedShader &shader : p_shaders) {
+		bytes = std::max(bytes, shader.push_constant_bytes);
+	}
+	return (bytes + PUSH_CONSTANT_GRANULARITY - 1) / PUSH_CONSTANT_GRANULARITY *
+			PUSH_CONSTANT_GRANULARITY;
 }
 
 } // namespace gnomon
