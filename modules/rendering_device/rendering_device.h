@@ -46,7 +46,8 @@ struct DeviceInfo {
 
 /// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
 /// push constants, and 32-bit depth that shaders read.
-/// Geometry shaders, aliased memory, conditional rendering, depth bounds and storage texel buffers
+/// Geometry shaders, aliased memory, conditional rendering, depth bounds, storage texel buffers and
+/// copies to textures
 /// make frames faster; without them the masks are the same.
 struct DeviceFeatures {
 	/// Geometry shaders, and the primitive's index in fragment shaders.
@@ -57,6 +58,7 @@ struct DeviceFeatures {
 	bool conditional_rendering = false;
 	bool fragment_stores = false;
 	bool storage_texel_buffers = false; // buffers that are STORAGE and TEXEL at once
+	bool copies_to_textures = false; // copy_buffer_to_texture from GPU memory; from UPLOAD always
 	bool timestamps = false;
 	uint64_t max_storage_buffer_bytes = 0;
 	uint32_t max_texture_size_px = 0;

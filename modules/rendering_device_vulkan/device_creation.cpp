@@ -118,6 +118,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	features.conditional_rendering = present.conditional.conditionalRendering;
 	features.fragment_stores = present_v10.fragmentStoresAndAtomics;
 	features.storage_texel_buffers = true;
+	features.copies_to_textures = true;
 	features.timestamps = timestamp_mask != 0;
 	features.max_storage_buffer_bytes = limits.maxStorageBufferRange;
 	features.max_texture_size_px = limits.maxImageDimension2D;

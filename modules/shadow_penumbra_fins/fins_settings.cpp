@@ -109,8 +109,8 @@ Peeling choose_peeling(const FinsSettings &p_settings, const ShadowTechnique::In
 	const DeviceFeatures &features = p_inputs.device.get_features();
 	const uint64_t bytes = uint64_t(p_settings.map_size_px) * p_settings.map_size_px *
 			sizeof(uint32_t) * p_settings.layer_count;
-	const bool is_possible = features.fragment_stores && p_settings.layer_count > 1 &&
-			bytes <= features.max_storage_buffer_bytes;
+	const bool is_possible = features.fragment_stores && features.copies_to_textures &&
+			p_settings.layer_count > 1 && bytes <= features.max_storage_buffer_bytes;
 	if (!is_possible || p_settings.peeling) {
 		return is_possible ? *p_settings.peeling : Peeling::PASSES;
 	}

@@ -63,3 +63,7 @@ TEST_CASE("[GPU][Techniques] without depth bounds every technique has the same m
 TEST_CASE("[GPU][Techniques] without storage texel buffers every technique has the same masks") {
 	check_each_technique({ &DeviceFeatures::storage_texel_buffers });
 }
+
+TEST_CASE("[GPU][Techniques] without copies to textures every technique has the same masks") {
+	check_each_technique({ &DeviceFeatures::copies_to_textures });
+}
