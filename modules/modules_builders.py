@@ -11,11 +11,14 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     is_enabled() -> bool                               (optional; built unless told otherwise)
     get_optional_dependencies() -> list of module names (optional; used only where they are built)
     is_program() -> bool                               (optional; main: linked into bin/gnomon only)
+    get_hosts() -> names of "program" and "godot"      (optional; what it is built for; default: both)
 """
 
 import importlib.util
 import os
 import re
+import shlex
+import subprocess
 
 VERSION = "0.1.0"
 REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
@@ -40,6 +43,7 @@ class Module:
         self.doc = getattr(config, "get_doc", lambda: "")()
         self.has_registration = os.path.isfile(os.path.join(folder, "register_types.cpp"))
         self.is_program = getattr(config, "is_program", lambda: False)()
+        self.hosts = getattr(config, "get_hosts", lambda: ("program", "godot"))()
         self.can_disable = getattr(config, "can_disable", lambda: self.layer >= 4)()
 
 
@@ -70,6 +74,8 @@ def select_modules(modules, env):
         if not env["module_%s_enabled" % module.name]:
             continue
         missing = [name for name in module.dependencies if name not in names]
+        if ("godot" if env["godot"] else "program") not in module.hosts or (env["godot"] and missing):
+            continue  # not for this host, or on top of one that is not
         if missing:
             raise SystemExit(
                 "ERROR: module %s needs %s, which is not built. Enable it, or set module_%s_enabled=no."
@@ -135,6 +141,14 @@ def write_registration(target, source, env):
     lines += ["}", "", "} // namespace gnomon", ""]
     with open(str(target[0]), "w", encoding="utf-8") as file:
         file.write("\n".join(lines))
+
+
+def find_library(env, name):
+    """For LIBS: what goes into a library for Godot is linked statically, as the user's system may lack it."""
+    if not env["godot"]:
+        return name
+    command = shlex.split(env["CXX"]) + ["-print-file-name=lib%s.a" % name]
+    return env.File(subprocess.run(command, capture_output=True, text=True).stdout.strip())
 
 
 def add_builders(env, modules):

@@ -7,6 +7,7 @@ Where an entry point, or what it includes, has `#ifdef VARIANT_<NAME>`, it is co
 that macro defined, as `<what>.<name>.<stage>`. At run time compile_shader does the same.
 """
 
+import glob
 import os
 import re
 import struct
@@ -84,3 +85,22 @@ def add_builders(env):
         source_scanner=scanner,
     )
     env["BUILDERS"]["EmbeddedShaders"] = env.Builder(action=Action(_embed, "Embedding shaders in $TARGET"))
+
+
+def add_test_shaders(env, modules):
+    """The C++ file with shaders of tests: <what>.<stage> beside the test that runs them, in tests/shaders and in the
+    tests of a module. All are named tests/<what>.<stage>; get_test_shaders() returns them.
+    """
+    build_folder = "#" + env["BUILD_FOLDER"].lstrip("#")
+    spirv = []
+    for source in ["tests/shaders"] + ["modules/%s/tests" % module.name for module in modules]:
+        for path in sorted(glob.glob(os.path.join(env.Dir("#").abspath, source, "*"))):
+            name = os.path.basename(path)
+            if name.rpartition(".")[2] in STAGES:
+                target = "%s/tests/shaders/%s.spv" % (build_folder, name)
+                spirv += env.Spirv(target, "%s/%s/%s" % (build_folder, source, name))
+    generated = env.EmbeddedShaders(
+        build_folder + "/tests/test_shaders.gen.cpp", spirv, SHADER_FUNCTION="get_test_shaders", SHADER_FOLDER="tests"
+    )
+    env.Depends(generated, env.Value([str(item) for item in spirv]))
+    return generated

@@ -2,19 +2,22 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
+PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
-Usage: tests/run_tests.sh [--full] [--jobs N] [--only PART]...
+Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
                times, shadow volumes of large meshes (installs npm, which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
                times, all stability sweeps
+  --godot      beside that: tests inside Godot 4.5 or later, which $GODOT or PATH has, or which is set up
+               below build/ (1.2 GB, as root)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
-               command_line demo stability removal template sanitized fuzz_replay; with --full also sanitized_all
+               command_line demo stability removal template sanitized fuzz_replay; with --godot also godot; with
+               --full also sanitized_all
                threads tables editor_repeats large_meshes fuzz soak kills extremes; only when named:
                blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
@@ -26,10 +29,12 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root" || exit 1
 jobs=$(nproc 2>/dev/null || echo 1)
 is_full=no
+has_godot=no
 only=()
 while [ $# -gt 0 ]; do
     case $1 in
         --full) is_full=yes ;;
+        --godot) has_godot=yes ;;
         --jobs | --only)
             if [ $# -lt 2 ]; then
                 echo "ERROR: $1 needs a value. See tests/run_tests.sh --help." >&2
@@ -74,6 +79,9 @@ if [ "$is_full" = yes ] && is_wanted large_meshes && ! command -v npm >/dev/null
 fi
 if [ "$is_full" = yes ] && is_wanted fuzz; then
     packages+=("${FUZZ_PACKAGES[@]}")
+fi
+if [[ " ${only[*]} " == *" godot "* ]]; then
+    has_godot=yes
 fi
 if [[ " ${only[*]} " == *" blender "* ]]; then
     packages+=("${BLENDER_PACKAGES[@]}")
@@ -250,6 +258,14 @@ if is_wanted fuzz_replay; then
     if run_check "fuzz_replay build" build_without_device address,undefined fuzz_targets; then
         run_part "fuzz_replay canary" python3 tests/canaries/test_replay.py release_address_undefined
         run_part fuzz_replay python3 tests/fuzz/replay_corpus.py release_address_undefined
+    fi
+fi
+if [ "$has_godot" = yes ] && is_wanted godot; then
+    # shellcheck source=demo_project/install_godot.sh
+    . demo_project/install_godot.sh
+    if run_check "godot program" install_godot "$root" &&
+        run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes; then
+        run_part godot python3 tests/godot/test_godot.py
     fi
 fi
 if [ "$is_full" = yes ]; then

@@ -11,4 +11,6 @@ def get_description():
 
 
 def configure(env):
-    env.Append(LIBS=["stb"])  # PNG
+    import modules_builders
+
+    env.Append(LIBS=[modules_builders.find_library(env, "stb")])  # PNG

@@ -15,6 +15,10 @@ def get_description():
     return "The command line and the game window"
 
 
+def get_hosts():
+    return ("program",)
+
+
 def is_program():
     return True
 

@@ -13,6 +13,10 @@ def get_description():
     return "Masks as files and images, their error against a truth, and what they cost"
 
 
+def get_hosts():
+    return ("program",)
+
+
 def can_disable():
     return False  # commands and the editor's error panel are made of it
 

@@ -12,3 +12,7 @@ def get_description():
 
 def can_disable():
     return False
+
+
+def get_hosts():
+    return ("program",)

@@ -10,5 +10,9 @@ def get_description():
     return "The device on Vulkan, the only code that includes it: memory, pipelines, timers, windows"
 
 
+def get_hosts():
+    return ("program",)
+
+
 def configure(env):
     env.Append(LIBS=["vulkan"])

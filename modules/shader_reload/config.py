@@ -10,6 +10,10 @@ def get_description():
     return "Shaders compiled anew from their sources while the program runs"
 
 
+def get_hosts():
+    return ("program",)
+
+
 def can_disable():
     return False
 

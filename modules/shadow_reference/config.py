@@ -14,6 +14,10 @@ def get_description():
     return "Exact area-light visibility by ray tracing: the truth that techniques are measured against"
 
 
+def get_hosts():
+    return ("program",)
+
+
 def _find_embree(env):
     """The newest major version whose header the compiler finds, or 0."""
     for version in (4, 3):

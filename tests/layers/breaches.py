@@ -84,6 +84,8 @@ BREACHES = (
      lambda root: break_config(root, "shadow_lamp", ["renderer", "gone"], 4)),
     ("Vulkan in the renderer", "check_vulkan",
      lambda root: add_file(root, "modules/renderer/a.cpp", "#include <vulkan/vulkan_raii.hpp>\n")),
+    ("Godot's interface in the renderer", "check_godot",
+     lambda root: add_file(root, "modules/renderer/a.cpp", "#include <gdextension_interface.h>\n")),
     ("Vulkan's handles in the renderer", "check_vulkan",
      lambda root: add_file(root, "modules/renderer/a.cpp", '#include "modules/rendering_device_vulkan/vulkan_handles.h"\n')),
     ("Vulkan in main", "check_vulkan",

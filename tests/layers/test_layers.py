@@ -167,6 +167,15 @@ def check_vulkan(tree):
                 yield "%s:%d: includes %s; only rendering_device_vulkan may" % (path, line, name)
 
 
+def check_godot(tree):
+    """Godot's interface and what is generated from it are included by the backend over it and by the add-on alone."""
+    users = ("modules/rendering_device_godot/", "modules/godot_addon/")
+    for path in tree.find_sources(CPP, ("modules/",)):
+        for line, _, name in tree.get_includes(path):
+            if re.search(r"(^|/)(gdextension_interface\.h|godot_\w+\.gen\.h)$", name) and not path.startswith(users):
+                yield "%s:%d: includes %s; only %s may" % (path, line, name, " and ".join(users))
+
+
 def check_backends(tree):
     """A backend of rendering_device is chosen by the linker: no other module includes or lists it.
 
@@ -299,6 +308,7 @@ RULES = (
     check_listed_dependencies,
     check_layers,
     check_vulkan,
+    check_godot,
     check_backends,
     check_test_headers,
     check_window_library,

@@ -1,0 +1,84 @@
+# shellcheck shell=bash
+# A Godot 4 for the add-on's build, demo and tests. Sourced, after install_packages.sh; see doc/godot.md.
+
+GODOT_SUITE=sid # Debian 12 has no Godot 4
+GODOT_PACKAGES=(
+    godot mesa-vulkan-drivers xvfb xauth libx11-6 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxkbcommon0
+    libxkbcommon-x11-0 libdbus-1-3 libfontconfig1 libasound2t64 libpulse0 libegl1 libgl1 libgl1-mesa-dri
+)
+
+# install_godot ROOT: sets and exports GODOT, a program that runs Godot 4.5 or later: what the variable names already,
+# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot (1.2 GB, 3 minutes; root is needed). Returns 1, with the
+# reason on stderr, where none of them works.
+install_godot() {
+    local root=$1 folder=$1/build/godot_program version
+    if [ -z "${GODOT:-}" ]; then
+        GODOT=$(command -v godot || true)
+    fi
+    if [ -z "$GODOT" ]; then
+        if [ ! -x "$folder/godot" ]; then
+            _make_godot_root "$root" "$folder" || return 1
+        fi
+        GODOT=$folder/godot
+    fi
+    export GODOT
+    version=$("$GODOT" --version 2>/dev/null | tail -n 1)
+    case $version in
+        4.[5-9].* | 4.[1-9][0-9].* | [5-9].*) return 0 ;;
+    esac
+    echo "ERROR: $GODOT is \"$version\", Gnomon needs Godot 4.5 or later. Set \$GODOT to one." >&2
+    return 1
+}
+
+# Programs of another Debian run in a root of their own. Mounts are made in a namespace that ends with the program, so
+# that there is nothing to undo, and nothing to delete by mistake.
+_make_godot_root() {
+    local root=$1 folder=$2 mirror
+    if [ "$(id -u)" -ne 0 ]; then
+        echo "ERROR: no Godot was found, and only root can set one up. Set \$GODOT to a Godot 4.5 or later." >&2
+        return 1
+    fi
+    install_packages debootstrap || return 1
+    mirror=$(apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1)
+    echo "Setting up Godot in $folder (1.2 GB)"
+    rm -rf "$folder/root.part"
+    mkdir -p "$folder/root.part"
+    if ! unshare --mount debootstrap --variant=minbase --include=ca-certificates "$GODOT_SUITE" "$folder/root.part" \
+        "${mirror:-http://deb.debian.org/debian}" >"$folder/log" 2>&1 ||
+        ! cp /etc/resolv.conf "$folder/root.part/etc/" ||
+        ! _run_in "$folder/root.part" apt-get -o Acquire::Check-Valid-Until=false update >>"$folder/log" 2>&1 ||
+        ! _run_in "$folder/root.part" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
+            "${GODOT_PACKAGES[@]}" >>"$folder/log" 2>&1; then
+        tail -n 5 "$folder/log" >&2
+        echo "ERROR: Godot could not be set up, see $folder/log. Is the network there? Or set \$GODOT." >&2
+        return 1
+    fi
+    rm -rf "$folder/root.part/var/cache/apt/archives"
+    mv "$folder/root.part" "$folder/root"
+    cat >"$folder/godot" <<TEXT
+#!/bin/bash
+# Runs Godot in a root of its own, in which this project lies where it lies here. With GODOT_DISPLAY=virtual it gets a
+# display, which a RenderingDevice needs.
+exec unshare --mount bash -c 'set -e
+    S=$folder/root
+    mkdir -p "\$S$root"
+    mount --bind "$root" "\$S$root"
+    mount --bind /proc "\$S/proc"
+    mount --bind /dev "\$S/dev"
+    here=\$PWD
+    exec chroot "\$S" env HOME=/root XDG_RUNTIME_DIR=/run bash -c "cd \"\$here\" 2>/dev/null || cd /
+        if [ \"\${GODOT_DISPLAY:-}\" = virtual ]; then
+            exec xvfb-run -a -s \"-screen 0 1280x1024x24\" godot \"\\\$@\"
+        fi
+        exec godot \"\\\$@\"" godot "\$@"' godot "\$@"
+TEXT
+    chmod +x "$folder/godot"
+}
+
+# _run_in ROOT COMMAND...
+_run_in() {
+    local folder=$1
+    shift
+    # shellcheck disable=SC2016
+    unshare --mount bash -c 'mount --bind /proc "$0/proc" && mount --bind /dev "$0/dev" && exec chroot "$0" "$@"' "$folder" "$@"
+}

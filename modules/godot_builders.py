@@ -1,0 +1,62 @@
+"""Finds a Godot, and lets it describe itself: the headers that the bindings are made from."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+from SCons.Script import Action
+
+HOW_TO_GET_ONE = (
+    "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
+    "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot/."
+)
+
+
+def find_godot():
+    """The program, or None."""
+    return os.environ.get("GODOT") or shutil.which("godot")
+
+
+def _dump(target, source, env):
+    folder = os.path.dirname(target[0].abspath)
+    command = [env["GODOT"], "--headless", "--dump-extension-api", "--dump-gdextension-interface"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    if not all(os.path.exists(node.abspath) for node in target):
+        print("ERROR: %s\n%s%s" % (" ".join(command), done.stdout, done.stderr))
+        return 1
+    return 0
+
+
+def add_bindings(env):
+    """Generates headers, in build/godot/api; the folder is put into CPPPATH by add_api_path. Objects that include them depend on env["GODOT_HEADERS"]."""
+    sys.path.insert(0, env.Dir("#modules/rendering_device_godot").abspath)
+    import godot_api
+
+    env["GODOT"] = find_godot()
+    if not env["GODOT"]:
+        print(HOW_TO_GET_ONE)
+        env.Exit(2)
+    folder = "#" + env["BUILD_FOLDER"].lstrip("#") + "/api/"
+    described = env.Command(
+        [folder + "extension_api.json", folder + "gdextension_interface.h"],
+        env.Value(env["GODOT"]),
+        Action(_dump, "Asking $GODOT for its API"),
+    )
+    env.Precious(described)
+
+    def write(target, source, env):
+        godot_api.write_bindings(str(source[0]), str(target[0]), godot_api.USED)
+        godot_api.write_hashes(str(source[0]), str(target[1]))
+
+    generated = env.Command(
+        [folder + "godot_api.gen.h", folder + "godot_hashes.gen.h"],
+        described[0],
+        Action(write, "Generating $TARGET"),
+    )
+    env.Depends(generated, "#modules/rendering_device_godot/godot_api.py")
+    env["GODOT_HEADERS"] = described[1:] + generated
+
+
+def add_api_path(env):
+    env.Append(CCFLAGS=[("-isystem", env.Dir("#" + env["BUILD_FOLDER"].lstrip("#") + "/api").path)])

@@ -1,0 +1,14 @@
+def get_dependencies():
+    return ["core", "rendering_device"]
+
+
+def get_layer():
+    return 2
+
+
+def get_description():
+    return "The device inside Godot: over its RenderingDevice"
+
+
+def get_hosts():
+    return ("godot",)

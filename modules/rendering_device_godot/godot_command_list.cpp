@@ -1,0 +1,429 @@
+#include "modules/core/error.h"
+#include "modules/rendering_device_godot/godot_device.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon {
+
+using RD = godot::RenderingDevice;
+using godot::Array;
+using godot::PackedByteArray;
+using godot::PackedColorArray;
+using godot::Ref;
+using godot::Variant;
+
+namespace {
+
+int64_t to_godot_uniform(ResourceKind p_kind) {
+	switch (p_kind) {
+		case ResourceKind::UNIFORM_BUFFER:
+			return RD::UNIFORM_TYPE_UNIFORM_BUFFER;
+		case ResourceKind::STORAGE_BUFFER:
+			return RD::UNIFORM_TYPE_STORAGE_BUFFER;
+		case ResourceKind::TEXEL_BUFFER:
+			return RD::UNIFORM_TYPE_TEXTURE_BUFFER;
+		case ResourceKind::STORAGE_TEXTURE:
+			return RD::UNIFORM_TYPE_IMAGE;
+		case ResourceKind::TEXTURE:
+			return RD::UNIFORM_TYPE_TEXTURE;
+		case ResourceKind::TEXTURE_WITH_SAMPLER:
+			return RD::UNIFORM_TYPE_SAMPLER_WITH_TEXTURE;
+		case ResourceKind::SAMPLER:
+			return RD::UNIFORM_TYPE_SAMPLER;
+	}
+	return RD::UNIFORM_TYPE_MAX;
+}
+
+} // namespace
+
+void GodotDevice::begin_span(const std::string &p_name) {
+	end_compute_list();
+	spans.push_back({ p_name, 0 });
+}
+
+void GodotDevice::end_span() {
+	end_compute_list();
+}
+
+void GodotDevice::barriers(std::span<const Barrier>) {
+	end_compute_list(); // Godot waits between lists for what the next one needs
+}
+
+void GodotDevice::begin_compute_list() {
+	GNOMON_ASSERT(draw_list < 0, "a dispatch inside a rendering");
+	if (compute_list < 0) {
+		flush_uploads();
+		compute_list = rd.compute_list_begin();
+	}
+}
+
+void GodotDevice::end_compute_list() {
+	if (compute_list >= 0) {
+		rd.compute_list_end();
+		compute_list = -1;
+		bound = nullptr;
+	}
+}
+
+godot::RID GodotDevice::get_framebuffer(
+		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	Key key;
+	for (const ColorTarget &color : p_colors) {
+		key.push_back(get_layer(textures.get(color.texture), color.layer).id);
+	}
+	if (p_depth) {
+		key.push_back(get_layer(textures.get(p_depth->texture), p_depth->layer).id);
+	}
+	Cached &cached = framebuffers[key];
+	if (!cached.rid || !rd.framebuffer_is_valid(cached.rid)) {
+		Array attachments;
+		for (const uint64_t id : key) {
+			attachments.append(Variant(godot::RID{ id }));
+		}
+		cached.rid = rd.framebuffer_create(attachments, -1, 1);
+		GNOMON_ASSERT(cached.rid, "Godot makes no framebuffer of ", key.size(), " textures");
+	}
+	cached.last_use = submission;
+	return cached.rid;
+}
+
+void GodotDevice::begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
+		std::span<const glm::vec4> p_clear_colors, float p_clear_depth) {
+	end_compute_list();
+	flush_uploads();
+	framebuffer_format = rd.framebuffer_get_format(p_framebuffer);
+	draw_list = rd.draw_list_begin(p_framebuffer, p_flags, PackedColorArray(p_clear_colors),
+			double(p_clear_depth), 0, {}, 0);
+	GNOMON_ASSERT(draw_list >= 0, "Godot begins no drawing");
+}
+
+void GodotDevice::begin_rendering(
+		std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) {
+	int64_t flags = 0;
+	std::vector<glm::vec4> clear_colors;
+	for (size_t index = 0; index < p_colors.size(); ++index) {
+		const ColorTarget &color = p_colors[index];
+		target_size_px = textures.get(color.texture).desc.size_px;
+		clear_colors.push_back(color.clear);
+		flags |= color.load == LoadOp::CLEAR	? RD::DRAW_CLEAR_COLOR_0 << index
+				: color.load == LoadOp::DISCARD ? RD::DRAW_IGNORE_COLOR_0 << index
+												: 0;
+	}
+	if (p_depth) {
+		const TextureDesc &desc = textures.get(p_depth->texture).desc;
+		target_size_px = desc.size_px;
+		if (p_depth->load == LoadOp::CLEAR) {
+			flags |= RD::DRAW_CLEAR_DEPTH |
+					(has_stencil(desc.format) ? int64_t(RD::DRAW_CLEAR_STENCIL) : 0);
+		} else if (p_depth->load == LoadOp::DISCARD) {
+			flags |= RD::DRAW_IGNORE_DEPTH |
+					(has_stencil(desc.format) ? int64_t(RD::DRAW_IGNORE_STENCIL) : 0);
+		}
+	}
+	const godot::RID framebuffer = get_framebuffer(p_colors, p_depth);
+	begin_draw_list(framebuffer, flags, clear_colors, p_depth ? p_depth->clear : 0.0f);
+}
+
+void GodotDevice::begin_rendering_without_targets(glm::uvec2 p_size_px) {
+	Cached &cached = framebuffers[{ p_size_px.x, p_size_px.y }];
+	if (!cached.rid) {
+		cached.rid = rd.framebuffer_create_empty(glm::ivec2(p_size_px), 0, -1);
+	}
+	cached.last_use = submission;
+	target_size_px = p_size_px;
+	begin_draw_list(cached.rid, 0, {}, 0.0f);
+}
+
+void GodotDevice::end_rendering() {
+	rd.draw_list_end();
+	draw_list = -1;
+	bound = nullptr;
+	vertex_buffers.clear();
+	index_buffer = {};
+}
+
+void GodotDevice::set_viewport(glm::uvec2, glm::uvec2) {
+	GNOMON_ASSERT(false, "Godot draws into whole targets; set_scissor cuts");
+}
+
+void GodotDevice::set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) {
+	rd.draw_list_enable_scissor(draw_list, { glm::vec2(p_offset_px), glm::vec2(p_size_px) });
+}
+
+void GodotDevice::set_depth_bounds(float, float) {
+	GNOMON_ASSERT(false, "this device has no depth bounds");
+}
+
+void GodotDevice::begin_conditional(BufferRID, uint64_t) {
+	GNOMON_ASSERT(false, "this device has no conditional rendering");
+}
+
+void GodotDevice::end_conditional() {
+	GNOMON_ASSERT(false, "this device has no conditional rendering");
+}
+
+void GodotDevice::bind_pipeline(PipelineRID p_pipeline) {
+	bound = &get_pipeline(p_pipeline);
+	if (std::holds_alternative<ComputePipelineDesc>(bound->desc)) {
+		begin_compute_list();
+		rd.compute_list_bind_compute_pipeline(
+				compute_list, bound->by_framebuffer_format.begin()->second);
+		return;
+	}
+	GNOMON_ASSERT(draw_list >= 0, "pipeline '", bound->name, "' outside a rendering");
+	godot::RID &rid = pipelines[p_pipeline.id - 1].by_framebuffer_format[framebuffer_format];
+	if (!rid) {
+		rid = make_raster_pipeline(*bound, framebuffer_format);
+	}
+	rd.draw_list_bind_render_pipeline(draw_list, rid);
+}
+
+godot::RID GodotDevice::get_uniform_set(
+		const GodotPipeline &p_pipeline, std::span<const Binding> p_bindings) {
+	struct Slot {
+		const ReflectedBinding *reflected;
+		godot::RID resource;
+		godot::RID sampler;
+	};
+	std::vector<Slot> slots;
+	Key key = { p_pipeline.shader.id };
+	for (const ReflectedBinding &reflected : p_pipeline.bindings) {
+		const auto given = std::find_if(p_bindings.begin(), p_bindings.end(),
+				[&](const Binding &p_binding) { return p_binding.binding == reflected.binding; });
+		if (given == p_bindings.end()) {
+			GNOMON_ASSERT(!reflected.is_used, "pipeline '", p_pipeline.name, "': binding ",
+					reflected.binding, " is missing");
+			continue;
+		}
+		Slot slot = { &reflected, {}, {} };
+		if (given->buffer) {
+			slot.resource = buffers.get(given->buffer).rid;
+		} else if (given->texture) {
+			slot.resource = get_layer(textures.get(given->texture), given->layer);
+		}
+		if (given->sampler) {
+			slot.sampler = samplers.get(given->sampler).rid;
+		}
+		key.insert(key.end(), { reflected.binding, slot.resource.id, slot.sampler.id });
+		slots.push_back(slot);
+	}
+	if (slots.empty()) {
+		return {};
+	}
+	Cached &cached = uniform_sets[key];
+	if (!cached.rid || !rd.uniform_set_is_valid(cached.rid)) {
+		Array uniforms;
+		for (const Slot &slot : slots) {
+			const auto uniform = Ref<godot::RDUniform>::create();
+			uniform.set_uniform_type(to_godot_uniform(slot.reflected->kind));
+			uniform.set_binding(slot.reflected->binding);
+			if (slot.sampler) {
+				uniform.add_id(slot.sampler);
+			}
+			if (slot.resource) {
+				uniform.add_id(slot.resource);
+			}
+			uniforms.append(Variant::of_object(uniform.get_owner()));
+		}
+		cached.rid = rd.uniform_set_create(uniforms, p_pipeline.shader, 0);
+		GNOMON_ASSERT(cached.rid, "pipeline '", p_pipeline.name, "': Godot refuses its resources");
+	}
+	cached.last_use = submission;
+	return cached.rid;
+}
+
+void GodotDevice::bind_resources(std::span<const Binding> p_bindings) {
+	const godot::RID set = get_uniform_set(*bound, p_bindings);
+	if (!set) {
+		return;
+	}
+	if (draw_list >= 0) {
+		rd.draw_list_bind_uniform_set(draw_list, set, 0);
+	} else {
+		rd.compute_list_bind_uniform_set(compute_list, set, 0);
+	}
+}
+
+void GodotDevice::push_constants(std::span<const uint8_t> p_bytes) {
+	GNOMON_ASSERT(p_bytes.size() == bound->push_constant_bytes, "pipeline '", bound->name,
+			"': ", p_bytes.size(), " bytes of push constants, must be ",
+			bound->push_constant_bytes);
+	const int64_t size = static_cast<int64_t>(p_bytes.size());
+	if (draw_list >= 0) {
+		rd.draw_list_set_push_constant(draw_list, PackedByteArray(p_bytes), size);
+	} else {
+		rd.compute_list_set_push_constant(compute_list, PackedByteArray(p_bytes), size);
+	}
+}
+
+void GodotDevice::bind_vertex_buffers(std::span<const BufferRID> p_buffers) {
+	vertex_buffers.assign(p_buffers.begin(), p_buffers.end());
+}
+
+void GodotDevice::bind_index_buffer(BufferRID p_buffer) {
+	index_buffer = p_buffer;
+}
+
+void GodotDevice::bind_vertex_array(uint32_t p_vertex_count) {
+	const auto &desc = std::get<RasterPipelineDesc>(bound->desc);
+	if (desc.attributes.empty()) {
+		return;
+	}
+	Key key = { p_vertex_count, static_cast<uint64_t>(bound->vertex_format) };
+	Array sources; // one for each attribute
+	for (const VertexAttribute &attribute : desc.attributes) {
+		const godot::RID buffer = buffers.get(vertex_buffers[attribute.buffer_index]).rid;
+		key.push_back(buffer.id);
+		sources.append(Variant(buffer));
+	}
+	Cached &cached = vertex_arrays[key];
+	if (!cached.rid) {
+		cached.rid = rd.vertex_array_create(p_vertex_count, bound->vertex_format, sources, {});
+		GNOMON_ASSERT(cached.rid, "pipeline '", bound->name, "': Godot refuses its vertices");
+	}
+	cached.last_use = submission;
+	rd.draw_list_bind_vertex_array(draw_list, cached.rid);
+}
+
+void GodotDevice::draw(uint32_t p_vertex_count, uint32_t p_instance_count) {
+	++counts.draws;
+	const bool is_procedural = std::get<RasterPipelineDesc>(bound->desc).attributes.empty();
+	bind_vertex_array(p_vertex_count);
+	rd.draw_list_draw(draw_list, false, p_instance_count, is_procedural ? p_vertex_count : 0);
+}
+
+void GodotDevice::draw_indexed(uint32_t p_index_count, uint32_t p_first_index) {
+	++counts.draws;
+	const auto &desc = std::get<RasterPipelineDesc>(bound->desc);
+	const BufferDesc &vertices = buffers.get(vertex_buffers[0]).desc;
+	bind_vertex_array(static_cast<uint32_t>(vertices.size_bytes / desc.vertex_strides_bytes[0]));
+	const godot::RID buffer = buffers.get(index_buffer).rid;
+	Cached &cached = index_arrays[{ buffer.id, p_first_index, p_index_count }];
+	if (!cached.rid) {
+		cached.rid = rd.index_array_create(buffer, p_first_index, p_index_count);
+		GNOMON_ASSERT(cached.rid, "pipeline '", bound->name, "': Godot refuses its indices");
+	}
+	cached.last_use = submission;
+	rd.draw_list_bind_index_array(draw_list, cached.rid);
+	rd.draw_list_draw(draw_list, true, 1, 0);
+}
+
+void GodotDevice::draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
+	++counts.draws;
+	rd.draw_list_draw_indirect(draw_list, false, buffers.get(p_arguments).rid,
+			static_cast<int64_t>(p_offset_bytes), 1, 0);
+}
+
+void GodotDevice::dispatch(glm::uvec3 p_group_count) {
+	++counts.dispatches;
+	rd.compute_list_dispatch(compute_list, p_group_count.x, p_group_count.y, p_group_count.z);
+}
+
+void GodotDevice::dispatch_items(glm::uvec3 p_item_count) {
+	dispatch((p_item_count + bound->local_size - 1u) / bound->local_size);
+}
+
+void GodotDevice::dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) {
+	++counts.dispatches;
+	rd.compute_list_dispatch_indirect(
+			compute_list, buffers.get(p_arguments).rid, static_cast<int64_t>(p_offset_bytes));
+}
+
+void GodotDevice::clear_buffer(BufferRID p_buffer) {
+	end_compute_list();
+	const GodotBuffer &buffer = buffers.get(p_buffer);
+	rd.buffer_clear(buffer.rid, 0, static_cast<int64_t>(buffer.desc.size_bytes));
+}
+
+void GodotDevice::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
+		uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) {
+	end_compute_list();
+	flush_uploads();
+	GodotBuffer &target = buffers.get(p_target);
+	const godot::RID source = buffers.get(p_source).rid;
+	if (target.desc.memory != MemoryKind::READBACK) {
+		rd.buffer_copy(source, target.rid, static_cast<int64_t>(p_source_offset_bytes),
+				static_cast<int64_t>(p_target_offset_bytes), static_cast<int64_t>(p_size_bytes));
+		return;
+	}
+	const PackedByteArray read = rd.buffer_get_data(source,
+			static_cast<int64_t>(p_source_offset_bytes), static_cast<int64_t>(p_size_bytes));
+	std::memcpy(target.bytes.data() + p_target_offset_bytes, read.get_bytes().data(), p_size_bytes);
+}
+
+void GodotDevice::copy_texture_to_buffer(
+		TextureRID p_source, BufferRID p_target, uint32_t p_layer) {
+	end_compute_list();
+	GodotBuffer &target = buffers.get(p_target);
+	GNOMON_ASSERT(target.desc.memory == MemoryKind::READBACK, "buffer '", target.desc.name,
+			"': Godot copies textures to the CPU alone");
+	const PackedByteArray read = rd.texture_get_data(textures.get(p_source).rid, p_layer);
+	const std::span<const uint8_t> bytes = read.get_bytes();
+	std::memcpy(target.bytes.data(), bytes.data(), std::min(bytes.size(), target.bytes.size()));
+}
+
+void GodotDevice::copy_buffer_to_texture(
+		BufferRID p_source, TextureRID p_target, uint32_t p_layer, uint64_t p_source_offset_bytes) {
+	const GodotBuffer &source = buffers.get(p_source);
+	const GodotTexture &target = textures.get(p_target);
+	GNOMON_ASSERT(source.desc.memory == MemoryKind::UPLOAD, "buffer '", source.desc.name,
+			"': Godot copies to textures from the CPU alone");
+	end_compute_list();
+	const uint64_t size_bytes = uint64_t(target.desc.size_px.x) * target.desc.size_px.y *
+			get_texel_size_bytes(target.desc.format);
+	rd.texture_update(target.rid, p_layer,
+			PackedByteArray(std::span(source.bytes)
+									.subspan(size_t(p_source_offset_bytes), size_t(size_bytes))));
+}
+
+void GodotDevice::copy_texture(TextureRID p_source, TextureRID p_target) {
+	end_compute_list();
+	const GodotTexture &source = textures.get(p_source);
+	const glm::vec3 size(glm::vec2(source.desc.size_px), 1.0f);
+	rd.texture_copy(source.rid, textures.get(p_target).rid, glm::vec3(0.0f), glm::vec3(0.0f), size,
+			0, 0, 0, 0);
+}
+
+void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value) {
+	end_compute_list();
+	const GodotTexture &texture = textures.get(p_texture);
+	rd.texture_clear(texture.rid, p_value, 0, 1, 0, texture.desc.layer_count);
+}
+
+void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
+	end_compute_list();
+	const GodotBuffer &buffer = buffers.get(p_buffer);
+	const int64_t size = static_cast<int64_t>(buffer.desc.size_bytes);
+	if (kind == Kind::MAIN) {
+		rd.buffer_get_data_async(buffer.rid, make_callable(std::move(p_callback)), 0, size);
+		return;
+	}
+	const PackedByteArray read = rd.buffer_get_data(buffer.rid, 0, size);
+	const std::span<const uint8_t> bytes = read.get_bytes();
+	read_backs.emplace_back(
+			std::vector<uint8_t>(bytes.begin(), bytes.end()), std::move(p_callback));
+}
+
+void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
+	end_compute_list();
+	const godot::RID texture = textures.get(p_texture).rid;
+	if (kind == Kind::MAIN) {
+		rd.texture_get_data_async(texture, p_layer, make_callable(std::move(p_callback)));
+		return;
+	}
+	const PackedByteArray read = rd.texture_get_data(texture, p_layer);
+	const std::span<const uint8_t> bytes = read.get_bytes();
+	read_backs.emplace_back(
+			std::vector<uint8_t>(bytes.begin(), bytes.end()), std::move(p_callback));
+}
+
+void GodotDevice::call_read_backs() {
+	while (!read_backs.empty()) {
+		const auto [bytes, callback] = std::move(read_backs.front());
+		read_backs.pop_front(); // first: the callback may throw
+		callback(bytes);
+	}
+}
+
+} // namespace gnomon

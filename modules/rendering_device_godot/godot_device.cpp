@@ -1,0 +1,413 @@
+#include "modules/rendering_device_godot/godot_device.h"
+
+#include "modules/core/error.h"
+#include "modules/core/limits.h"
+#include "modules/core/log.h"
+#include "modules/rendering_device_godot/godot_formats.h"
+#include "modules/rendering_device_godot/godot_interface.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon {
+
+using RD = godot::RenderingDevice;
+using godot::Array;
+using godot::PackedByteArray;
+using godot::Ref;
+using godot::Variant;
+
+namespace {
+
+constexpr uint64_t LARGEST_BUFFER_BYTES = 0xffffffffu; // sizes are 32 bits wide in Godot's calls
+constexpr size_t MOST_SPARE_UPLOADS = 64;			   // of one size and usage
+
+uint64_t compute_size_bytes(const TextureDesc &p_desc) {
+	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * p_desc.layer_count *
+			get_texel_size_bytes(p_desc.format);
+}
+
+} // namespace
+
+GodotDevice::GodotDevice(
+		godot::RenderingDevice p_device, Kind p_kind, const DeviceOptions &p_options) :
+		rd(p_device),
+		kind(p_kind) {
+	info.name = rd.get_device_name().to_utf8();
+	info.driver = rd.get_device_vendor_name().to_utf8();
+	info.type = "of Godot";
+	info.is_usable = true;
+	features.depth_clamp = true;
+	features.fragment_stores = true;
+	features.max_texture_size_px = uint32_t(rd.limit_get(RD::LIMIT_MAX_TEXTURE_SIZE_2D));
+	features.max_storage_buffer_bytes = LARGEST_BUFFER_BYTES;
+	features.subgroup_size = measure_subgroup_size();
+	features.subgroup_operations = features.subgroup_size > 0;
+	for (const auto &feature : p_options.denied_features) {
+		features.*feature = false;
+	}
+}
+
+uint32_t GodotDevice::measure_subgroup_size() {
+	const BufferRID result = create_buffer({ "subgroup size", sizeof(uint32_t) });
+	const PipelineRID pipeline = get_compute_pipeline(
+			{ "subgroup size", "rendering_device_godot/subgroup_size.comp", {} });
+	CommandList &commands = begin_commands();
+	commands.bind_pipeline(pipeline);
+	commands.bind_resources({ { 0, result } });
+	commands.dispatch({ 1, 1, 1 });
+	submit_commands(SubmitMode::WAIT);
+	const PackedByteArray read = rd.buffer_get_data(buffers.get(result).rid, 0, sizeof(uint32_t));
+	uint32_t size = 0;
+	if (read.get_bytes().size() == sizeof(size)) {
+		std::memcpy(&size, read.get_bytes().data(), sizeof(size));
+	}
+	free(result);
+	return size;
+}
+
+GodotDevice::~GodotDevice() {
+	wait_idle();
+	for (const std::string &name : list_live_resources()) {
+		log_error("Leak: ", name, " is still alive.");
+	}
+	// What is made of others goes with them.
+	for (const GodotPipeline &pipeline : pipelines) {
+		for (const auto &[format, rid] : pipeline.by_framebuffer_format) {
+			rd.free_rid(rid);
+		}
+	}
+	for (const auto &[names, shader] : shaders) {
+		rd.free_rid(shader);
+	}
+	for (const auto &[key, rids] : spare_uploads) {
+		for (const godot::RID rid : rids) {
+			rd.free_rid(rid);
+		}
+	}
+	if (kind == Kind::LOCAL) {
+		godot::get_interface().object_destroy(rd.get_owner());
+	}
+}
+
+std::vector<std::string> GodotDevice::list_live_resources() {
+	std::vector<std::string> names;
+	textures.for_each([&](TextureRID, GodotTexture &r_texture) {
+		names.push_back(text("texture '", r_texture.desc.name, "'"));
+	});
+	buffers.for_each([&](BufferRID, GodotBuffer &r_buffer) {
+		names.push_back(text("buffer '", r_buffer.desc.name, "'"));
+	});
+	samplers.for_each([&](SamplerRID, GodotSampler &r_sampler) {
+		names.push_back(text("sampler '", r_sampler.desc.name, "'"));
+	});
+	return names;
+}
+
+MemoryUse GodotDevice::get_memory_use() const {
+	MemoryUse result = use;
+	result.allocated_bytes = uint64_t(rd.get_memory_usage(RD::MEMORY_TOTAL));
+	return result;
+}
+
+godot::RID GodotDevice::create_godot_buffer(
+		const BufferDesc &p_desc, std::span<const uint8_t> p_bytes) {
+	const PackedByteArray bytes(p_bytes);
+	const int64_t size = static_cast<int64_t>(p_desc.size_bytes);
+	const bool is_storage = has_usage(p_desc.usage, BufferUsage::STORAGE);
+	const int64_t bits = is_storage ? int64_t(RD::BUFFER_CREATION_AS_STORAGE_BIT) : 0;
+	if (has_usage(p_desc.usage, BufferUsage::TEXEL)) {
+		const int64_t count = size / get_texel_size_bytes(p_desc.texel_format);
+		return rd.texture_buffer_create(count, to_godot_format(p_desc.texel_format),
+				p_bytes.empty() ? PackedByteArray(std::vector<uint8_t>(size_t(size))) : bytes);
+	}
+	if (has_usage(p_desc.usage, BufferUsage::VERTEX)) {
+		return rd.vertex_buffer_create(size, bytes, bits);
+	}
+	if (has_usage(p_desc.usage, BufferUsage::INDEX)) {
+		return rd.index_buffer_create(size / int64_t(sizeof(uint32_t)),
+				RD::INDEX_BUFFER_FORMAT_UINT32, bytes, false, bits);
+	}
+	if (has_usage(p_desc.usage, BufferUsage::UNIFORM)) {
+		return rd.uniform_buffer_create(size, bytes, 0);
+	}
+	return rd.storage_buffer_create(size, bytes,
+			has_usage(p_desc.usage, BufferUsage::INDIRECT)
+					? int64_t(RD::STORAGE_BUFFER_USAGE_DISPATCH_INDIRECT)
+					: 0,
+			0);
+}
+
+BufferRID GodotDevice::create_buffer(const BufferDesc &p_desc) {
+	return create_buffer_with_data(p_desc, {});
+}
+
+BufferRID GodotDevice::create_buffer_with_data(
+		BufferDesc p_desc, std::span<const uint8_t> p_bytes) {
+	GNOMON_ASSERT(p_desc.size_bytes > 0, "buffer '", p_desc.name, "' has no bytes");
+	GodotBuffer buffer;
+	buffer.desc = std::move(p_desc);
+	const BufferDesc &desc = buffer.desc;
+	if (desc.size_bytes > LARGEST_BUFFER_BYTES) {
+		fail("Buffer '", desc.name, "' needs ", desc.size_bytes, " bytes, at most ",
+				LARGEST_BUFFER_BYTES, " are possible in Godot. Let fewer meshes cast shadows.");
+	}
+	if (desc.memory != MemoryKind::GPU) {
+		buffer.bytes.resize(size_t(desc.size_bytes));
+	}
+	const auto spare = spare_uploads.find({ desc.size_bytes, desc.usage });
+	if (desc.memory == MemoryKind::UPLOAD && spare != spare_uploads.end() &&
+			!spare->second.empty()) {
+		buffer.rid = spare->second.back();
+		spare->second.pop_back();
+	} else if (desc.memory != MemoryKind::READBACK) {
+		buffer.rid = create_godot_buffer(desc, p_bytes);
+		if (!buffer.rid) {
+			fail("Buffer '", desc.name, "' of ", desc.size_bytes,
+					" bytes could not be made: Godot's log has the reason. Close other programs, "
+					"or let fewer meshes cast shadows.");
+		}
+		if (desc.memory == MemoryKind::GPU) {
+			rd.set_resource_name(buffer.rid, desc.name);
+		}
+	}
+	use.used_bytes += desc.size_bytes;
+	use.peak_bytes = std::max(use.peak_bytes, use.used_bytes);
+	return buffers.add(std::move(buffer));
+}
+
+TextureRID GodotDevice::create_texture(const TextureDesc &p_desc) {
+	return create_texture_with_data(p_desc, {});
+}
+
+TextureRID GodotDevice::create_texture_with_data(
+		TextureDesc p_desc, std::span<const uint8_t> p_bytes) {
+	if (!p_bytes.empty()) {
+		p_desc.usage = p_desc.usage | TextureUsage::COPY_TARGET;
+	}
+	if (std::max(p_desc.size_px.x, p_desc.size_px.y) > features.max_texture_size_px) {
+		fail("Texture '", p_desc.name, "' is ", p_desc.size_px.x, "x", p_desc.size_px.y,
+				" pixels, at most ", features.max_texture_size_px,
+				" are possible. Take a smaller map or viewport.");
+	}
+	const auto format = Ref<godot::RDTextureFormat>::create();
+	format.set_format(to_godot_format(p_desc.format));
+	format.set_width(p_desc.size_px.x);
+	format.set_height(p_desc.size_px.y);
+	format.set_array_layers(p_desc.layer_count);
+	format.set_texture_type(p_desc.is_array ? RD::TEXTURE_TYPE_2D_ARRAY : RD::TEXTURE_TYPE_2D);
+	format.set_usage_bits(to_godot_usage(p_desc));
+	Array data;
+	if (!p_bytes.empty()) {
+		data.append(Variant(PackedByteArray(p_bytes)));
+	}
+	GodotTexture texture;
+	texture.rid = rd.texture_create(format, Ref<godot::RDTextureView>::create(), data);
+	if (!texture.rid) {
+		fail("Texture '", p_desc.name, "' of ", p_desc.size_px.x, "x", p_desc.size_px.y,
+				" pixels could not be made: Godot's log has the reason. Take a smaller map, or "
+				"close other programs.");
+	}
+	rd.set_resource_name(texture.rid, p_desc.name);
+	use.used_bytes += compute_size_bytes(p_desc);
+	use.peak_bytes = std::max(use.peak_bytes, use.used_bytes);
+	texture.desc = std::move(p_desc);
+	return textures.add(std::move(texture));
+}
+
+TextureRID GodotDevice::import_texture(godot::RID p_texture, const TextureDesc &p_desc) {
+	GodotTexture texture;
+	texture.desc = p_desc;
+	texture.rid = p_texture;
+	texture.is_imported = true;
+	return textures.add(std::move(texture));
+}
+
+godot::RID GodotDevice::get_layer(GodotTexture &r_texture, uint32_t p_layer) {
+	if (p_layer == Binding::ALL_LAYERS || !r_texture.desc.is_array) {
+		return r_texture.rid;
+	}
+	godot::RID &view = r_texture.layers[p_layer];
+	if (!view) {
+		view = rd.texture_create_shared_from_slice(Ref<godot::RDTextureView>::create(),
+				r_texture.rid, p_layer, 0, 1, RD::TEXTURE_SLICE_2D);
+		GNOMON_ASSERT(view, "layer ", p_layer, " of texture '", r_texture.desc.name, "'");
+	}
+	return view;
+}
+
+SamplerRID GodotDevice::create_sampler(const SamplerDesc &p_desc) {
+	const auto state = Ref<godot::RDSamplerState>::create();
+	const int64_t filter = p_desc.filter == Filter::LINEAR ? RD::SAMPLER_FILTER_LINEAR
+														   : RD::SAMPLER_FILTER_NEAREST;
+	const int64_t repeat = RD::SAMPLER_REPEAT_MODE_CLAMP_TO_EDGE;
+	state.set_mag_filter(filter);
+	state.set_min_filter(filter);
+	state.set_repeat_u(repeat);
+	state.set_repeat_v(repeat);
+	state.set_repeat_w(repeat);
+	return samplers.add({ p_desc, rd.sampler_create(state) });
+}
+
+void GodotDevice::free(BufferRID p_buffer) {
+	const GodotBuffer buffer = buffers.remove(p_buffer);
+	use.used_bytes -= buffer.desc.size_bytes;
+	std::erase(stale_uploads, p_buffer);
+	if (buffer.desc.memory == MemoryKind::UPLOAD) {
+		auto &spares = spare_uploads[{ buffer.desc.size_bytes, buffer.desc.usage }];
+		if (spares.size() < MOST_SPARE_UPLOADS) {
+			spares.push_back(buffer.rid);
+			return;
+		}
+	}
+	if (buffer.rid) {
+		forget(buffer.rid);
+		rd.free_rid(buffer.rid);
+	}
+}
+
+void GodotDevice::free(TextureRID p_texture) {
+	const GodotTexture texture = textures.remove(p_texture);
+	if (texture.is_imported) {
+		for (const auto &[layer, view] : texture.layers) {
+			if (rd.texture_is_valid(view)) {
+				rd.free_rid(view);
+			}
+		}
+		return;
+	}
+	use.used_bytes -= compute_size_bytes(texture.desc);
+	forget(texture.rid);
+	for (const auto &[layer, view] : texture.layers) {
+		forget(view);
+	}
+	rd.free_rid(texture.rid); // its views with it
+}
+
+void GodotDevice::free(SamplerRID p_sampler) {
+	rd.free_rid(samplers.remove(p_sampler).rid);
+}
+
+void GodotDevice::free(MemoryRID) {
+	GNOMON_ASSERT(false, "this device has no aliased memory");
+}
+
+const BufferDesc &GodotDevice::get_desc(BufferRID p_buffer) const {
+	return buffers.get(p_buffer).desc;
+}
+
+const TextureDesc &GodotDevice::get_desc(TextureRID p_texture) const {
+	return textures.get(p_texture).desc;
+}
+
+uint8_t *GodotDevice::get_mapped(BufferRID p_buffer) {
+	GodotBuffer &buffer = buffers.get(p_buffer);
+	GNOMON_ASSERT(!buffer.bytes.empty(), "buffer '", buffer.desc.name, "' is not mapped");
+	if (buffer.desc.memory == MemoryKind::UPLOAD && !buffer.is_stale) {
+		buffer.is_stale = true;
+		stale_uploads.push_back(p_buffer);
+	}
+	return buffer.bytes.data();
+}
+
+void GodotDevice::flush_uploads() {
+	for (const BufferRID handle : stale_uploads) {
+		GodotBuffer &buffer = buffers.get(handle);
+		rd.buffer_update(buffer.rid, 0, static_cast<int64_t>(buffer.bytes.size()),
+				PackedByteArray(buffer.bytes));
+		buffer.is_stale = false;
+	}
+	stale_uploads.clear();
+}
+
+godot::Callable GodotDevice::make_callable(ReadBackCallback p_callback) const {
+	return godot::Callable([callback = std::move(p_callback)](const Variant &p_argument) {
+		callback(PackedByteArray(p_argument).get_bytes());
+	});
+}
+
+RenderingDevice::PlacementNeeds GodotDevice::compute_placement_needs(const TextureDesc &) {
+	GNOMON_ASSERT(false, "this device has no aliased memory");
+	return {};
+}
+
+MemoryRID GodotDevice::create_texture_memory(const std::string &, uint64_t) {
+	GNOMON_ASSERT(false, "this device has no aliased memory");
+	return {};
+}
+
+TextureRID GodotDevice::create_placed_texture(const TextureDesc &, MemoryRID, uint64_t) {
+	GNOMON_ASSERT(false, "this device has no aliased memory");
+	return {};
+}
+
+void GodotDevice::forget(godot::RID p_resource) {
+	for (Cache *cache : { &uniform_sets, &framebuffers, &vertex_arrays, &index_arrays }) {
+		std::erase_if(*cache, [&](const auto &p_entry) {
+			return std::find(p_entry.first.begin(), p_entry.first.end(), p_resource.id) !=
+					p_entry.first.end();
+		});
+	}
+}
+
+void GodotDevice::prune(Cache &r_cache, bool (*p_is_valid)(const RD &, godot::RID)) {
+	std::erase_if(r_cache, [&](const auto &p_entry) {
+		const Cached &cached = p_entry.second;
+		const bool is_old = submission - cached.last_use > KEPT_FRAMES;
+		if (is_old && p_is_valid(rd, cached.rid)) {
+			rd.free_rid(cached.rid);
+		}
+		return is_old;
+	});
+}
+
+CommandList &GodotDevice::begin_commands() {
+	GNOMON_ASSERT(!is_recording, "commands are being recorded already");
+	wait_idle();
+	call_read_backs();
+	is_recording = true;
+	++submission;
+	spans.clear();
+	flush_uploads();
+	return *this;
+}
+
+void GodotDevice::submit_commands(SubmitMode p_mode) {
+	GNOMON_ASSERT(is_recording, "no commands are being recorded");
+	end_compute_list();
+	is_recording = false;
+	if (kind == Kind::LOCAL) {
+		rd.submit();
+		is_submitted = true;
+	}
+	// What Godot owns of them may have gone since.
+	prune(uniform_sets,
+			[](const RD &p_rd, godot::RID p_rid) { return p_rd.uniform_set_is_valid(p_rid); });
+	prune(framebuffers,
+			[](const RD &p_rd, godot::RID p_rid) { return p_rd.framebuffer_is_valid(p_rid); });
+	prune(vertex_arrays, [](const RD &, godot::RID) { return true; });
+	prune(index_arrays, [](const RD &, godot::RID) { return true; });
+	if (p_mode == SubmitMode::WAIT) {
+		wait_idle();
+		call_read_backs();
+	}
+}
+
+void GodotDevice::abandon_commands() {
+	if (!is_recording) {
+		return;
+	}
+	if (draw_list >= 0) {
+		end_rendering();
+	}
+	submit_commands(SubmitMode::QUEUE);
+}
+
+void GodotDevice::wait_idle() {
+	if (is_submitted) {
+		is_submitted = false;
+		rd.sync();
+	}
+}
+
+} // namespace gnomon

@@ -1,0 +1,213 @@
+#pragma once
+
+#include "modules/rendering_device/command_list.h"
+#include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/slot_table.h"
+#include "modules/rendering_device/spirv_reflection.h"
+
+#include <godot_api.gen.h>
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <variant>
+
+namespace gnomon {
+
+struct GodotBuffer {
+	BufferDesc desc;
+	godot::RID rid;				// none: READBACK, which lives on the CPU alone
+	std::vector<uint8_t> bytes; // of UPLOAD and READBACK: what is mapped
+	bool is_stale = false;		// `bytes` are newer than the buffer
+};
+
+struct GodotTexture {
+	TextureDesc desc;
+	godot::RID rid;
+	bool is_imported = false;			   // somebody else frees it
+	std::map<uint32_t, godot::RID> layers; // views of one layer of an array
+};
+
+struct GodotSampler {
+	SamplerDesc desc;
+	godot::RID rid;
+};
+
+struct GodotPipeline {
+	std::string name;
+	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc;
+	godot::RID shader;
+	std::vector<ReflectedBinding> bindings; // ordered by binding
+	std::vector<uint32_t> boolean_constants;
+	uint32_t push_constant_bytes = 0;
+	glm::uvec3 local_size = glm::uvec3(1);
+	int64_t vertex_format = -1; // none
+	/// Of compute pipelines one, with key 0; of others one for each framebuffer format.
+	std::map<int64_t, godot::RID> by_framebuffer_format;
+};
+
+/// A device over Godot's RenderingDevice: either the one that draws Godot's frames, between whose
+/// draws our commands then stand, or one of our own beside it. Barriers, layouts and the order of
+/// what does not depend on one another are Godot's; commands are recorded at once, so that what was
+/// abandoned half-way is drawn nevertheless, into resources that nobody reads.
+///
+/// Lacks what Godot's device lacks, see get_features. On the thread that renders.
+class GodotDevice final : public RenderingDevice, private CommandList {
+public:
+	enum class Kind { MAIN, LOCAL };
+	GodotDevice(godot::RenderingDevice p_device, Kind p_kind, const DeviceOptions &p_options = {});
+	~GodotDevice() override;
+
+	/// A texture of Godot, which stays its owner; to be freed here before it is freed there.
+	TextureRID import_texture(godot::RID p_texture, const TextureDesc &p_desc);
+	/// "texture 'albedo'", "buffer 'edges'".
+	std::vector<std::string> list_live_resources();
+	uint32_t get_pipeline_count() const { return static_cast<uint32_t>(pipelines.size()); }
+	/// For Godot's own use: materials and the like.
+	godot::RID get_rid(TextureRID p_texture) const { return textures.get(p_texture).rid; }
+
+	const DeviceInfo &get_info() const override { return info; }
+	const DeviceFeatures &get_features() const override { return features; }
+	MemoryUse get_memory_use() const override;
+	CommandCounts get_command_counts() const override { return counts; }
+
+	BufferRID create_buffer(const BufferDesc &p_desc) override;
+	BufferRID create_buffer_with_data(BufferDesc p_desc, std::span<const uint8_t> p_bytes) override;
+	TextureRID create_texture(const TextureDesc &p_desc) override;
+	TextureRID create_texture_with_data(
+			TextureDesc p_desc, std::span<const uint8_t> p_bytes) override;
+	SamplerRID create_sampler(const SamplerDesc &p_desc) override;
+	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) override;
+	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) override;
+	/// Not here: shaders are edited in the editor of Gnomon.
+	void replace_shaders(const std::map<std::string, std::vector<uint32_t>> &) override;
+	void free(BufferRID p_buffer) override;
+	void free(TextureRID p_texture) override;
+	void free(SamplerRID p_sampler) override;
+	void free(MemoryRID p_memory) override;
+
+	const BufferDesc &get_desc(BufferRID p_buffer) const override;
+	const TextureDesc &get_desc(TextureRID p_texture) const override;
+	uint8_t *get_mapped(BufferRID p_buffer) override;
+
+	PlacementNeeds compute_placement_needs(const TextureDesc &p_desc) override;
+	MemoryRID create_texture_memory(const std::string &p_name, uint64_t p_size_bytes) override;
+	TextureRID create_placed_texture(
+			const TextureDesc &p_desc, MemoryRID p_memory, uint64_t p_offset_bytes) override;
+
+	CommandList &begin_commands() override;
+	void submit_commands(SubmitMode p_mode) override;
+	void abandon_commands() override;
+	void wait_idle() override;
+	void read_back(BufferRID p_buffer, ReadBackCallback p_callback) override;
+	void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) override;
+	const std::vector<GpuSpan> &get_gpu_spans() const override { return spans; }
+
+private:
+	// CommandList
+	void begin_span(const std::string &p_name) override;
+	void end_span() override;
+	void barriers(std::span<const Barrier> p_barriers) override;
+	void begin_rendering(
+			std::span<const ColorTarget> p_colors, const DepthTarget *p_depth) override;
+	void begin_rendering_without_targets(glm::uvec2 p_size_px) override;
+	void end_rendering() override;
+	void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
+	void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) override;
+	void set_depth_bounds(float p_least, float p_greatest) override;
+	void bind_pipeline(PipelineRID p_pipeline) override;
+	void bind_resources(std::span<const Binding> p_bindings) override;
+	void push_constants(std::span<const uint8_t> p_bytes) override;
+	void bind_vertex_buffers(std::span<const BufferRID> p_buffers) override;
+	void bind_index_buffer(BufferRID p_buffer) override;
+	void draw(uint32_t p_vertex_count, uint32_t p_instance_count) override;
+	void draw_indexed(uint32_t p_index_count, uint32_t p_first_index) override;
+	void draw_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) override;
+	void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes) override;
+	void end_conditional() override;
+	void dispatch(glm::uvec3 p_group_count) override;
+	void dispatch_items(glm::uvec3 p_item_count) override;
+	void dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) override;
+	void clear_buffer(BufferRID p_buffer) override;
+	void copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
+			uint64_t p_source_offset_bytes, uint64_t p_target_offset_bytes) override;
+	void copy_texture_to_buffer(TextureRID p_source, BufferRID p_target, uint32_t p_layer) override;
+	void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target, uint32_t p_layer,
+			uint64_t p_source_offset_bytes) override;
+	void copy_texture(TextureRID p_source, TextureRID p_target) override;
+	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
+
+	/// Of what Godot makes of several resources: their ids, and numbers that are no ids (those are
+	/// above 2^32).
+	using Key = std::vector<uint64_t>;
+	struct Cached {
+		godot::RID rid;
+		uint64_t last_use = 0;
+	};
+	using Cache = std::map<Key, Cached>;
+
+	uint32_t measure_subgroup_size();
+	godot::RID create_godot_buffer(const BufferDesc &p_desc, std::span<const uint8_t> p_bytes);
+	godot::RID get_layer(GodotTexture &r_texture, uint32_t p_layer);
+	PipelineRID add_pipeline(GodotPipeline &&p_pipeline, std::span<const std::string> p_shaders);
+	godot::RID get_shader(std::span<const std::string> p_names);
+	const GodotPipeline &get_pipeline(PipelineRID p_pipeline) const;
+	godot::RID make_raster_pipeline(const GodotPipeline &p_pipeline, int64_t p_framebuffer_format);
+	godot::RID get_uniform_set(
+			const GodotPipeline &p_pipeline, std::span<const Binding> p_bindings);
+	godot::RID get_framebuffer(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
+	void begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
+			std::span<const glm::vec4> p_clear_colors, float p_clear_depth);
+	/// Of the bound pipeline and buffers; nothing where it has no attributes.
+	void bind_vertex_array(uint32_t p_vertex_count);
+	void begin_compute_list();
+	void end_compute_list();
+	void flush_uploads();
+	/// Drops what was made of the resource: Godot frees it with that.
+	void forget(godot::RID p_resource);
+	/// Frees what was not used for long.
+	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
+	void call_read_backs();
+	godot::Callable make_callable(ReadBackCallback p_callback) const;
+
+	godot::RenderingDevice rd;
+	const Kind kind;
+	DeviceInfo info;
+	DeviceFeatures features;
+	CommandCounts counts;
+	MemoryUse use;
+	std::vector<GpuSpan> spans; // without times: Godot measures whole frames
+
+	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };
+	SlotTable<TextureRID, GodotTexture> textures{ "texture" };
+	SlotTable<SamplerRID, GodotSampler> samplers{ "sampler" };
+	std::deque<GodotPipeline> pipelines; // handles are 1 + index
+	std::map<ComputePipelineDesc, PipelineRID> compute_pipelines;
+	std::map<RasterPipelineDesc, PipelineRID> raster_pipelines;
+	std::map<std::vector<std::string>, godot::RID> shaders;
+	Cache uniform_sets;
+	Cache framebuffers;
+	Cache vertex_arrays;
+	Cache index_arrays;
+	std::map<Key, int64_t> vertex_formats;
+	/// UPLOAD buffers that nobody uses now, so that each frame's constants have the ids of the
+	/// last.
+	std::map<std::pair<uint64_t, BufferUsage>, std::vector<godot::RID>> spare_uploads;
+	std::vector<BufferRID> stale_uploads;
+	/// Of a local device: what was read, for callbacks that are due.
+	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
+
+	// While commands are recorded.
+	uint64_t submission = 0;
+	bool is_recording = false;
+	bool is_submitted = false; // a local device's last submission was not waited for
+	int64_t compute_list = -1;
+	int64_t draw_list = -1;
+	int64_t framebuffer_format = -1;
+	glm::uvec2 target_size_px = glm::uvec2(0);
+	const GodotPipeline *bound = nullptr;
+	std::vector<BufferRID> vertex_buffers;
+	BufferRID index_buffer;
+};
+
+} // namespace gnomon
