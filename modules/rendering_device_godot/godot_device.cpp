@@ -80,9 +80,9 @@ GodotDevice::~GodotDevice() {
 	for (const auto &[names, shader] : shaders) {
 		rd.free_rid(shader);
 	}
-	for (const auto &[key, rids] : spare_uploads) {
-		for (const godot::RID rid : rids) {
-			rd.free_rid(rid);
+	for (const auto &[key, spares] : spare_uploads) {
+		for (const Cached &spare : spares) {
+			rd.free_rid(spare.rid);
 		}
 	}
 	if (kind == Kind::LOCAL) {
@@ -158,7 +158,7 @@ BufferRID GodotDevice::create_buffer_with_data(
 	const auto spare = spare_uploads.find({ desc.size_bytes, desc.usage });
 	if (desc.memory == MemoryKind::UPLOAD && spare != spare_uploads.end() &&
 			!spare->second.empty()) {
-		buffer.rid = spare->second.back();
+		buffer.rid = spare->second.back().rid;
 		spare->second.pop_back();
 	} else if (desc.memory != MemoryKind::READBACK) {
 		buffer.rid = create_godot_buffer(desc, p_bytes);
@@ -256,7 +256,7 @@ void GodotDevice::free(BufferRID p_buffer) {
 	if (buffer.desc.memory == MemoryKind::UPLOAD) {
 		auto &spares = spare_uploads[{ buffer.desc.size_bytes, buffer.desc.usage }];
 		if (spares.size() < MOST_SPARE_UPLOADS) {
-			spares.push_back(buffer.rid);
+			spares.push_back({ buffer.rid, submission });
 			return;
 		}
 	}
@@ -361,6 +361,20 @@ void GodotDevice::prune(Cache &r_cache, bool (*p_is_valid)(const RD &, godot::RI
 	});
 }
 
+void GodotDevice::prune_spare_uploads() {
+	for (auto &[key, spares] : spare_uploads) {
+		std::erase_if(spares, [&](const Cached &p_spare) {
+			const bool is_old = submission - p_spare.last_use > KEPT_FRAMES;
+			if (is_old) {
+				forget(p_spare.rid);
+				rd.free_rid(p_spare.rid);
+			}
+			return is_old;
+		});
+	}
+	std::erase_if(spare_uploads, [](const auto &p_entry) { return p_entry.second.empty(); });
+}
+
 CommandList &GodotDevice::begin_commands() {
 	GNOMON_ASSERT(!is_recording, "commands are being recorded already");
 	wait_idle();
@@ -387,6 +401,7 @@ void GodotDevice::submit_commands(SubmitMode p_mode) {
 			[](const RD &p_rd, godot::RID p_rid) { return p_rd.framebuffer_is_valid(p_rid); });
 	prune(vertex_arrays, [](const RD &, godot::RID) { return true; });
 	prune(index_arrays, [](const RD &, godot::RID) { return true; });
+	prune_spare_uploads();
 	if (p_mode == SubmitMode::WAIT) {
 		wait_idle();
 		call_read_backs();

@@ -167,6 +167,7 @@ private:
 	void forget(godot::RID p_resource);
 	/// Frees what was not used for long.
 	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
+	void prune_spare_uploads();
 	void call_read_backs();
 	godot::Callable make_callable(ReadBackCallback p_callback) const;
 
@@ -192,7 +193,7 @@ private:
 	std::map<Key, int64_t> vertex_formats;
 	/// UPLOAD buffers that nobody uses now, so that each frame's constants have the ids of the
 	/// last.
-	std::map<std::pair<uint64_t, BufferUsage>, std::vector<godot::RID>> spare_uploads;
+	std::map<std::pair<uint64_t, BufferUsage>, std::vector<Cached>> spare_uploads;
 	std::vector<BufferRID> stale_uploads;
 	/// Of a local device: what was read, for callbacks that are due.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
