@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-// Values of Godot as its methods take them. Vectors, colours and projections are glm's.
+// Values of Godot as its methods take them. Vectors and colours are glm's.
 
 namespace gnomon::godot {
 
@@ -23,14 +23,6 @@ struct RID {
 struct Rect2 {
 	glm::vec2 position = glm::vec2(0.0f);
 	glm::vec2 size = glm::vec2(0.0f);
-};
-struct Transform3D {
-	glm::vec3 basis_rows[3];
-	glm::vec3 origin;
-};
-struct AABB {
-	glm::vec3 position;
-	glm::vec3 size;
 };
 
 /// As in GDExtensionVariantType; VARIANT: one that holds any of them.
