@@ -88,7 +88,7 @@ def add_builders(env):
 
 
 def add_test_shaders(env, modules):
-    """The C++ file with shaders of tests: <what>.<stage> beside the test that runs them, in tests/shaders and in the
+    """The C++ file with shaders of tests: <what>.<stage> next to the test that runs them, in tests/shaders and in the
     tests of a module. All are named tests/<what>.<stage>; get_test_shaders() returns them.
     """
     build_folder = "#" + env["BUILD_FOLDER"].lstrip("#")

@@ -12,8 +12,8 @@ Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
                times, shadow volumes of large meshes (installs npm, which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
                times, all stability sweeps
-  --godot      beside that: tests inside Godot 4.5 or later, which $GODOT or PATH has, or which is set up
-               below build/ (1.2 GB, as root)
+  --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
+               build/ (1.2 GB, as root)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                command_line demo stability removal template sanitized fuzz_replay; with --godot also godot; with
@@ -164,8 +164,8 @@ finish() {
     exit
 }
 
-# Options that leave out what cannot run without a device: the modules that depend on it. The render graph
-# stays, much of which needs none, and the backend, since the test runner asks it for validation messages.
+# Options that disable what cannot run without a device: the modules that depend on it. The render graph stays, much
+# of which needs none, and the backend, which the test runner queries for validation messages.
 list_device_options() {
     python3 - <<'PYTHON'
 import sys

@@ -129,17 +129,17 @@ class Api:
         return False
 
     def write_class(self, name):
-        wanted = self.used[name]
+        used = self.used[name]
         described = self.find(self.classes.values(), name, "classes")
         lines = ["/// %s; see Godot's documentation." % name, "class %s : public Object {" % name, "public:"]
         lines.append("\tusing Object::Object;")
         lines.append('\tstatic constexpr const char *CLASS_NAME = "%s";' % name)
-        for enum in wanted.get("enums", "").split():
+        for enum in used.get("enums", "").split():
             values = self.find(described["enums"], enum, name)["values"]
             lines.append("\tenum %s : int64_t {" % enum)
             lines += ["\t\t%s = %d," % (value["name"], value["value"]) for value in values]
             lines.append("\t};")
-        for method_name in wanted["methods"].split():
+        for method_name in used["methods"].split():
             method = self.find(described.get("methods", []), method_name, name)
             arguments = [(self.get_type(a["type"], True), a["name"]) for a in method.get("arguments", [])]
             result = method.get("return_value")

@@ -1,5 +1,6 @@
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"
+#include "modules/rendering_device_godot/godot_formats.h"
 
 #include <algorithm>
 #include <cstring>
@@ -104,8 +105,9 @@ void GodotDevice::begin_rendering(
 	std::vector<glm::vec4> clear_colors;
 	for (size_t index = 0; index < p_colors.size(); ++index) {
 		const ColorTarget &color = p_colors[index];
-		target_size_px = textures.get(color.texture).desc.size_px;
-		clear_colors.push_back(color.clear);
+		const TextureDesc &desc = textures.get(color.texture).desc;
+		target_size_px = desc.size_px;
+		clear_colors.push_back(to_godot_clear_value(desc.format, color.clear));
 		flags |= color.load == LoadOp::CLEAR	? RD::DRAW_CLEAR_COLOR_0 << index
 				: color.load == LoadOp::DISCARD ? RD::DRAW_IGNORE_COLOR_0 << index
 												: 0;
@@ -246,14 +248,16 @@ void GodotDevice::bind_resources(std::span<const Binding> p_bindings) {
 }
 
 void GodotDevice::push_constants(std::span<const uint8_t> p_bytes) {
-	GNOMON_ASSERT(p_bytes.size() == bound->push_constant_bytes, "pipeline '", bound->name,
-			"': ", p_bytes.size(), " bytes of push constants, must be ",
+	GNOMON_ASSERT(p_bytes.size() <= bound->push_constant_bytes, "pipeline '", bound->name,
+			"': ", p_bytes.size(), " bytes of push constants, at most ",
 			bound->push_constant_bytes);
-	const int64_t size = static_cast<int64_t>(p_bytes.size());
+	std::vector<uint8_t> bytes(p_bytes.begin(), p_bytes.end());
+	bytes.resize(bound->push_constant_bytes); // Godot wants whole vectors
+	const int64_t size = static_cast<int64_t>(bytes.size());
 	if (draw_list >= 0) {
-		rd.draw_list_set_push_constant(draw_list, PackedByteArray(p_bytes), size);
+		rd.draw_list_set_push_constant(draw_list, PackedByteArray(bytes), size);
 	} else {
-		rd.compute_list_set_push_constant(compute_list, PackedByteArray(p_bytes), size);
+		rd.compute_list_set_push_constant(compute_list, PackedByteArray(bytes), size);
 	}
 }
 
@@ -388,7 +392,8 @@ void GodotDevice::copy_texture(TextureRID p_source, TextureRID p_target) {
 void GodotDevice::clear_color(TextureRID p_texture, glm::vec4 p_value) {
 	end_compute_list();
 	const GodotTexture &texture = textures.get(p_texture);
-	rd.texture_clear(texture.rid, p_value, 0, 1, 0, texture.desc.layer_count);
+	rd.texture_clear(texture.rid, to_godot_clear_value(texture.desc.format, p_value), 0, 1, 0,
+			texture.desc.layer_count);
 }
 
 void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
@@ -399,10 +404,7 @@ void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
 		rd.buffer_get_data_async(buffer.rid, make_callable(std::move(p_callback)), 0, size);
 		return;
 	}
-	const PackedByteArray read = rd.buffer_get_data(buffer.rid, 0, size);
-	const std::span<const uint8_t> bytes = read.get_bytes();
-	read_backs.emplace_back(
-			std::vector<uint8_t>(bytes.begin(), bytes.end()), std::move(p_callback));
+	add_read_back(rd.buffer_get_data(buffer.rid, 0, size).get_bytes(), std::move(p_callback));
 }
 
 void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
@@ -412,10 +414,12 @@ void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCall
 		rd.texture_get_data_async(texture, p_layer, make_callable(std::move(p_callback)));
 		return;
 	}
-	const PackedByteArray read = rd.texture_get_data(texture, p_layer);
-	const std::span<const uint8_t> bytes = read.get_bytes();
+	add_read_back(rd.texture_get_data(texture, p_layer).get_bytes(), std::move(p_callback));
+}
+
+void GodotDevice::add_read_back(std::span<const uint8_t> p_bytes, ReadBackCallback &&p_callback) {
 	read_backs.emplace_back(
-			std::vector<uint8_t>(bytes.begin(), bytes.end()), std::move(p_callback));
+			std::vector<uint8_t>(p_bytes.begin(), p_bytes.end()), std::move(p_callback));
 }
 
 void GodotDevice::call_read_backs() {

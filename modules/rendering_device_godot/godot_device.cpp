@@ -67,9 +67,11 @@ uint32_t GodotDevice::measure_subgroup_size() {
 }
 
 GodotDevice::~GodotDevice() {
+	read_backs.clear(); // who waited for them may be gone
 	wait_idle();
+	*is_alive = false;
 	for (const std::string &name : list_live_resources()) {
-		log_error("Leak: ", name, " is still alive.");
+		log_error("Leaked ", name, ". Free it before the device ends.");
 	}
 	// What is made of others goes with them.
 	for (const GodotPipeline &pipeline : pipelines) {
@@ -198,8 +200,9 @@ TextureRID GodotDevice::create_texture_with_data(
 	format.set_texture_type(p_desc.is_array ? RD::TEXTURE_TYPE_2D_ARRAY : RD::TEXTURE_TYPE_2D);
 	format.set_usage_bits(to_godot_usage(p_desc));
 	Array data;
-	if (!p_bytes.empty()) {
-		data.append(Variant(PackedByteArray(p_bytes)));
+	for (uint32_t layer = 0; !p_bytes.empty() && layer < p_desc.layer_count; ++layer) {
+		const size_t size = p_bytes.size() / p_desc.layer_count;
+		data.append(Variant(PackedByteArray(p_bytes.subspan(layer * size, size))));
 	}
 	GodotTexture texture;
 	texture.rid = rd.texture_create(format, Ref<godot::RDTextureView>::create(), data);
@@ -321,8 +324,16 @@ void GodotDevice::flush_uploads() {
 }
 
 godot::Callable GodotDevice::make_callable(ReadBackCallback p_callback) const {
-	return godot::Callable([callback = std::move(p_callback)](const Variant &p_argument) {
-		callback(PackedByteArray(p_argument).get_bytes());
+	return godot::Callable([callback = std::move(p_callback), is_alive = is_alive,
+								   is_valid = is_submitted_or_recorded](const Variant &p_argument) {
+		if (!*is_alive || !*is_valid) {
+			return;
+		}
+		try {
+			callback(PackedByteArray(p_argument).get_bytes());
+		} catch (const std::exception &failure) { // Godot knows no exceptions
+			log_error(describe_failure(failure));
+		}
 	});
 }
 
@@ -378,10 +389,11 @@ void GodotDevice::prune_spare_uploads() {
 CommandList &GodotDevice::begin_commands() {
 	GNOMON_ASSERT(!is_recording, "commands are being recorded already");
 	wait_idle();
-	call_read_backs();
 	is_recording = true;
+	read_back_count_before = read_backs.size();
 	++submission;
 	spans.clear();
+	is_submitted_or_recorded = std::make_shared<bool>(true);
 	flush_uploads();
 	return *this;
 }
@@ -404,7 +416,6 @@ void GodotDevice::submit_commands(SubmitMode p_mode) {
 	prune_spare_uploads();
 	if (p_mode == SubmitMode::WAIT) {
 		wait_idle();
-		call_read_backs();
 	}
 }
 
@@ -415,6 +426,10 @@ void GodotDevice::abandon_commands() {
 	if (draw_list >= 0) {
 		end_rendering();
 	}
+	*is_submitted_or_recorded = false;
+	while (read_backs.size() > read_back_count_before) {
+		read_backs.pop_back();
+	}
 	submit_commands(SubmitMode::QUEUE);
 }
 
@@ -423,6 +438,7 @@ void GodotDevice::wait_idle() {
 		is_submitted = false;
 		rd.sync();
 	}
+	call_read_backs();
 }
 
 } // namespace gnomon

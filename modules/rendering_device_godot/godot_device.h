@@ -46,12 +46,12 @@ struct GodotPipeline {
 	std::map<int64_t, godot::RID> by_framebuffer_format;
 };
 
-/// A device over Godot's RenderingDevice: either the one that draws Godot's frames, between whose
-/// draws our commands then stand, or one of our own beside it. Barriers, layouts and the order of
-/// what does not depend on one another are Godot's; commands are recorded at once, so that what was
-/// abandoned half-way is drawn nevertheless, into resources that nobody reads.
+/// A device over Godot's RenderingDevice: MAIN, the one that draws Godot's frames, among whose
+/// commands ours are, or a LOCAL one. Godot inserts barriers and layout transitions and orders
+/// independent commands. It records each call immediately, so that abandoned commands still run,
+/// into resources that are no longer read.
 ///
-/// Lacks what Godot's device lacks, see get_features. On the thread that renders.
+/// get_features reports what Godot's device lacks. Only on the render thread.
 class GodotDevice final : public RenderingDevice, private CommandList {
 public:
 	enum class Kind { MAIN, LOCAL };
@@ -169,6 +169,7 @@ private:
 	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
 	void prune_spare_uploads();
 	void call_read_backs();
+	void add_read_back(std::span<const uint8_t> p_bytes, ReadBackCallback &&p_callback);
 	godot::Callable make_callable(ReadBackCallback p_callback) const;
 
 	godot::RenderingDevice rd;
@@ -191,12 +192,17 @@ private:
 	Cache vertex_arrays;
 	Cache index_arrays;
 	std::map<Key, int64_t> vertex_formats;
-	/// UPLOAD buffers that nobody uses now, so that each frame's constants have the ids of the
+	/// Unused UPLOAD buffers, for reuse: each frame's constants then have the ids of the
 	/// last.
 	std::map<std::pair<uint64_t, BufferUsage>, std::vector<Cached>> spare_uploads;
 	std::vector<BufferRID> stale_uploads;
-	/// Of a local device: what was read, for callbacks that are due.
+	/// Of a local device: what was read, and the callbacks that are due.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
+	size_t read_back_count_before = 0; // the commands that are recorded
+	/// Shared with the callbacks that Godot holds: false once the recorded commands are abandoned,
+	/// and once the device ends.
+	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);
+	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true);
 
 	// While commands are recorded.
 	uint64_t submission = 0;

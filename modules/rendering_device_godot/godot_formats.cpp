@@ -69,4 +69,8 @@ int64_t to_godot_usage(const TextureDesc &p_desc) {
 	return usage;
 }
 
+glm::vec4 to_godot_clear_value(Format p_format, const glm::vec4 &p_value) {
+	return is_uint_format(p_format) ? glm::uintBitsToFloat(glm::uvec4(p_value)) : p_value;
+}
+
 } // namespace gnomon

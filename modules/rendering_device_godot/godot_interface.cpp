@@ -57,7 +57,7 @@ const Interface &get_interface() {
 
 void load_interface(
 		GDExtensionInterfaceGetProcAddress p_get_address, GDExtensionClassLibraryPtr p_library) {
-	interface.library = p_library;
+	interface.extension = p_library;
 #define LOAD(m_name) load(p_get_address, #m_name, interface.m_name)
 	LOAD(variant_new_nil);
 	LOAD(variant_new_copy);
@@ -199,7 +199,7 @@ Callable::Callable(std::function<void(const Variant &)> p_function) : BuiltIn(Em
 	using Function = std::function<void(const Variant &)>;
 	GDExtensionCallableCustomInfo2 info = {};
 	info.callable_userdata = new Function(std::move(p_function));
-	info.token = interface.library;
+	info.token = interface.extension;
 	info.call_func = [](void *p_userdata, const GDExtensionConstVariantPtr *p_arguments,
 							 GDExtensionInt p_count, GDExtensionVariantPtr,
 							 GDExtensionCallError *r_error) {

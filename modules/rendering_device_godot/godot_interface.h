@@ -27,7 +27,7 @@ struct Interface {
 	GDExtensionInterfaceCallableCustomCreate2 callable_custom_create2;
 	GDExtensionInterfaceRegisterMainLoopCallbacks register_main_loop_callbacks;
 
-	GDExtensionClassLibraryPtr library;
+	GDExtensionClassLibraryPtr extension; // ours, as the engine names it
 };
 
 /// Of the add-on's entry point; everything else here needs it. A function that is missing is an

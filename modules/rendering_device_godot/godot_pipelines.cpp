@@ -173,8 +173,11 @@ PipelineRID GodotDevice::get_raster_pipeline(const RasterPipelineDesc &p_desc) {
 	if (found != raster_pipelines.end()) {
 		return found->second;
 	}
-	GNOMON_ASSERT(p_desc.geometry_shader.empty() && !p_desc.has_depth_bounds, "pipeline '",
-			p_desc.name, "' wants what this device lacks");
+	if (!p_desc.geometry_shader.empty() || p_desc.has_depth_bounds) {
+		fail("Pipeline '", p_desc.name, "' needs ",
+				p_desc.has_depth_bounds ? "depth bounds" : "geometry shaders",
+				", which Godot's device lacks. Choose another method.");
+	}
 	GodotPipeline pipeline;
 	pipeline.name = p_desc.name;
 	pipeline.desc = p_desc;

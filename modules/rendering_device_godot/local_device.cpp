@@ -1,4 +1,4 @@
-// A device of its own beside the one that draws Godot's frames.
+// A local device: it shares nothing with the one that draws Godot's frames.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_device.h"

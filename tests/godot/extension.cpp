@@ -39,7 +39,7 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 			std::_Exit(result);
 		};
 		const gnomon::godot::Interface &interface = gnomon::godot::get_interface();
-		interface.register_main_loop_callbacks(interface.library, &callbacks);
+		interface.register_main_loop_callbacks(interface.extension, &callbacks);
 	}
 }
 

@@ -1,4 +1,4 @@
-// The device that draws Godot's frames: what the tests do with one beside it works with that too.
+// The device that draws Godot's frames gives the same masks as a local one.
 
 #include "modules/rendering_device_godot/godot_device.h"
 #include "modules/shadows/tests/each_technique.h"
@@ -21,15 +21,15 @@ void use_main_device(MaskFixture &r_fixture) {
 
 } // namespace
 
-TEST_CASE("[GPU][Godot] masks made on the device of Godot's frames are those of one beside it") {
-	MaskFixture beside;
+TEST_CASE("[GPU][Godot] masks from the device of Godot's frames equal those from a local device") {
+	MaskFixture local;
 	MaskFixture main;
 	use_main_device(main);
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);
 		make_cheap(*scene.light);
-		const MaskResult expected = beside.render_mask(scene, p_info.id);
-		for (int frame = 0; frame < 2; ++frame) { // the second uses what is kept
+		const MaskResult expected = local.render_mask(scene, p_info.id);
+		for (int frame = 0; frame < 2; ++frame) { // the second reuses cached maps
 			const MaskResult found = main.render_mask(scene, p_info.id);
 			CHECK(count_receivers(found) > 0);
 			CHECK(found.receiver == expected.receiver);

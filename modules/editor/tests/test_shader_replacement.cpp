@@ -8,11 +8,11 @@ using namespace gnomon;
 
 namespace {
 
-const std::string NAME = "tests/scale.comp"; // target = source * factor + offset
+const std::string NAME = "tests/unused_binding.comp"; // target = source * factor + offset
 
 struct ReplacedShader : DeviceFixture {
 	TemporaryFolder folder;
-	std::string source = load_text_file("modules/rendering_device/tests/scale.comp");
+	std::string source = load_text_file("modules/rendering_device/tests/unused_binding.comp");
 
 	~ReplacedShader() { replace_embedded_shader(NAME, {}); }
 

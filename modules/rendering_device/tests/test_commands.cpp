@@ -36,6 +36,7 @@ TEST_CASE(
 					.size_bytes = 4000,
 					.usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE }));
 	const OwnedBuffer readback = fixture.make_readback(4000);
+	const uint32_t pipeline_count = get_pipeline_count(device);
 	for (const uint32_t local_size : { 64u, 7u }) {
 		CommandList &commands = device.begin_commands();
 		commands.bind_pipeline(get_scale_pipeline(device, local_size));
@@ -55,9 +56,9 @@ TEST_CASE(
 		}
 		CHECK(is_equal);
 	}
-	CHECK(get_pipeline_count(device) == 2);
+	CHECK(get_pipeline_count(device) == pipeline_count + 2);
 	get_scale_pipeline(device);
-	CHECK(get_pipeline_count(device) == 2);
+	CHECK(get_pipeline_count(device) == pipeline_count + 2);
 }
 
 TEST_CASE("[GPU][RenderingDevice] an upload made while commands are recorded is there for them") {
@@ -183,6 +184,9 @@ TEST_CASE("[GPU][RenderingDevice] a triangle covers its half of the colour and d
 	OwnedBuffer adjacent;
 	SUBCASE("vertex and fragment stage") {}
 	SUBCASE("geometry stage") {
+		if (!device.get_features().geometry_shader) {
+			return;
+		}
 		desc.geometry_shader = "tests/triangle.geom";
 		desc.topology = Topology::TRIANGLES_WITH_ADJACENCY;
 		std::vector<float> with_neighbours;
@@ -332,6 +336,9 @@ TEST_CASE("[GPU][RenderingDevice] copies and clears give what they say") {
 TEST_CASE("[GPU][RenderingDevice] a depth texture is filled from the middle of a buffer") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
+	if (!device.get_features().copies_to_textures) {
+		return;
+	}
 	const OwnedBuffer source = fixture.make_buffer("source",
 			std::vector<float>{ 9, 9, 9, 9, 0.25f, 0.5f, 0.75f, 1 }, BufferUsage::COPY_SOURCE);
 	const OwnedTexture texture(device,
