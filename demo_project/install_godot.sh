@@ -40,11 +40,15 @@ _make_godot_root() {
     fi
     install_packages debootstrap || return 1
     mirror=$(apt-get indextargets --format '$(SITE)' 2>/dev/null | grep -v security | head -n 1)
+    if [ -z "$mirror" ]; then
+        echo "ERROR: apt names no mirror to get Godot from. Run apt-get update, or set \$GODOT to a Godot 4.5 or later." >&2
+        return 1
+    fi
     echo "Setting up Godot in $folder (1.2 GB)"
     rm -rf "$folder/root.part"
     mkdir -p "$folder/root.part"
     if ! unshare --mount debootstrap --variant=minbase --include=ca-certificates "$GODOT_SUITE" "$folder/root.part" \
-        "${mirror:-http://deb.debian.org/debian}" >"$folder/log" 2>&1 ||
+        "$mirror" >"$folder/log" 2>&1 ||
         ! cp /etc/resolv.conf "$folder/root.part/etc/" ||
         ! _run_in "$folder/root.part" apt-get -o Acquire::Check-Valid-Until=false update >>"$folder/log" 2>&1 ||
         ! _run_in "$folder/root.part" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
@@ -57,8 +61,8 @@ _make_godot_root() {
     mv "$folder/root.part" "$folder/root"
     cat >"$folder/godot" <<TEXT
 #!/bin/bash
-# Runs Godot in a root of its own, in which this project lies where it lies here. With GODOT_DISPLAY=virtual it gets a
-# display, which a RenderingDevice needs.
+# Runs Godot in a root directory of its own, in which this project has the path that it has here. GODOT_DISPLAY=virtual
+# gives it a display, which a RenderingDevice needs.
 exec unshare --mount bash -c 'set -e
     S=$folder/root
     mkdir -p "\$S$root"

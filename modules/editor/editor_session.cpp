@@ -3,12 +3,12 @@
 #include "modules/core/error.h"
 #include "modules/core/project.h"
 #include "modules/core/text.h"
+#include "modules/editor/child_process.h"
 #include "modules/scene/node_properties.h"
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include <cstdlib>
 #include <functional>
 
 namespace gnomon {
@@ -16,28 +16,6 @@ namespace gnomon {
 namespace {
 
 const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
-
-/// As one word for the shell, whatever is in it.
-std::string quote(const std::string &p_text) {
-	std::string quoted = "'";
-	for (const char letter : p_text) {
-		quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-	}
-	return quoted + "'";
-}
-
-/// Starts a program with its arguments and returns at once; nobody waits for it. An Error when no
-/// process can be made; that there is no such program only it could tell, and nobody listens.
-void start_program(const std::vector<std::string> &p_words) {
-	std::string command;
-	for (const std::string &word : p_words) {
-		command += quote(word) + " ";
-	}
-	// By the shell, so that the program is nobody's child when it ends.
-	if (std::system((command + ">/dev/null 2>&1 &").c_str()) != 0) {
-		fail("No process can be started. Run it yourself: ", command);
-	}
-}
 
 } // namespace
 

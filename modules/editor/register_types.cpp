@@ -1,44 +1,8 @@
-// `gnomon edit`: the editor's window.
-
 #include "modules/editor/register_types.h"
 
-#include "modules/core/command_registry.h"
-#include "modules/editor/editor_window.h"
-
-#include <CLI/CLI.hpp>
-
-#include <filesystem>
+#include "modules/editor/command_edit.h"
 
 namespace gnomon {
-
-namespace {
-
-EditorOptions options;
-
-/// See CommandInfo::add.
-void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
-	CLI::App *command = r_app.add_subcommand("edit", "Opens a project or a scene in the editor");
-	command->add_option("project", options.path,
-			"A project's folder, or a .gltf or .glb file. Default: what was open last");
-	command->add_option("--shaders", options.shaders,
-			"Sources of the shaders, to be compiled anew when they change. Default: beside bin");
-	command->add_option("--items", options.items, "Writes where widgets are as JSON, for tests");
-	command->add_option("--frames", options.frame_count, "Ends after so many")
-			->check(CLI::Range(1u, 1000000u));
-	command->add_option("--device", r_common.device, "Index or part of the name");
-	command->add_flag("--validation", r_common.validation, "Validation layers on");
-	command->callback([&r_common] {
-		options.device = r_common.device;
-		options.validation = r_common.validation;
-		options.program = std::filesystem::read_symlink("/proc/self/exe");
-		if (options.shaders.empty()) {
-			options.shaders = options.program.parent_path().parent_path() / "shaders";
-		}
-		run_editor(options);
-	});
-}
-
-} // namespace
 
 void initialize_editor_module(ModuleLevel p_level) {
 	if (p_level == ModuleLevel::FEATURES) {

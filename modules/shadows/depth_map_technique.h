@@ -8,8 +8,8 @@ namespace gnomon {
 
 /// A technique that looks each receiver up in a depth map of each light view, and differs from its
 /// like in the filter alone: what its shader does with the map, and the properties of that.
-/// Maps are layers of one texture (D32_SFLOAT, reversed), kept from frame to frame while neither a
-/// view nor its casters change; views without casters or receivers are left out.
+/// Maps are layers of one texture (D32_SFLOAT, reversed), cached from frame to frame while neither
+/// a view nor its casters change; views without casters or receivers are skipped.
 class DepthMapTechnique : public ShadowTechnique {
 public:
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
