@@ -24,7 +24,7 @@ void start_program(const std::vector<std::string> &p_words) {
 	for (const std::string &word : p_words) {
 		command += quote(word) + " ";
 	}
-	// By the shell, so that the program is nobody's child when it ends.
+	// In the shell's background, so that it leaves no zombie process when it ends.
 	if (std::system((command + ">/dev/null 2>&1 &").c_str()) != 0) {
 		fail("No process can be started. Run it yourself: ", command);
 	}

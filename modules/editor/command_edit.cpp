@@ -21,7 +21,7 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("project", options.path,
 			"A project's folder, or a .gltf or .glb file. Default: what was open last");
 	command->add_option("--shaders", options.shaders,
-			"Sources of the shaders, to be compiled anew when they change. Default: beside bin");
+			"Shader sources, recompiled when they change. Default: next to bin");
 	command->add_option("--items", options.items, "Writes where widgets are as JSON, for tests");
 	command->add_option("--frames", options.frame_count, "Ends after so many")
 			->check(CLI::Range(1u, 1000000u));

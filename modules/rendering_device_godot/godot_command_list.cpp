@@ -248,11 +248,13 @@ void GodotDevice::bind_resources(std::span<const Binding> p_bindings) {
 }
 
 void GodotDevice::push_constants(std::span<const uint8_t> p_bytes) {
-	GNOMON_ASSERT(p_bytes.size() <= bound->push_constant_bytes, "pipeline '", bound->name,
-			"': ", p_bytes.size(), " bytes of push constants, at most ",
+	// Godot takes whole vectors; C++ and GLSL may end a block earlier.
+	const size_t padded_bytes = (p_bytes.size() + 15) / 16 * 16;
+	GNOMON_ASSERT(padded_bytes == bound->push_constant_bytes && p_bytes.size() % 4 == 0,
+			"pipeline '", bound->name, "': ", p_bytes.size(), " bytes of push constants, must be ",
 			bound->push_constant_bytes);
 	std::vector<uint8_t> bytes(p_bytes.begin(), p_bytes.end());
-	bytes.resize(bound->push_constant_bytes); // Godot wants whole vectors
+	bytes.resize(padded_bytes);
 	const int64_t size = static_cast<int64_t>(bytes.size());
 	if (draw_list >= 0) {
 		rd.draw_list_set_push_constant(draw_list, PackedByteArray(bytes), size);

@@ -199,6 +199,8 @@ TextureRID GodotDevice::create_texture_with_data(
 	format.set_array_layers(p_desc.layer_count);
 	format.set_texture_type(p_desc.is_array ? RD::TEXTURE_TYPE_2D_ARRAY : RD::TEXTURE_TYPE_2D);
 	format.set_usage_bits(to_godot_usage(p_desc));
+	GNOMON_ASSERT(p_bytes.empty() || p_bytes.size() == compute_size_bytes(p_desc), "texture '",
+			p_desc.name, "': ", p_bytes.size(), " bytes, must be ", compute_size_bytes(p_desc));
 	Array data;
 	for (uint32_t layer = 0; !p_bytes.empty() && layer < p_desc.layer_count; ++layer) {
 		const size_t size = p_bytes.size() / p_desc.layer_count;
@@ -390,7 +392,6 @@ CommandList &GodotDevice::begin_commands() {
 	GNOMON_ASSERT(!is_recording, "commands are being recorded already");
 	wait_idle();
 	is_recording = true;
-	read_back_count_before = read_backs.size();
 	++submission;
 	spans.clear();
 	is_submitted_or_recorded = std::make_shared<bool>(true);
@@ -427,9 +428,7 @@ void GodotDevice::abandon_commands() {
 		end_rendering();
 	}
 	*is_submitted_or_recorded = false;
-	while (read_backs.size() > read_back_count_before) {
-		read_backs.pop_back();
-	}
+	read_backs.clear();
 	submit_commands(SubmitMode::QUEUE);
 }
 
@@ -438,7 +437,9 @@ void GodotDevice::wait_idle() {
 		is_submitted = false;
 		rd.sync();
 	}
-	call_read_backs();
+	if (!is_recording) { // what is being recorded has not ended
+		call_read_backs();
+	}
 }
 
 } // namespace gnomon

@@ -198,7 +198,6 @@ private:
 	std::vector<BufferRID> stale_uploads;
 	/// Of a local device: what was read, and the callbacks that are due.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
-	size_t read_back_count_before = 0; // the commands that are recorded
 	/// Shared with the callbacks that Godot holds: false once the recorded commands are abandoned,
 	/// and once the device ends.
 	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);

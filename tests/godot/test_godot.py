@@ -33,6 +33,7 @@ SKIPPED = (
     "*shadow is the truth's*",
     "*light through two panes gets both colours*",
     # They need geometry shaders, or copies from buffers to textures on the GPU.
+    "*a depth texture is filled from the middle of a buffer*",
     "*geometry shader and compute draw*",
     "*devices without geometry shader*",
     "*three nearest of five sheets*",
@@ -74,14 +75,20 @@ def write_project():
 
 def run():
     """(exit code, output)"""
-    arguments = ["--test-case=*[GPU]*,*SpirvReflection*", "--test-case-exclude=" + ",".join(SKIPPED)] + sys.argv[1:]
+    arguments = ["--test-case=*[GPU]*,*SpirvReflection*", "--test-case-exclude=" + ",".join(SKIPPED)]
+    arguments += ["--subcase-exclude=geometry stage"] + sys.argv[1:]
     environment = dict(os.environ, GODOT_DISPLAY="virtual", GNOMON_TEST_ARGUMENTS="\n".join(arguments))
     command = [os.environ["GODOT"], "--path", FOLDER, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
     command += ["--audio-driver", "Dummy"]
     try:
         done = subprocess.run(
-            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8",
-            errors="replace", timeout=TIMEOUT_S
+            command,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
+            errors="replace",
+            timeout=TIMEOUT_S,
         )
     except subprocess.TimeoutExpired as late:
         return 124, (late.stdout or b"").decode("utf-8", "replace") + "\nFAILED: no end in %d s" % TIMEOUT_S
