@@ -4,6 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
@@ -250,6 +251,21 @@ const LightSnapshot *SceneSnapshot::find_light(const std::string &p_name) const 
 		}
 	}
 	return nullptr;
+}
+
+std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
+		const LightSnapshot &p_light) const {
+	const auto casts_other = [&](const InstanceSnapshot &p_instance) {
+		return p_instance.casts_shadow && (p_instance.layers & p_light.caster_layers) == 0;
+	};
+	if (std::none_of(instances.begin(), instances.end(), casts_other)) {
+		return nullptr;
+	}
+	auto selected = std::make_shared<SceneSnapshot>(*this);
+	for (InstanceSnapshot &instance : selected->instances) {
+		instance.casts_shadow = instance.casts_shadow && !casts_other(instance);
+	}
+	return selected;
 }
 
 Bounds SceneSnapshot::compute_caster_bounds() const {

@@ -28,6 +28,8 @@ struct LightSnapshot : LightSettings {
 	glm::dvec3 position_world = glm::dvec3(0.0);   // the light's centre L; unused for directional
 	glm::dmat3 world_from_light = glm::dmat3(1.0); // orthonormal; the light shines along -Z
 	std::string file_path;						   // for messages: "lights[0]"
+	/// Only instances on one of these layers cast its shadow.
+	uint32_t caster_layers = ~0u;
 
 	// Of the settings' properties, see decide_settings.
 	float light_size_m = 0.0f;				 // R: radius; spot and omni
@@ -59,6 +61,7 @@ struct InstanceSnapshot {
 	Bounds bounds_world;
 	bool casts_shadow = true;
 	bool is_planar_receiver = false;
+	uint32_t layers = 1; // see LightSnapshot::caster_layers
 
 	/// True when the transform turns the mesh inside out, so that front faces wind the other way.
 	bool is_mirrored() const;
@@ -88,6 +91,9 @@ struct SceneSnapshot {
 	}
 	/// Node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
+	/// The same scene, in which only those cast a shadow that are on the light's layers; null where
+	/// that are all.
+	std::shared_ptr<const SceneSnapshot> select_casters(const LightSnapshot &p_light) const;
 	/// Null: no light has that name.
 	const LightSnapshot *find_light(const std::string &p_name) const;
 	/// Of all that casts a shadow; empty without casters.

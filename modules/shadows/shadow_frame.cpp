@@ -77,6 +77,7 @@ void TechniquePlan::leave_out_light_view(uint32_t p_view_index, const std::strin
 }
 
 struct ShadowFrame::Work {
+	const SceneSnapshot &scene;
 	const LightSnapshot &light;
 	const ShadowTechniqueInfo &info;
 	const PropertyValues &properties;
@@ -225,7 +226,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 	return {
 		.device = system.device,
 		.meshes = *system.meshes,
-		.scene = *scene,
+		.scene = p_work.scene,
 		.light = p_work.light,
 		.properties = p_work.properties,
 		.views = p_views,
@@ -266,15 +267,15 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 	TechniquePlan technique_plan(plan, p_run.empty() ? "" : p_run + ": ");
 	const bool wants_debug_views = p_work.wants_debug_views && p_run.empty();
 	std::vector<LightView> views;
-	r_technique.get_light_views(
-			p_work.light, { *scene, compute_bounds(*scene, p_casts) }, p_work.properties, views);
+	r_technique.get_light_views(p_work.light,
+			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties, views);
 	std::vector<CasterList> casters;
 	for (LightView &view : views) {
 		if (r_technique.asks_receivers_alone()) {
-			fit_to_receivers(
-					view, p_work.lit_receivers, compute_fit_reach_m(view, p_work.light, *scene));
+			fit_to_receivers(view, p_work.lit_receivers,
+					compute_fit_reach_m(view, p_work.light, p_work.scene));
 		}
-		casters.push_back(cull_casters(*scene, p_casts, view, options.may_leave_out));
+		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_leave_out));
 		// What is shown itself is seen, receivers or not.
 		casters.back().has_receivers =
 				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
@@ -310,8 +311,8 @@ RGTexture ShadowFrame::add_translucent_casters(
 		const std::string name = text("translucent ", index + 1);
 		graph.set_pass_prefix(text(p_work.light.name, ": ", name, ": "));
 		ShadowSystem::Slot &slot = system.get_slot({ p_work.light.name, index + 1 }, p_work.info);
-		const RGTexture both = add_technique(
-				p_work, *slot.technique, find_opaque_casters(*scene, p_casters, &group), name);
+		const RGTexture both = add_technique(p_work, *slot.technique,
+				find_opaque_casters(p_work.scene, p_casters, &group), name);
 		const RGTexture tinted = create_mask(graph, size_px, Format::RGBA16_SFLOAT);
 		add_compute_pass(graph, "tint",
 				system.device.get_compute_pipeline(
@@ -342,23 +343,29 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	}
 	const PropertyValues properties = resolve_light_properties(
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));
-	const Work work = { p_light, *choice.info, properties, p_lit, r_shadow, p_wants_debug_views };
+	const std::shared_ptr<const SceneSnapshot> selection = scene->select_casters(p_light);
+	if (selection) {
+		selections.push_back(selection);
+	}
+	const SceneSnapshot &seen = selection ? *selection : *scene;
+	const Work work = { seen, p_light, *choice.info, properties, p_lit, r_shadow,
+		p_wants_debug_views };
 	ShadowSystem::Slot &slot = system.get_slot({ p_light.name, 0 }, *choice.info);
 	for (const BrokenLimit &limit : slot.limits.find_broken(
-				 *scene, p_light, choice.info->id, slot.technique->get_limits(properties))) {
+				 seen, p_light, choice.info->id, slot.technique->get_limits(properties))) {
 		system.warn_once(limit.key, limit.warning);
 	}
 	RGTexture mask;
 	TranslucentCasters translucent;
 	if (!slot.technique->sees_translucent_casters()) {
-		translucent = find_translucent_casters(*scene, p_light);
+		translucent = find_translucent_casters(seen, p_light);
 	}
 	std::erase_if(system.slots, [&](const auto &p_slot) { // of groups that there are no more
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();
 	});
 	mask = add_technique(
-			work, *slot.technique, find_opaque_casters(*scene, translucent, nullptr), "");
+			work, *slot.technique, find_opaque_casters(seen, translucent, nullptr), "");
 	if (!translucent.is_empty()) {
 		system.warn_once(describe_forced(p_light, translucent));
 		mask = add_translucent_casters(work, translucent, mask);

@@ -109,6 +109,8 @@ private:
 	RGBuffer constants;
 	HostSurfaces surfaces;
 	VisibleReceivers receivers; // of any light
+	/// Of lights that not all casters cast a shadow of.
+	std::vector<std::shared_ptr<const SceneSnapshot>> selections;
 	bool has_ended = false;
 };
 

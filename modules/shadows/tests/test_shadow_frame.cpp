@@ -201,6 +201,30 @@ TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is kept")
 	CHECK(fixture.render(make_request(scene)).visibility == expected);
 }
 
+TEST_CASE("[GPU][Shadows] what is on none of a light's caster layers casts none of its shadow") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		SmallScene scene(p_type);
+		make_cheap(*scene.light);
+		Light3D &other = scene.add_light("Other", p_type, { 1.2, 4.0, 0.8 }, { 0, 0.3, 0 });
+		other.properties = scene.light->properties;
+		auto snapshot = std::make_shared<SceneSnapshot>(*scene.snap());
+		snapshot->instances[1].layers = 2; // the box
+		snapshot->lights[0].caster_layers = 1;
+		snapshot->lights[1].caster_layers = 3;
+		MaskRequest request;
+		request.scene = snapshot;
+		request.technique_override = p_info.id;
+		const MaskResult masks = fixture.render(request);
+		const MaskValues shadowed = fixture.render_mask(scene, p_info.id);
+		scene.box->casts_shadow = false;
+		const MaskValues unshadowed = fixture.render_mask(scene, p_info.id);
+		CHECK(shadowed.visibility != unshadowed.visibility);
+		CHECK(masks.masks.at("Light").visibility == unshadowed.visibility);
+		CHECK(masks.masks.at("Other").visibility == shadowed.visibility);
+	});
+}
+
 TEST_CASE("[GPU][Shadows] two cameras draw in turn with meshes that they share") {
 	MaskFixture fixture;
 	SmallScene scene;
