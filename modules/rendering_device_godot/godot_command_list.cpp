@@ -355,7 +355,8 @@ void GodotDevice::copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p
 	}
 	const PackedByteArray read = rd.buffer_get_data(source,
 			static_cast<int64_t>(p_source_offset_bytes), static_cast<int64_t>(p_size_bytes));
-	std::memcpy(target.bytes.data() + p_target_offset_bytes, read.get_bytes().data(), p_size_bytes);
+	std::memcpy(
+			target.bytes.data() + p_target_offset_bytes, read.get_values().data(), p_size_bytes);
 }
 
 void GodotDevice::copy_texture_to_buffer(
@@ -365,7 +366,7 @@ void GodotDevice::copy_texture_to_buffer(
 	GNOMON_ASSERT(target.desc.memory == MemoryKind::READBACK, "buffer '", target.desc.name,
 			"': Godot copies textures to the CPU alone");
 	const PackedByteArray read = rd.texture_get_data(textures.get(p_source).rid, p_layer);
-	const std::span<const uint8_t> bytes = read.get_bytes();
+	const std::span<const uint8_t> bytes = read.get_values();
 	std::memcpy(target.bytes.data(), bytes.data(), std::min(bytes.size(), target.bytes.size()));
 }
 
@@ -406,7 +407,7 @@ void GodotDevice::read_back(BufferRID p_buffer, ReadBackCallback p_callback) {
 		rd.buffer_get_data_async(buffer.rid, make_callable(std::move(p_callback)), 0, size);
 		return;
 	}
-	add_read_back(rd.buffer_get_data(buffer.rid, 0, size).get_bytes(), std::move(p_callback));
+	add_read_back(rd.buffer_get_data(buffer.rid, 0, size).get_values(), std::move(p_callback));
 }
 
 void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) {
@@ -416,7 +417,7 @@ void GodotDevice::read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCall
 		rd.texture_get_data_async(texture, p_layer, make_callable(std::move(p_callback)));
 		return;
 	}
-	add_read_back(rd.texture_get_data(texture, p_layer).get_bytes(), std::move(p_callback));
+	add_read_back(rd.texture_get_data(texture, p_layer).get_values(), std::move(p_callback));
 }
 
 void GodotDevice::add_read_back(std::span<const uint8_t> p_bytes, ReadBackCallback &&p_callback) {

@@ -59,8 +59,8 @@ uint32_t GodotDevice::measure_subgroup_size() {
 	submit_commands(SubmitMode::WAIT);
 	const PackedByteArray read = rd.buffer_get_data(buffers.get(result).rid, 0, sizeof(uint32_t));
 	uint32_t size = 0;
-	if (read.get_bytes().size() == sizeof(size)) {
-		std::memcpy(&size, read.get_bytes().data(), sizeof(size));
+	if (read.get_values().size() == sizeof(size)) {
+		std::memcpy(&size, read.get_values().data(), sizeof(size));
 	}
 	free(result);
 	return size;
@@ -326,17 +326,18 @@ void GodotDevice::flush_uploads() {
 }
 
 godot::Callable GodotDevice::make_callable(ReadBackCallback p_callback) const {
-	return godot::Callable([callback = std::move(p_callback), is_alive = is_alive,
-								   is_valid = is_submitted_or_recorded](const Variant &p_argument) {
-		if (!*is_alive || !*is_valid) {
-			return;
-		}
-		try {
-			callback(PackedByteArray(p_argument).get_bytes());
-		} catch (const std::exception &failure) { // Godot knows no exceptions
-			log_error(describe_failure(failure));
-		}
-	});
+	return godot::Callable(
+			[callback = std::move(p_callback), is_alive = is_alive,
+					is_valid = is_submitted_or_recorded](std::span<const Variant> p_arguments) {
+				if (!*is_alive || !*is_valid || p_arguments.empty()) {
+					return;
+				}
+				try {
+					callback(PackedByteArray(p_arguments.front()).get_values());
+				} catch (const std::exception &failure) { // Godot knows no exceptions
+					log_error(describe_failure(failure));
+				}
+			});
 }
 
 RenderingDevice::PlacementNeeds GodotDevice::compute_placement_needs(const TextureDesc &) {

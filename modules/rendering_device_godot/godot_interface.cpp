@@ -6,6 +6,8 @@
 #include <godot_hashes.gen.h>
 
 #include <cstring>
+#include <map>
+#include <vector>
 
 namespace gnomon::godot {
 
@@ -49,6 +51,18 @@ private:
 	GDExtensionPtrBuiltInMethod method = nullptr;
 };
 
+void convert_to_godot_type(BuiltInType p_type, void *r_value, const void *p_variant) {
+	interface.get_variant_to_type_constructor(to_godot(p_type))(
+			r_value, const_cast<void *>(p_variant));
+}
+
+/// Of types without memory of their own.
+template <typename T> T convert(BuiltInType p_type, const void *p_variant) {
+	T value = {};
+	convert_to_godot_type(p_type, &value, p_variant);
+	return value;
+}
+
 } // namespace
 
 const Interface &get_interface() {
@@ -70,12 +84,33 @@ void load_interface(
 	LOAD(string_new_with_utf8_chars_and_len);
 	LOAD(string_to_utf8_chars);
 	LOAD(string_name_new_with_utf8_chars);
+	LOAD(variant_get_type);
+	LOAD(variant_call);
+	LOAD(variant_get_keyed);
+	LOAD(array_operator_index_const);
 	LOAD(packed_byte_array_operator_index);
 	LOAD(packed_color_array_operator_index);
+	LOAD(packed_float32_array_operator_index);
+	LOAD(packed_int32_array_operator_index);
+	LOAD(packed_int64_array_operator_index);
+	LOAD(packed_vector3_array_operator_index);
 	LOAD(classdb_construct_object2);
 	LOAD(classdb_get_method_bind);
 	LOAD(object_method_bind_ptrcall);
 	LOAD(object_destroy);
+	LOAD(object_cast_to);
+	LOAD(object_get_instance_from_id);
+	LOAD(object_get_instance_id);
+	LOAD(object_set_instance);
+	LOAD(classdb_get_class_tag);
+	LOAD(classdb_register_extension_class5);
+	LOAD(classdb_register_extension_class_method);
+	LOAD(classdb_register_extension_class_property_indexed);
+	LOAD(classdb_register_extension_class_property_group);
+	LOAD(classdb_unregister_extension_class);
+	LOAD(editor_help_load_xml_from_utf8_chars_and_len);
+	LOAD(print_error);
+	LOAD(print_warning);
 	LOAD(global_get_singleton);
 	LOAD(callable_custom_create2);
 	LOAD(register_main_loop_callbacks);
@@ -122,6 +157,10 @@ StringName::StringName(const char *p_text) : BuiltIn(Empty::EMPTY) {
 	interface.string_name_new_with_utf8_chars(bytes, p_text);
 }
 
+std::string NodePath::to_utf8() const {
+	return Variant(BuiltInType::NODE_PATH, bytes).to_utf8();
+}
+
 Variant::Variant(BuiltInType p_type, const void *p_value) : BuiltIn(Empty::EMPTY) {
 	interface.get_variant_from_type_constructor(to_godot(p_type))(
 			bytes, const_cast<void *>(p_value));
@@ -131,11 +170,22 @@ Variant::Variant(RID p_value) : Variant(BuiltInType::RID, &p_value) {}
 
 Variant::Variant(int64_t p_value) : Variant(BuiltInType::INT, &p_value) {}
 
+Variant::Variant(double p_value) : Variant(BuiltInType::FLOAT, &p_value) {}
+
 Variant::Variant(bool p_value) : BuiltIn(Empty::EMPTY) {
 	const uint8_t value = p_value;
 	interface.get_variant_from_type_constructor(GDEXTENSION_VARIANT_TYPE_BOOL)(
 			bytes, const_cast<uint8_t *>(&value));
 }
+
+Variant::Variant(const char *p_value) : Variant(BuiltInType::STRING, String(p_value).get()) {}
+
+Variant::Variant(const std::string &p_value) :
+		Variant(BuiltInType::STRING, String(p_value).get()) {}
+
+Variant::Variant(const glm::vec3 &p_value) : Variant(BuiltInType::VECTOR3, &p_value) {}
+
+Variant::Variant(const Transform3D &p_value) : Variant(BuiltInType::TRANSFORM3D, &p_value) {}
 
 Variant::Variant(const PackedByteArray &p_value) :
 		Variant(BuiltInType::PACKED_BYTE_ARRAY, p_value.get()) {}
@@ -150,53 +200,180 @@ Variant Variant::of_object(void *p_object) {
 	return Variant(BuiltInType::OBJECT, &p_object);
 }
 
+BuiltInType Variant::get_type() const {
+	return static_cast<BuiltInType>(interface.variant_get_type(bytes));
+}
+
+bool Variant::to_bool() const {
+	return to_int() != 0;
+}
+
+int64_t Variant::to_int() const {
+	return convert<int64_t>(BuiltInType::INT, bytes);
+}
+
+double Variant::to_float() const {
+	return convert<double>(BuiltInType::FLOAT, bytes);
+}
+
+std::string Variant::to_utf8() const {
+	String value; // empty: has no memory yet
+	convert_to_godot_type(BuiltInType::STRING, value.get(), bytes);
+	return value.to_utf8();
+}
+
+glm::vec3 Variant::to_vector3() const {
+	return convert<glm::vec3>(BuiltInType::VECTOR3, bytes);
+}
+
+Transform3D Variant::to_transform() const {
+	return convert<Transform3D>(BuiltInType::TRANSFORM3D, bytes);
+}
+
+void *Variant::to_object() const {
+	return get_type() == BuiltInType::OBJECT ? convert<void *>(BuiltInType::OBJECT, bytes)
+											 : nullptr;
+}
+
+Variant Variant::get_keyed(const Variant &p_key) const {
+	Variant value;
+	Variant got(Empty::EMPTY);
+	GDExtensionBool is_valid = 0;
+	interface.variant_get_keyed(bytes, p_key.bytes, got.bytes, &is_valid);
+	return is_valid ? got : value;
+}
+
+Variant Variant::call(const char *p_method, std::span<const Variant> p_arguments) const {
+	std::vector<GDExtensionConstVariantPtr> arguments;
+	for (const Variant &argument : p_arguments) {
+		arguments.push_back(argument.bytes);
+	}
+	Variant result(Empty::EMPTY);
+	GDExtensionCallError error = {};
+	const StringName method(p_method);
+	interface.variant_call(bytes, method.get(), arguments.data(),
+			static_cast<GDExtensionInt>(arguments.size()), result.bytes, &error);
+	if (error.error != GDEXTENSION_CALL_OK) {
+		fail("Godot refused to call \"", p_method, "\" with ", p_arguments.size(),
+				" arguments (error ", int(error.error), ", argument ", error.argument, ").");
+	}
+	return result;
+}
+
+glm::dmat4 Transform3D::to_matrix() const {
+	glm::dmat4 matrix(1.0);
+	for (int row = 0; row < 3; ++row) {
+		for (int column = 0; column < 3; ++column) {
+			matrix[column][row] = rows[row][column];
+		}
+	}
+	matrix[3] = glm::dvec4(origin, 1.0);
+	return matrix;
+}
+
+Array::Array(const Variant &p_value) : BuiltIn(Empty::EMPTY) {
+	if (p_value.get_type() == BuiltInType::ARRAY) {
+		interface.get_variant_to_type_constructor(GDEXTENSION_VARIANT_TYPE_ARRAY)(
+				bytes, p_value.get());
+	} else {
+		construct_built_in(BuiltInType::ARRAY, bytes);
+	}
+}
+
 void Array::append(const Variant &p_value) {
 	static const BuiltInMethod method(BuiltInType::ARRAY, "append", HASH_ARRAY_APPEND);
 	method.call(bytes, p_value.get(), nullptr);
 }
 
-PackedByteArray::PackedByteArray(std::span<const uint8_t> p_bytes) {
-	static const BuiltInMethod resize(
-			BuiltInType::PACKED_BYTE_ARRAY, "resize", HASH_PACKEDBYTEARRAY_RESIZE);
-	if (p_bytes.empty()) {
-		return;
-	}
-	const int64_t size = static_cast<int64_t>(p_bytes.size());
-	int64_t result = 0;
-	resize.call(bytes, &size, &result);
-	std::memcpy(
-			interface.packed_byte_array_operator_index(bytes, 0), p_bytes.data(), p_bytes.size());
-}
-
-PackedByteArray::PackedByteArray(const Variant &p_value) : BuiltIn(Empty::EMPTY) {
-	interface.get_variant_to_type_constructor(to_godot(BuiltInType::PACKED_BYTE_ARRAY))(
-			bytes, p_value.get());
-}
-
-std::span<const uint8_t> PackedByteArray::get_bytes() const {
-	static const BuiltInMethod get_size(
-			BuiltInType::PACKED_BYTE_ARRAY, "size", HASH_PACKEDBYTEARRAY_SIZE);
+int64_t Array::get_size() const {
+	static const BuiltInMethod method(BuiltInType::ARRAY, "size", HASH_ARRAY_SIZE);
 	int64_t size = 0;
-	get_size.call(bytes, nullptr, &size);
-	return size == 0 ? std::span<const uint8_t>()
-					 : std::span<const uint8_t>(
-							   interface.packed_byte_array_operator_index(bytes, 0), size_t(size));
+	method.call(bytes, nullptr, &size);
+	return size;
 }
 
-PackedColorArray::PackedColorArray(std::span<const glm::vec4> p_colors) {
-	static const BuiltInMethod resize(
-			BuiltInType::PACKED_COLOR_ARRAY, "resize", HASH_PACKEDCOLORARRAY_RESIZE);
-	const int64_t size = static_cast<int64_t>(p_colors.size());
+Variant Array::get_value(int64_t p_index) const {
+	return Variant::copy_of(interface.array_operator_index_const(bytes, p_index));
+}
+
+Variant Dictionary::to_variant() const {
+	return Variant(BuiltInType::DICTIONARY, bytes);
+}
+
+void PackedStringArray::append(const String &p_text) {
+	static const BuiltInMethod method(
+			BuiltInType::PACKED_STRING_ARRAY, "append", HASH_PACKEDSTRINGARRAY_APPEND);
+	uint8_t has_failed = 0;
+	method.call(bytes, p_text.get(), &has_failed);
+}
+
+namespace {
+
+/// What differs between packed arrays.
+struct PackedType {
+	BuiltInMethod get_size;
+	BuiltInMethod resize;
+	void *(*get_first)(void *p_array);
+};
+
+template <auto OPERATOR> void *get_first(void *p_array) {
+	return (interface.*OPERATOR)(p_array, 0);
+}
+
+const PackedType &get_packed_type(BuiltInType p_type) {
+#define PACKED(m_type, m_name, m_operator)                                                         \
+	{                                                                                              \
+		m_type, {                                                                                  \
+			{ m_type, "size", HASH_##m_name##_SIZE },                                              \
+					{ m_type, "resize", HASH_##m_name##_RESIZE },                                  \
+					get_first<&Interface::m_operator>                                              \
+		}                                                                                          \
+	}
+	static const std::map<BuiltInType, PackedType> types = {
+		PACKED(BuiltInType::PACKED_BYTE_ARRAY, PACKEDBYTEARRAY, packed_byte_array_operator_index),
+		PACKED(BuiltInType::PACKED_INT32_ARRAY, PACKEDINT32ARRAY,
+				packed_int32_array_operator_index),
+		PACKED(BuiltInType::PACKED_INT64_ARRAY, PACKEDINT64ARRAY,
+				packed_int64_array_operator_index),
+		PACKED(BuiltInType::PACKED_FLOAT32_ARRAY, PACKEDFLOAT32ARRAY,
+				packed_float32_array_operator_index),
+		PACKED(BuiltInType::PACKED_VECTOR3_ARRAY, PACKEDVECTOR3ARRAY,
+				packed_vector3_array_operator_index),
+		PACKED(BuiltInType::PACKED_COLOR_ARRAY, PACKEDCOLORARRAY,
+				packed_color_array_operator_index),
+	};
+#undef PACKED
+	return types.at(p_type);
+}
+
+} // namespace
+
+void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size) {
+	const PackedType &type = get_packed_type(p_type);
+	const int64_t size = static_cast<int64_t>(p_size);
 	int64_t result = 0;
-	resize.call(bytes, &size, &result);
-	for (int64_t index = 0; index < size; ++index) {
-		std::memcpy(interface.packed_color_array_operator_index(bytes, index),
-				&p_colors[size_t(index)], sizeof(glm::vec4));
+	type.resize.call(r_array, &size, &result);
+	return type.get_first(r_array);
+}
+
+const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size) {
+	const PackedType &type = get_packed_type(p_type);
+	void *array = const_cast<void *>(p_array);
+	int64_t size = 0;
+	type.get_size.call(array, nullptr, &size);
+	r_size = static_cast<size_t>(size);
+	return size == 0 ? nullptr : type.get_first(array);
+}
+
+void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value) {
+	if (p_value.get_type() == p_type) {
+		interface.get_variant_to_type_constructor(to_godot(p_type))(r_array, p_value.get());
+	} else {
+		construct_built_in(p_type, r_array);
 	}
 }
 
-Callable::Callable(std::function<void(const Variant &)> p_function) : BuiltIn(Empty::EMPTY) {
-	using Function = std::function<void(const Variant &)>;
+Callable::Callable(Function p_function) : BuiltIn(Empty::EMPTY) {
 	GDExtensionCallableCustomInfo2 info = {};
 	info.callable_userdata = new Function(std::move(p_function));
 	info.token = interface.extension;
@@ -204,12 +381,31 @@ Callable::Callable(std::function<void(const Variant &)> p_function) : BuiltIn(Em
 							 GDExtensionInt p_count, GDExtensionVariantPtr,
 							 GDExtensionCallError *r_error) {
 		r_error->error = GDEXTENSION_CALL_OK;
-		if (p_count > 0) {
-			(*static_cast<Function *>(p_userdata))(Variant::copy_of(p_arguments[0]));
+		std::vector<Variant> arguments;
+		for (GDExtensionInt index = 0; index < p_count; ++index) {
+			arguments.push_back(Variant::copy_of(p_arguments[index]));
 		}
+		(*static_cast<Function *>(p_userdata))(arguments);
 	};
 	info.free_func = [](void *p_userdata) { delete static_cast<Function *>(p_userdata); };
 	interface.callable_custom_create2(bytes, &info);
+}
+
+void *get_instance(uint64_t p_id) {
+	return interface.object_get_instance_from_id(p_id);
+}
+
+uint64_t get_instance_id(void *p_object) {
+	return interface.object_get_instance_id(p_object);
+}
+
+void *find_class_tag(const char *p_class) {
+	const StringName name(p_class);
+	return interface.classdb_get_class_tag(name.get());
+}
+
+void *cast_object(void *p_object, void *p_class_tag) {
+	return p_object && p_class_tag ? interface.object_cast_to(p_object, p_class_tag) : nullptr;
 }
 
 void *create_object(const char *p_class) {

@@ -9,10 +9,10 @@
 namespace gnomon::godot {
 
 /// An object of Godot that somebody else owns; empty: none.
-class Object {
+class ObjectHandle {
 public:
-	Object() = default;
-	explicit Object(void *p_owner) : owner(p_owner) {}
+	ObjectHandle() = default;
+	explicit ObjectHandle(void *p_owner) : owner(p_owner) {}
 	void *get_owner() const { return owner; }
 	explicit operator bool() const { return owner != nullptr; }
 
@@ -23,6 +23,17 @@ protected:
 /// Makes an object of a class of Godot; its error names the class.
 void *create_object(const char *p_class);
 void *find_singleton(const char *p_class);
+/// The object that has this id; null: it is gone. On the thread that may free it.
+void *get_instance(uint64_t p_id);
+uint64_t get_instance_id(void *p_object);
+/// Null: this Godot has no such class.
+void *find_class_tag(const char *p_class);
+void *cast_object(void *p_object, void *p_class_tag);
+/// Empty where the object is none or of another class.
+template <typename T> T cast(const ObjectHandle &p_object) {
+	static void *const tag = find_class_tag(T::CLASS_NAME);
+	return T(cast_object(p_object.get_owner(), tag));
+}
 /// Counts the owners of an object that is a RefCounted of Godot.
 void add_owner(void *p_object);
 void drop_owner(void *p_object); // frees it with the last one
@@ -49,6 +60,14 @@ public:
 		}
 	}
 	static Ref create() { return Ref(create_object(T::CLASS_NAME)); }
+	/// One owner more of an object that somebody else owns too, or empty.
+	static Ref share(const ObjectHandle &p_object) {
+		const T found = cast<T>(p_object);
+		if (found) {
+			add_owner(found.get_owner());
+		}
+		return Ref(found.get_owner());
+	}
 };
 
 /// A method of a class, found when it is first called. One that this Godot does not have is an
@@ -69,7 +88,7 @@ public:
 				values);
 		if constexpr (std::is_void_v<Result>) {
 			call_raw(p_object, pointers, nullptr);
-		} else if constexpr (std::is_base_of_v<Object, Result>) {
+		} else if constexpr (std::is_base_of_v<ObjectHandle, Result>) {
 			void *owner = nullptr;
 			call_raw(p_object, pointers, &owner);
 			return Result(owner);
@@ -96,7 +115,7 @@ private:
 	template <typename T> static auto encode(const T &p_value) {
 		if constexpr (std::is_same_v<T, bool>) {
 			return uint8_t(p_value);
-		} else if constexpr (std::is_base_of_v<Object, T>) {
+		} else if constexpr (std::is_base_of_v<ObjectHandle, T>) {
 			return p_value.get_owner();
 		} else if constexpr (IsBuiltIn<T>) {
 			return Pointer{ p_value.get() };

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <string>
@@ -24,20 +25,39 @@ struct Rect2 {
 	glm::vec2 position = glm::vec2(0.0f);
 	glm::vec2 size = glm::vec2(0.0f);
 };
+struct AABB {
+	glm::vec3 position = glm::vec3(0.0f);
+	glm::vec3 size = glm::vec3(0.0f);
+};
+/// Godot keeps the rows of the basis.
+struct Transform3D {
+	glm::vec3 rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+	glm::vec3 origin = glm::vec3(0.0f);
+	glm::dmat4 to_matrix() const;
+};
 
 /// As in GDExtensionVariantType; VARIANT: one that holds any of them.
 enum class BuiltInType : int {
 	VARIANT = 0,
 	BOOL = 1,
 	INT = 2,
+	FLOAT = 3,
 	STRING = 4,
+	VECTOR3 = 9,
+	TRANSFORM3D = 18,
 	STRING_NAME = 21,
+	NODE_PATH = 22,
 	RID = 23,
 	OBJECT = 24,
 	CALLABLE = 25,
+	DICTIONARY = 27,
 	ARRAY = 28,
 	PACKED_BYTE_ARRAY = 29,
+	PACKED_INT32_ARRAY = 30,
 	PACKED_INT64_ARRAY = 31,
+	PACKED_FLOAT32_ARRAY = 32,
+	PACKED_STRING_ARRAY = 34,
+	PACKED_VECTOR3_ARRAY = 36,
 	PACKED_COLOR_ARRAY = 37,
 };
 
@@ -86,16 +106,28 @@ class StringName : public BuiltIn<BuiltInType::STRING_NAME, 8> {
 public:
 	StringName() = default;
 	StringName(const char *p_text);
+	StringName(const std::string &p_text) : StringName(p_text.c_str()) {}
 	void is_built_in() const {}
 };
 
-/// Any value, for arrays.
+class NodePath : public BuiltIn<BuiltInType::NODE_PATH, 8> {
+public:
+	std::string to_utf8() const;
+	void is_built_in() const {}
+};
+
+/// Any value.
 class Variant : public BuiltIn<BuiltInType::VARIANT, 24> {
 public:
 	Variant() = default;
 	Variant(RID p_value);
 	Variant(int64_t p_value);
+	Variant(double p_value);
 	Variant(bool p_value);
+	Variant(const char *p_value);
+	Variant(const std::string &p_value);
+	Variant(const glm::vec3 &p_value);
+	Variant(const Transform3D &p_value);
 	Variant(const class PackedByteArray &p_value);
 	/// Of a RefCounted: another owner.
 	static Variant of_object(void *p_object);
@@ -103,44 +135,94 @@ public:
 	static Variant copy_of(const void *p_variant);
 	void is_built_in() const {}
 
+	BuiltInType get_type() const;
+	// Converted as Godot does: 0 or empty where it holds what has no such value.
+	bool to_bool() const;
+	int64_t to_int() const;
+	double to_float() const;
+	std::string to_utf8() const;
+	glm::vec3 to_vector3() const;
+	Transform3D to_transform() const;
+	void *to_object() const; // null: none. Who keeps a RefCounted adds an owner.
+	/// Of a Dictionary: empty where it has no such key.
+	Variant get_keyed(const Variant &p_key) const;
+	/// Calls a method of the object or value that it holds. A refusal is an Error that names it.
+	Variant call(const char *p_method, std::span<const Variant> p_arguments) const;
+
 private:
+	friend class NodePath;
+	friend class Dictionary;
 	explicit Variant(Empty) : BuiltIn(Empty::EMPTY) {}
 	Variant(BuiltInType p_type, const void *p_value);
 };
 
 class Array : public BuiltIn<BuiltInType::ARRAY, 8> {
 public:
-	void append(const Variant &p_value);
-	void is_built_in() const {}
-};
-
-class PackedByteArray : public BuiltIn<BuiltInType::PACKED_BYTE_ARRAY, 16> {
-public:
-	PackedByteArray() = default;
-	PackedByteArray(std::span<const uint8_t> p_bytes);
+	Array() = default;
 	/// Empty where it holds another type.
-	explicit PackedByteArray(const Variant &p_value);
-	std::span<const uint8_t> get_bytes() const;
+	explicit Array(const Variant &p_value);
+	void append(const Variant &p_value);
+	int64_t get_size() const;
+	Variant get_value(int64_t p_index) const;
 	void is_built_in() const {}
 };
 
-class PackedInt64Array : public BuiltIn<BuiltInType::PACKED_INT64_ARRAY, 16> {
+class Dictionary : public BuiltIn<BuiltInType::DICTIONARY, 8> {
 public:
+	Variant to_variant() const;
 	void is_built_in() const {}
 };
 
-class PackedColorArray : public BuiltIn<BuiltInType::PACKED_COLOR_ARRAY, 16> {
+// Of the packed array of a type that lies at r_array or p_array.
+void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size); // its first element
+const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size);
+void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value);
+
+/// Numbers or vectors without gaps.
+template <typename T, BuiltInType TYPE> class PackedArray : public BuiltIn<TYPE, 16> {
 public:
-	PackedColorArray() = default;
-	PackedColorArray(std::span<const glm::vec4> p_colors);
+	PackedArray() = default;
+	PackedArray(std::span<const T> p_values) {
+		if (!p_values.empty()) {
+			std::memcpy(resize_packed(TYPE, this->bytes, p_values.size()), p_values.data(),
+					p_values.size_bytes());
+		}
+	}
+	/// Empty where it holds another type.
+	explicit PackedArray(const Variant &p_value) :
+			BuiltIn<TYPE, 16>(BuiltIn<TYPE, 16>::Empty::EMPTY) {
+		convert_to_packed(TYPE, this->bytes, p_value);
+	}
+	std::span<const T> get_values() const {
+		size_t size = 0;
+		const void *first = get_packed(TYPE, this->bytes, size);
+		return { static_cast<const T *>(first), size };
+	}
+	void is_built_in() const {}
+};
+
+class PackedByteArray : public PackedArray<uint8_t, BuiltInType::PACKED_BYTE_ARRAY> {
+public:
+	using PackedArray::PackedArray;
+};
+using PackedInt32Array = PackedArray<int32_t, BuiltInType::PACKED_INT32_ARRAY>;
+using PackedInt64Array = PackedArray<int64_t, BuiltInType::PACKED_INT64_ARRAY>;
+using PackedFloat32Array = PackedArray<float, BuiltInType::PACKED_FLOAT32_ARRAY>;
+using PackedVector3Array = PackedArray<glm::vec3, BuiltInType::PACKED_VECTOR3_ARRAY>;
+using PackedColorArray = PackedArray<glm::vec4, BuiltInType::PACKED_COLOR_ARRAY>;
+
+class PackedStringArray : public BuiltIn<BuiltInType::PACKED_STRING_ARRAY, 16> {
+public:
+	void append(const String &p_text);
 	void is_built_in() const {}
 };
 
 class Callable : public BuiltIn<BuiltInType::CALLABLE, 16> {
 public:
+	/// It must not throw.
+	using Function = std::function<void(std::span<const Variant>)>;
 	Callable() = default;
-	/// Of one argument. It must not throw.
-	explicit Callable(std::function<void(const Variant &)> p_function);
+	explicit Callable(Function p_function);
 	void is_built_in() const {}
 };
 
