@@ -11,6 +11,7 @@ HOW_TO_GET_ONE = (
     "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
     "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot/."
 )
+ADDON_LIBRARY = "#demo_project/godot/addons/gnomon/bin/libgnomon.linux.x86_64.so"
 
 
 def find_godot():

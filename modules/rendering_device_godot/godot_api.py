@@ -8,7 +8,7 @@ that says which. Methods become members of a class of the same name in gnomon::g
 import json
 
 USED = {
-    "Object": {"methods": "connect disconnect get_class notification"},
+    "Object": {"methods": "connect disconnect get_class notification notify_property_list_changed"},
     "RefCounted": {"methods": "init_ref reference unreference"},
     "RDTextureFormat": {
         "methods": "set_format set_width set_height set_array_layers set_texture_type set_usage_bits"
@@ -65,7 +65,7 @@ USED = {
             get_rendering_device create_local_rendering_device get_current_rendering_method call_on_render_thread
             compositor_effect_create compositor_effect_set_callback compositor_effect_set_flag
             compositor_effect_set_enabled compositor_create compositor_set_compositor_effects scenario_set_compositor
-            instances_cull_aabb multimesh_get_buffer mesh_get_surface free_rid
+            instances_cull_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface free_rid
         """,
         "enums": "CompositorEffectFlags CompositorEffectCallbackType",
     },
@@ -77,7 +77,7 @@ USED = {
     "MainLoop": {"methods": ""},
     "Node": {
         "methods": """get_parent get_path is_inside_tree get_tree update_configuration_warnings find_children
-            get_node_or_null"""
+            get_node_or_null get_name"""
     },
     "SceneTree": {"methods": "get_root get_nodes_in_group"},
     "Node3D": {"methods": "get_global_transform is_visible_in_tree get_world_3d"},
@@ -94,6 +94,7 @@ USED = {
     "OmniLight3D": {"methods": ""},
     "SpotLight3D": {"methods": ""},
     "DirectionalLight3D": {"methods": ""},
+    "Viewport": {"methods": "get_camera_3d"},
     "Camera3D": {"methods": "get_compositor"},
     "WorldEnvironment": {"methods": "get_compositor"},
     "Resource": {"methods": "get_rid get_path get_name"},
@@ -109,7 +110,7 @@ USED = {
         "enums": "TransformFormat",
     },
     "Material": {"methods": ""},
-    "BaseMaterial3D": {"methods": "get_transparency get_depth_draw_mode get_flag", "enums": "Transparency DepthDrawMode Flags"},
+    "BaseMaterial3D": {"methods": "get_transparency get_depth_draw_mode get_flag get_blend_mode", "enums": "Transparency DepthDrawMode Flags BlendMode"},
     "ShaderMaterial": {"methods": "get_shader"},
     "Shader": {"methods": "get_code"},
     "Image": {"methods": "create_from_data", "enums": "Format"},

@@ -200,6 +200,10 @@ Variant Variant::of_object(void *p_object) {
 	return Variant(BuiltInType::OBJECT, &p_object);
 }
 
+Variant Variant::of_type(BuiltInType p_type, const void *p_value) {
+	return p_type == BuiltInType::VARIANT ? copy_of(p_value) : Variant(p_type, p_value);
+}
+
 BuiltInType Variant::get_type() const {
 	return static_cast<BuiltInType>(interface.variant_get_type(bytes));
 }

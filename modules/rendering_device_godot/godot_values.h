@@ -133,6 +133,8 @@ public:
 	static Variant of_object(void *p_object);
 	/// Of one that Godot hands over by its address.
 	static Variant copy_of(const void *p_variant);
+	/// Of a value of that type, handed over so.
+	static Variant of_type(BuiltInType p_type, const void *p_value);
 	void is_built_in() const {}
 
 	BuiltInType get_type() const;

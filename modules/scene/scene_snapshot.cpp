@@ -33,27 +33,6 @@ void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) 
 	}
 }
 
-/// Rotation of a transform: the axis that is looked or shone along is kept exactly, as a scale that
-/// is not uniform bends the others. Right-handed even when the transform mirrors.
-glm::dmat3 compute_orientation(
-		const glm::dmat4 &p_world_from_node, const char *p_kind, const std::string &p_name) {
-	glm::dmat3 axes(p_world_from_node);
-	bool is_degenerate = false;
-	for (int axis = 0; axis < 3; ++axis) {
-		const double length = glm::length(axes[axis]);
-		is_degenerate = is_degenerate || !(length > 0) || !std::isfinite(length);
-		axes[axis] /= length;
-	}
-	if (is_degenerate || !(std::abs(glm::determinant(axes)) > FLATTEST_AXES)) {
-		fail(p_kind, " \"", p_name,
-				"\": its transform has no orientation (a scale is 0, too large, ",
-				"or axes coincide). Set the scale of it and of its parents to other than 0.");
-	}
-	const glm::dvec3 back = axes[2];
-	const glm::dvec3 right = glm::normalize(axes[0] - back * glm::dot(axes[0], back));
-	return glm::dmat3(right, glm::cross(back, right), back);
-}
-
 /// A property as every technique must read it. Values come checked from files and the inspector;
 /// code may set anything.
 PropertyValue read_property(const LightSnapshot &p_light, std::string_view p_name) {
@@ -162,6 +141,25 @@ struct TreeReader {
 };
 
 } // namespace
+
+glm::dmat3 compute_orientation(
+		const glm::dmat4 &p_world_from_node, const char *p_kind, const std::string &p_name) {
+	glm::dmat3 axes(p_world_from_node);
+	bool is_degenerate = false;
+	for (int axis = 0; axis < 3; ++axis) {
+		const double length = glm::length(axes[axis]);
+		is_degenerate = is_degenerate || !(length > 0) || !std::isfinite(length);
+		axes[axis] /= length;
+	}
+	if (is_degenerate || !(std::abs(glm::determinant(axes)) > FLATTEST_AXES)) {
+		fail(p_kind, " \"", p_name,
+				"\": its transform has no orientation (a scale is 0, too large, ",
+				"or axes coincide). Set the scale of it and of its parents to other than 0.");
+	}
+	const glm::dvec3 back = axes[2];
+	const glm::dvec3 right = glm::normalize(axes[0] - back * glm::dot(axes[0], back));
+	return glm::dmat3(right, glm::cross(back, right), back);
+}
 
 InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,

@@ -1,0 +1,84 @@
+// The library's entry point: Godot calls it when it loads the add-on.
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/core/module_registry.h"
+#include "modules/godot_addon/addon_server.h"
+#include "modules/godot_addon/shadow_node.h"
+#include "modules/godot_addon/shadow_properties.h"
+#include "modules/rendering_device_godot/godot_interface.h"
+
+#include <cstdio>
+
+namespace gnomon {
+
+namespace {
+
+std::unique_ptr<AddonServer> addon_server;
+
+void log_to_godot(LogLevel p_level, const std::string &p_line) {
+	const std::string line = "Gnomon: " + p_line;
+	const godot::Interface &interface = godot::get_interface();
+	if (p_level == LogLevel::ERROR) {
+		interface.print_error(line.c_str(), "", "gnomon", 0, false);
+	} else if (p_level == LogLevel::WARNING) {
+		interface.print_warning(line.c_str(), "", "gnomon", 0, false);
+	}
+}
+
+void start_server() {
+	try {
+		addon_server = std::make_unique<AddonServer>();
+	} catch (const std::exception &failure) {
+		log_error(describe_failure(failure));
+	}
+}
+
+void initialize(void *, GDExtensionInitializationLevel p_level) {
+	const godot::Interface &interface = godot::get_interface();
+	if (p_level == GDEXTENSION_INITIALIZATION_EDITOR) {
+		const std::string documentation = write_class_documentation();
+		interface.editor_help_load_xml_from_utf8_chars_and_len(
+				documentation.data(), static_cast<GDExtensionInt>(documentation.size()));
+	}
+	if (p_level != GDEXTENSION_INITIALIZATION_SCENE) {
+		return;
+	}
+	set_log_sink(log_to_godot);
+	set_log_level(LogLevel::WARNING);
+	register_modules();
+	ModuleRegistry::initialize(ModuleLevel::FEATURES);
+	register_shadow_node_class();
+	GDExtensionMainLoopCallbacks callbacks = {};
+	callbacks.startup_func = &start_server; // there is a RenderingServer now
+	callbacks.shutdown_func = [] { addon_server.reset(); };
+	interface.register_main_loop_callbacks(interface.extension, &callbacks);
+}
+
+void uninitialize(void *, GDExtensionInitializationLevel p_level) {
+	if (p_level == GDEXTENSION_INITIALIZATION_SCENE) {
+		addon_server.reset();
+		unregister_shadow_node_class();
+		ModuleRegistry::uninitialize();
+		set_log_sink({});
+	}
+}
+
+} // namespace
+
+} // namespace gnomon
+
+extern "C" __attribute__((visibility("default"))) GDExtensionBool gnomon_addon_init(
+		GDExtensionInterfaceGetProcAddress p_get_address, GDExtensionClassLibraryPtr p_library,
+		GDExtensionInitialization *r_initialization) {
+	try {
+		gnomon::godot::load_interface(p_get_address, p_library);
+	} catch (const gnomon::Error &error) {
+		std::fprintf(stderr, "Gnomon: %s\n", error.what());
+		return 0;
+	}
+	r_initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;
+	r_initialization->initialize = gnomon::initialize;
+	r_initialization->deinitialize = gnomon::uninitialize;
+	return 1;
+}

@@ -1,0 +1,109 @@
+#include "modules/godot_addon/mesh_reader.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+
+namespace gnomon {
+
+namespace {
+
+const uint64_t KEPT_FRAMES = 600;
+
+/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh tell without a copy from the GPU.
+int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
+	if (const auto array_mesh = godot::cast<godot::ArrayMesh>(p_mesh)) {
+		return array_mesh.surface_get_primitive_type(p_surface);
+	}
+	if (godot::cast<godot::PrimitiveMesh>(p_mesh)) {
+		return godot::Mesh::PRIMITIVE_TRIANGLES;
+	}
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	return server.mesh_get_surface(p_mesh.get_rid(), p_surface)
+			.to_variant()
+			.get_keyed("primitive")
+			.to_int();
+}
+
+/// Godot's front faces are clockwise, ours are not.
+std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_is_strip) {
+	std::vector<uint32_t> triangles;
+	const size_t step = p_is_strip ? 1 : 3;
+	for (size_t first = 0; first + 2 < p_order.size(); first += step) {
+		const bool is_turned = p_is_strip && first % 2 == 1;
+		triangles.push_back(p_order[first]);
+		triangles.push_back(p_order[first + (is_turned ? 1 : 2)]);
+		triangles.push_back(p_order[first + (is_turned ? 2 : 1)]);
+	}
+	return triangles;
+}
+
+std::shared_ptr<const Mesh> read_surface(
+		const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
+	const int64_t primitive = find_primitive(p_mesh, p_surface);
+	const bool is_strip = primitive == godot::Mesh::PRIMITIVE_TRIANGLE_STRIP;
+	if (primitive != godot::Mesh::PRIMITIVE_TRIANGLES && !is_strip) {
+		return nullptr; // points and lines
+	}
+	const godot::Array arrays = p_mesh.surface_get_arrays(p_surface);
+	if (arrays.get_size() <= godot::Mesh::ARRAY_INDEX) {
+		return nullptr;
+	}
+	const godot::PackedVector3Array positions(arrays.get_value(godot::Mesh::ARRAY_VERTEX));
+	const godot::PackedVector3Array normals(arrays.get_value(godot::Mesh::ARRAY_NORMAL));
+	const godot::PackedInt32Array indices(arrays.get_value(godot::Mesh::ARRAY_INDEX));
+	const std::span<const glm::vec3> points = positions.get_values();
+	std::vector<uint32_t> order(indices.get_values().begin(), indices.get_values().end());
+	if (order.empty()) {
+		for (uint32_t vertex = 0; vertex < points.size(); ++vertex) {
+			order.push_back(vertex);
+		}
+	}
+	const std::vector<uint32_t> triangles = make_triangles(order, is_strip);
+	if (triangles.empty()) {
+		return nullptr;
+	}
+	return make_mesh(p_name, { points.begin(), points.end() },
+			{ normals.get_values().begin(), normals.get_values().end() }, triangles);
+}
+
+} // namespace
+
+const std::vector<ReadSurface> &MeshReader::read(
+		const godot::Mesh &p_mesh, const std::string &p_name) {
+	Entry &entry = entries[godot::get_instance_id(p_mesh.get_owner())];
+	entry.last_use = frame;
+	const int64_t surface_count = p_mesh.get_surface_count();
+	const bool is_new = !entry.watched;
+	if (is_new) {
+		entry.watched = std::make_unique<WatchedResource>(p_mesh);
+	}
+	if (!is_new && !entry.watched->take_change() && entry.surface_count == surface_count) {
+		return entry.surfaces;
+	}
+	entry.surface_count = surface_count;
+	entry.surfaces.clear();
+	for (int64_t index = 0; index < surface_count; ++index) {
+		ReadSurface surface = { nullptr, index };
+		try {
+			surface.mesh = read_surface(p_mesh, index, p_name);
+		} catch (const Error &error) {
+			log_warning(error.what(), " Surface ", index, " of \"", p_name,
+					"\" casts no shadow of Gnomon until its mesh changes.");
+		}
+		if (surface.mesh) {
+			worker.prepare(surface.mesh);
+		}
+		entry.surfaces.push_back(surface);
+	}
+	return entry.surfaces;
+}
+
+void MeshReader::forget_unused() {
+	++frame;
+	std::erase_if(entries, [&](const auto &p_entry) {
+		return !p_entry.second.watched->is_alive() || frame - p_entry.second.last_use > KEPT_FRAMES;
+	});
+	worker.forget_unused();
+}
+
+} // namespace gnomon

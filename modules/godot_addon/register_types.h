@@ -1,0 +1,3 @@
+#pragma once
+
+// Nothing to register: Godot calls the add-on's entry point.

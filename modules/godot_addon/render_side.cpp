@@ -1,0 +1,82 @@
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/godot_addon/view_shadows.h"
+
+namespace gnomon {
+
+namespace {
+
+const uint64_t KEPT_FRAMES = 120; // of views that are drawn no more
+
+} // namespace
+
+void RenderSide::prepare_device() {
+	if (device) {
+		return;
+	}
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	device = std::make_unique<GodotDevice>(server.get_rendering_device(), GodotDevice::Kind::MAIN);
+	meshes = std::make_shared<MeshStore>(*device);
+}
+
+void RenderSide::make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
+	run(What::MAKE, p_frame, p_render_data);
+}
+
+void RenderSide::show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
+	run(What::SHOW, p_frame, p_render_data);
+}
+
+void RenderSide::run(
+		What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
+	try {
+		const auto data =
+				godot::cast<godot::RenderData>(godot::ObjectHandle(p_render_data.to_object()));
+		if (!data) {
+			return;
+		}
+		const godot::Ref<godot::RenderSceneBuffers> any_buffers = data.get_render_scene_buffers();
+		const auto buffers = godot::cast<godot::RenderSceneBuffersRD>(any_buffers);
+		if (!buffers) {
+			return;
+		}
+		prepare_device();
+		const GodotView view = read_view(data, buffers);
+		if (!view.refusal.empty()) {
+			fail("A camera ", view.refusal, ". Gnomon makes no shadow masks for it.");
+		}
+		if (!view.depth || !view.color) {
+			return;
+		}
+		std::unique_ptr<ViewShadows> &shadows = views[godot::get_instance_id(buffers.get_owner())];
+		if (!shadows) {
+			shadows = std::make_unique<ViewShadows>(*device, meshes);
+		}
+		shadows->last_use = ++frame;
+		if (p_what == What::MAKE) {
+			shadows->make_masks(p_frame, view);
+			forget_unused();
+		} else {
+			shadows->show_masks(p_frame, view);
+		}
+	} catch (const std::exception &failure) { // Godot knows no exceptions
+		const std::string description = describe_failure(failure);
+		if (logged.insert(description).second) {
+			log_error(description);
+		}
+	}
+}
+
+void RenderSide::forget_unused() {
+	const uint64_t kept = KEPT_FRAMES * (views.size() + 1);
+	std::erase_if(
+			views, [&](const auto &p_entry) { return frame - p_entry.second->last_use > kept; });
+}
+
+void RenderSide::clear() {
+	views.clear();
+	meshes.reset();
+	device.reset();
+}
+
+} // namespace gnomon

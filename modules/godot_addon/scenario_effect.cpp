@@ -1,0 +1,118 @@
+#include "modules/godot_addon/scenario_effect.h"
+
+#include "modules/core/text.h"
+
+namespace gnomon {
+
+namespace {
+
+using godot::Array;
+using godot::RenderingServer;
+using godot::Variant;
+
+Array list_effects(const godot::Compositor &p_compositor) {
+	Array effects;
+	const Array found = p_compositor.get_compositor_effects();
+	for (int64_t index = 0; index < found.get_size(); ++index) {
+		const auto effect = godot::cast<godot::Resource>(
+				godot::ObjectHandle(found.get_value(index).to_object()));
+		if (effect) {
+			effects.append(effect.get_rid());
+		}
+	}
+	return effects;
+}
+
+} // namespace
+
+ScenarioEffect::ScenarioEffect(godot::RID p_scenario, std::shared_ptr<RenderSide> p_render_side) :
+		server(godot::find_singleton("RenderingServer")), scenario(p_scenario),
+		render_side(std::move(p_render_side)) {
+	make_effect = create_effect(RenderingServer::COMPOSITOR_EFFECT_CALLBACK_TYPE_PRE_OPAQUE,
+			RenderingServer::COMPOSITOR_EFFECT_FLAG_ACCESS_RESOLVED_DEPTH, &RenderSide::make_masks);
+	show_effect = create_effect(RenderingServer::COMPOSITOR_EFFECT_CALLBACK_TYPE_POST_TRANSPARENT,
+			RenderingServer::COMPOSITOR_EFFECT_FLAG_ACCESS_RESOLVED_COLOR, &RenderSide::show_masks);
+	compositor = server.compositor_create();
+	Array effects;
+	effects.append(make_effect);
+	effects.append(show_effect);
+	server.compositor_set_compositor_effects(compositor, effects);
+}
+
+ScenarioEffect::~ScenarioEffect() {
+	for (const uint64_t id : extended) {
+		if (const auto foreign = godot::cast<godot::Compositor>(
+					godot::ObjectHandle(godot::get_instance(id)))) {
+			server.compositor_set_compositor_effects(foreign.get_rid(), list_effects(foreign));
+		}
+	}
+	server.free_rid(compositor); // scenarios that have it lose it
+	server.free_rid(make_effect);
+	server.free_rid(show_effect);
+}
+
+godot::RID ScenarioEffect::create_effect(int64_t p_stage, int64_t p_flag,
+		void (RenderSide::*p_run)(const ScenarioFrame &, const godot::Variant &)) {
+	const godot::RID effect = server.compositor_effect_create();
+	server.compositor_effect_set_callback(effect, p_stage,
+			godot::Callable(
+					[=, side = render_side, frames = slot](std::span<const Variant> p_arguments) {
+						const std::shared_ptr<const ScenarioFrame> frame = frames->get();
+						if (frame && p_arguments.size() == 2) {
+							((*side).*p_run)(*frame, p_arguments[1]);
+						}
+					}));
+	server.compositor_effect_set_flag(effect, p_flag, true);
+	return effect;
+}
+
+void ScenarioEffect::add_to(const godot::Compositor &p_compositor) {
+	Array effects = list_effects(p_compositor);
+	effects.append(make_effect);
+	effects.append(show_effect);
+	server.compositor_set_compositor_effects(p_compositor.get_rid(), effects);
+	extended.insert(godot::get_instance_id(p_compositor.get_owner()));
+}
+
+void ScenarioEffect::update(
+		std::shared_ptr<const ScenarioFrame> p_frame, const godot::SceneTree &p_tree) {
+	const bool shows = !p_frame->shown_lights.empty();
+	if (shows != is_shown) {
+		server.compositor_effect_set_enabled(show_effect, shows);
+		is_shown = shows;
+	}
+	slot->set(std::move(p_frame));
+	// Groups that Godot keeps for itself: the WorldEnvironments of a world, the first of which
+	// counts, and all viewports. Without them only our own compositor is used.
+	const Array environments = p_tree.get_nodes_in_group(text("_world_compositor_", scenario.id));
+	bool has_own = true;
+	if (environments.get_size() > 0) {
+		const auto environment = godot::cast<godot::WorldEnvironment>(
+				godot::ObjectHandle(environments.get_value(0).to_object()));
+		const godot::Ref<godot::Compositor> foreign =
+				environment ? environment.get_compositor() : godot::Ref<godot::Compositor>();
+		if (foreign) {
+			add_to(foreign);
+			has_own = false;
+		}
+	}
+	if (has_own) {
+		server.scenario_set_compositor(scenario, compositor);
+	}
+	const Array viewports = p_tree.get_nodes_in_group("_viewports");
+	for (int64_t index = 0; index < viewports.get_size(); ++index) {
+		const auto viewport = godot::cast<godot::Viewport>(
+				godot::ObjectHandle(viewports.get_value(index).to_object()));
+		const godot::Camera3D camera = viewport ? viewport.get_camera_3d() : godot::Camera3D();
+		if (!camera) {
+			continue;
+		}
+		const godot::Ref<godot::Compositor> foreign = camera.get_compositor();
+		const godot::Ref<godot::World3D> world = camera.get_world_3d();
+		if (foreign && world && world.get_scenario() == scenario) {
+			add_to(foreign);
+		}
+	}
+}
+
+} // namespace gnomon

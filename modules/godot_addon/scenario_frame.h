@@ -1,0 +1,40 @@
+#pragma once
+
+#include "modules/godot_addon/shadow_node.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What the main thread hands to the render thread of one world (a scenario of Godot's
+/// RenderingServer), new in each frame. Never changes once handed over.
+struct ScenarioFrame {
+	std::shared_ptr<const SceneSnapshot> scene; // its camera is each view's own
+	std::set<std::string> shown_lights;			// whose masks are drawn over the image
+	std::vector<std::shared_ptr<MaskRequest>> requests;
+};
+
+/// Where it is handed over.
+class ScenarioFrameSlot {
+public:
+	void set(std::shared_ptr<const ScenarioFrame> p_frame) {
+		const std::lock_guard lock(mutex);
+		frame = std::move(p_frame);
+	}
+	/// Null: nothing was handed over yet.
+	std::shared_ptr<const ScenarioFrame> get() const {
+		const std::lock_guard lock(mutex);
+		return frame;
+	}
+
+private:
+	mutable std::mutex mutex;
+	std::shared_ptr<const ScenarioFrame> frame;
+};
+
+} // namespace gnomon

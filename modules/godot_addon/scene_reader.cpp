@@ -1,0 +1,265 @@
+#include "modules/godot_addon/scene_reader.h"
+
+#include "modules/core/error.h"
+#include "modules/core/log.h"
+#include "modules/scene/box_mesh.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+using godot::GeometryInstance3D;
+
+const float FARTHEST_M = 1e8f;
+const double SMALLEST_SCENE_SIZE_M = 1e-9;
+// What follows the transform of a MultiMesh's instance, in floats.
+const size_t COLOR_FLOATS = 4;
+
+/// Visited as one body each: nodes that have several instances, and gizmos, bear their node's id.
+std::vector<uint64_t> find_instances(godot::RID p_scenario) {
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const godot::AABB everywhere = { glm::vec3(-FARTHEST_M), glm::vec3(2 * FARTHEST_M) };
+	const godot::PackedInt64Array found = server.instances_cull_aabb(everywhere, p_scenario);
+	std::vector<uint64_t> ids(found.get_values().begin(), found.get_values().end());
+	std::sort(ids.begin(), ids.end());
+	ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+	return ids;
+}
+
+glm::dmat4 read_instance_transform(std::span<const float> p_floats, bool p_is_3d) {
+	// Rows of 3 x 4, or of 2 x 4 whose third column is unused.
+	glm::dmat4 matrix(1.0);
+	for (int row = 0; row < (p_is_3d ? 3 : 2); ++row) {
+		for (int column = 0; column < 4; ++column) {
+			if (p_is_3d || column != 2) {
+				matrix[column][row] = p_floats[size_t(row) * 4 + size_t(column)];
+			}
+		}
+	}
+	return matrix;
+}
+
+} // namespace
+
+void SceneReader::warn_once(const Body &p_body, const std::string &p_warning) {
+	if (warned.insert({ godot::get_instance_id(p_body.node.get_owner()), p_warning }).second) {
+		log_warning("\"", p_body.node.get_path().to_utf8(), "\" ", p_warning);
+	}
+}
+
+void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
+		const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene) {
+	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
+	const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_body.node);
+	for (const ReadSurface &surface : meshes.read(p_mesh, p_body.name)) {
+		if (!surface.mesh) {
+			continue;
+		}
+		godot::Ref<godot::Material> material;
+		if (mesh_instance) {
+			material = mesh_instance.get_active_material(surface.index);
+		} else {
+			if (geometry) {
+				material = geometry.get_material_override();
+			}
+			if (!material) {
+				material = p_mesh.surface_get_material(surface.index);
+			}
+		}
+		const ShadowKind kind = material ? materials.read(material) : ShadowKind::OPAQUE;
+		InstanceSnapshot instance =
+				make_instance(surface.mesh, nullptr, p_world_from_mesh, p_body.name);
+		instance.layers = p_body.layers;
+		instance.casts_shadow = p_body.casts_shadow && kind != ShadowKind::NONE;
+		if (instance.casts_shadow && kind == ShadowKind::CUT_OUT) {
+			warn_once(p_body, "is cut out by alpha, and casts the shadow of its whole surface.");
+		}
+		if (instance.casts_shadow && !meshes.is_ready(surface)) {
+			instance.casts_shadow = false;
+			++pending_count;
+		}
+		r_scene.instances.push_back(std::move(instance));
+	}
+}
+
+void SceneReader::read_mesh_list(
+		const Body &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene) {
+	const glm::dmat4 world_from_node = p_body.node.get_global_transform().to_matrix();
+	for (int64_t index = 0; index + 1 < p_meshes.get_size(); index += 2) {
+		const godot::Mesh mesh = godot::cast<godot::Mesh>(
+				godot::ObjectHandle(p_meshes.get_value(index + 1).to_object()));
+		if (mesh) {
+			read_mesh(p_body, mesh,
+					world_from_node * p_meshes.get_value(index).to_transform().to_matrix(),
+					r_scene);
+		}
+	}
+}
+
+void SceneReader::read_multi_mesh(
+		const Body &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene) {
+	const godot::Ref<godot::Mesh> mesh = p_multi_mesh.get_mesh();
+	const int64_t visible_count = p_multi_mesh.get_visible_instance_count();
+	const int64_t instance_count = p_multi_mesh.get_instance_count();
+	const size_t count = size_t(visible_count < 0 ? instance_count : visible_count);
+	if (!mesh || count == 0) {
+		return;
+	}
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	// Lets Godot keep the transforms on the CPU: each later frame reads them without the GPU.
+	server.multimesh_instance_get_transform(p_multi_mesh.get_rid(), 0);
+	const godot::PackedFloat32Array buffer = server.multimesh_get_buffer(p_multi_mesh.get_rid());
+	const bool is_3d = p_multi_mesh.get_transform_format() == godot::MultiMesh::TRANSFORM_3D;
+	const size_t stride = (is_3d ? 12 : 8) + (p_multi_mesh.is_using_colors() ? COLOR_FLOATS : 0) +
+			(p_multi_mesh.is_using_custom_data() ? COLOR_FLOATS : 0);
+	const glm::dmat4 world_from_node = p_body.node.get_global_transform().to_matrix();
+	for (size_t index = 0; index < count && (index + 1) * stride <= buffer.get_values().size();
+			++index) {
+		const std::span<const float> floats = buffer.get_values().subspan(index * stride, stride);
+		read_mesh(p_body, mesh, world_from_node * read_instance_transform(floats, is_3d), r_scene);
+	}
+}
+
+void SceneReader::read_unknown(
+		const Body &p_body, const godot::VisualInstance3D &p_instance, SceneSnapshot &r_scene) {
+	static const std::shared_ptr<const Mesh> box = make_box_mesh("box", glm::vec3(0.5f));
+	const godot::AABB bounds = p_instance.get_aabb();
+	if (glm::any(glm::lessThanEqual(bounds.size, glm::vec3(0.0f)))) {
+		return;
+	}
+	glm::dmat4 node_from_box =
+			glm::translate(glm::dmat4(1.0), glm::dvec3(bounds.position + 0.5f * bounds.size));
+	node_from_box = glm::scale(node_from_box, glm::dvec3(bounds.size));
+	InstanceSnapshot instance = make_instance(box, nullptr,
+			p_body.node.get_global_transform().to_matrix() * node_from_box, p_body.name);
+	instance.casts_shadow = false;
+	r_scene.instances.push_back(std::move(instance));
+}
+
+void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
+	const godot::ObjectHandle object(godot::get_instance(p_id));
+	Body body;
+	body.node = godot::cast<godot::Node3D>(object);
+	const auto visual = godot::cast<godot::VisualInstance3D>(object);
+	const auto geometry = godot::cast<GeometryInstance3D>(object);
+	const auto grid_map = godot::cast<godot::GridMap>(object);
+	if (!body.node || (!geometry && !grid_map) || !body.node.is_visible_in_tree()) {
+		return;
+	}
+	body.name = godot::Variant::of_type(godot::BuiltInType::STRING_NAME, body.node.get_name().get())
+						.to_utf8();
+	if (visual) {
+		body.layers = static_cast<uint32_t>(visual.get_layer_mask());
+	}
+	if (geometry) {
+		body.casts_shadow = geometry.get_cast_shadows_setting() !=
+				GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+	}
+	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(object)) {
+		const godot::Ref<godot::Mesh> mesh = mesh_instance.get_mesh();
+		if (!mesh) {
+			return;
+		}
+		const auto array_mesh = godot::cast<godot::ArrayMesh>(mesh);
+		if (mesh_instance.get_skin_reference() ||
+				(array_mesh && array_mesh.get_blend_shape_count() > 0)) {
+			warn_once(body,
+					"is animated by bones or blend shapes, and casts the shadow of its "
+					"rest pose.");
+		}
+		read_mesh(body, mesh, body.node.get_global_transform().to_matrix(), r_scene);
+	} else if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(object)) {
+		if (const godot::Ref<godot::MultiMesh> multi_mesh = multi.get_multimesh()) {
+			read_multi_mesh(body, multi_mesh, r_scene);
+		}
+	} else if (const auto shape = godot::cast<godot::CSGShape3D>(object)) {
+		if (shape.is_root_shape()) {
+			read_mesh_list(body, shape.get_meshes(), r_scene);
+		}
+	} else if (grid_map) {
+		read_mesh_list(body, grid_map.get_meshes(), r_scene);
+	} else {
+		if (body.casts_shadow) {
+			warn_once(body,
+					text("casts no shadow of Gnomon: the mesh of a ",
+							godot::Object(object.get_owner()).get_class().to_utf8(),
+							" cannot be read. Set its cast_shadow to Off, or use a "
+							"MeshInstance3D."));
+		}
+		read_unknown(body, visual, r_scene);
+	}
+}
+
+LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_size_m) {
+	using godot::Light3D;
+	const Light3D node = p_node.find_light();
+	const glm::dmat4 world_from_light = node.get_global_transform().to_matrix();
+	LightSnapshot light;
+	light.name = p_node.get_path();
+	light.type = godot::cast<godot::OmniLight3D>(node) ? LightType::OMNI
+			: godot::cast<godot::SpotLight3D>(node)	   ? LightType::SPOT
+													   : LightType::DIRECTIONAL;
+	light.position_world = glm::dvec3(world_from_light[3]);
+	light.world_from_light = compute_orientation(world_from_light, "Light", light.name);
+	light.caster_layers = static_cast<uint32_t>(node.get_shadow_caster_mask());
+	if (light.type != LightType::DIRECTIONAL) {
+		light.range_m = static_cast<float>(node.get_param(Light3D::PARAM_RANGE));
+	}
+	if (light.type == LightType::SPOT) {
+		light.outer_cone_rad =
+				glm::radians(static_cast<float>(node.get_param(Light3D::PARAM_SPOT_ANGLE)));
+	}
+	light.properties = p_node.make_light_properties(light.type == LightType::DIRECTIONAL);
+	light.decide_settings(p_scene_size_m);
+	return light;
+}
+
+std::shared_ptr<const ScenarioFrame> SceneReader::read(
+		godot::RID p_scenario, std::span<ShadowNode *const> p_nodes) {
+	auto scene = std::make_shared<SceneSnapshot>();
+	auto frame = std::make_shared<ScenarioFrame>();
+	pending_count = 0;
+	for (const uint64_t id : find_instances(p_scenario)) {
+		try {
+			read_node(id, *scene);
+		} catch (const Error &error) {
+			if (warned.insert({ id, "" }).second) {
+				log_warning(error.what());
+			}
+		}
+	}
+	scene->scene_size_m =
+			std::max(SMALLEST_SCENE_SIZE_M, scene->compute_caster_bounds().get_diagonal());
+	for (ShadowNode *node : p_nodes) {
+		try {
+			scene->lights.push_back(read_light(*node, scene->scene_size_m));
+		} catch (const Error &error) {
+			const uint64_t id = godot::get_instance_id(node->get_node().get_owner());
+			if (warned.insert({ id, error.what() }).second) {
+				log_warning(error.what(), " It has no shadow of Gnomon until then.");
+			}
+			continue;
+		}
+		node->pending_caster_count = pending_count;
+		if (node->shows_mask()) {
+			frame->shown_lights.insert(scene->lights.back().name);
+		}
+		if (const std::shared_ptr<MaskRequest> request = node->get_request()) {
+			request->light = scene->lights.back().name;
+			frame->requests.push_back(request);
+		}
+	}
+	frame->scene = std::move(scene);
+	return frame;
+}
+
+void SceneReader::end_frame() {
+	meshes.forget_unused();
+	materials.forget_unused();
+	std::erase_if(warned,
+			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
+}
+
+} // namespace gnomon

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "modules/godot_addon/mesh_reader.h"
+#include "modules/godot_addon/scenario_frame.h"
+#include "modules/godot_addon/shadow_materials.h"
+
+#include <span>
+
+namespace gnomon {
+
+/// Reads the casters and lights of Godot's scenes. Main thread only.
+class SceneReader {
+public:
+	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
+	/// What cannot be read is left out, with one warning that names the node.
+	std::shared_ptr<const ScenarioFrame> read(
+			godot::RID p_scenario, std::span<ShadowNode *const> p_nodes);
+	/// Once a frame, after all worlds were read.
+	void end_frame();
+
+private:
+	/// What all surfaces of a node share.
+	struct Body {
+		godot::Node3D node;
+		std::string name;
+		uint32_t layers = 1;
+		bool casts_shadow = true;
+	};
+	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
+	void read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
+			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
+	/// Pairs of a transform and a mesh, as GridMap and CSGShape3D have them.
+	void read_mesh_list(const Body &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
+	void read_multi_mesh(
+			const Body &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
+	/// Its box alone: it may receive shadows.
+	void read_unknown(
+			const Body &p_body, const godot::VisualInstance3D &p_instance, SceneSnapshot &r_scene);
+	void warn_once(const Body &p_body, const std::string &p_warning);
+	static LightSnapshot read_light(const ShadowNode &p_node, double p_scene_size_m);
+
+	MeshReader meshes;
+	ShadowMaterials materials;
+	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning
+	int64_t pending_count = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "modules/godot_addon/watched_resource.h"
+
+#include <map>
+#include <string>
+
+namespace gnomon {
+
+/// How a surface's shadow follows from its material, as in Godot's own shadow passes.
+enum class ShadowKind {
+	OPAQUE,
+	CUT_OUT, // by alpha: scissor, hash, or a depth prepass
+	NONE,	 // blended, or without depth
+};
+
+/// Reads materials of Godot. Main thread only.
+class ShadowMaterials {
+public:
+	ShadowKind read(const godot::Material &p_material);
+	/// Drops what is known of shaders that are gone. Once a frame.
+	void forget_unused();
+
+private:
+	struct Entry {
+		std::unique_ptr<WatchedResource> watched;
+		ShadowKind kind = ShadowKind::OPAQUE;
+	};
+	ShadowKind read_shader(const godot::Shader &p_shader);
+
+	std::map<uint64_t, Entry> shaders; // by the resource's id
+};
+
+/// What a shader's code says: the built-ins and render modes that decide it.
+ShadowKind find_shadow_kind(const std::string &p_shader_code);
+
+} // namespace gnomon

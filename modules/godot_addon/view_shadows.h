@@ -1,0 +1,89 @@
+#pragma once
+
+#include "modules/godot_addon/scenario_frame.h"
+#include "modules/render_graph/transient_pool.h"
+#include "modules/rendering_device_godot/godot_device.h"
+#include "modules/shadows/shadow_system.h"
+
+#include <map>
+
+namespace gnomon {
+
+/// What Godot has drawn of a view when it calls an effect.
+struct GodotView {
+	godot::RID depth;
+	godot::RID color;
+	glm::uvec2 size_px = glm::uvec2(0);
+	CameraSnapshot camera;
+	godot::Transform3D camera_transform;
+	float depth_offset = 0; // P[2][2] of its projection P
+	/// Why masks cannot be made for it; empty: they can.
+	std::string refusal;
+};
+/// p_buffers: of p_data.
+GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuffersRD &p_buffers);
+
+/// A texture of Godot as one of the device's, while it stays the same.
+class ImportedTexture {
+public:
+	TextureRID get(GodotDevice &r_device, godot::RID p_texture, const TextureDesc &p_desc);
+	/// Before the device ends.
+	void free(GodotDevice &r_device);
+
+private:
+	godot::RID source;
+	TextureRID imported;
+};
+
+/// The masks of one view: of one viewport, as Godot keeps buffers for it. Render thread only.
+class ViewShadows {
+public:
+	ViewShadows(GodotDevice &p_device, std::shared_ptr<MeshStore> p_meshes);
+	~ViewShadows();
+	ViewShadows(const ViewShadows &) = delete;
+	ViewShadows &operator=(const ViewShadows &) = delete;
+
+	/// Makes the masks of all lights: before the view's opaque objects are drawn.
+	void make_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
+	/// Draws the shown lights' masks over the image, the last one's on top.
+	void show_masks(const ScenarioFrame &p_frame, const GodotView &p_view);
+
+	uint64_t last_use = 0; // the frame
+
+private:
+	RGTexture add_depth_pass(RenderGraph &r_graph, const GodotView &p_view);
+	void prepare_masks(glm::uvec2 p_size_px, uint32_t p_count);
+
+	GodotDevice &device;
+	TransientPool transients;
+	ShadowSystem shadows;
+	ImportedTexture depth;
+	ImportedTexture color;
+	/// R16_SFLOAT, a layer for each light: what share of it each pixel gets.
+	OwnedTexture masks;
+	std::map<std::string, uint32_t> layers; // by light
+};
+
+/// The masks of all views. Render thread only, but for its making.
+class RenderSide {
+public:
+	/// From the callbacks of effects; what fails is logged once.
+	void make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
+	void show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
+	/// Frees all. The next frame starts anew.
+	void clear();
+
+private:
+	enum class What { MAKE, SHOW };
+	void run(What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
+	void prepare_device();
+	void forget_unused();
+
+	std::unique_ptr<GodotDevice> device;
+	std::shared_ptr<MeshStore> meshes;
+	std::map<uint64_t, std::unique_ptr<ViewShadows>> views; // by the id of Godot's buffers
+	std::set<std::string> logged;
+	uint64_t frame = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,28 @@
+#ifndef GODOT_ADDON_SHARED_H
+#define GODOT_ADDON_SHARED_H
+#include "shared/shared_begin.h"
+
+// Bindings of convert_depth.frag and show_mask.frag.
+#define CONVERT_BINDING_DEPTH 0
+#define SHOW_BINDING_MASKS 0
+
+/// Push constants of convert_depth.frag.
+struct SHARED_ALIGN ConvertDepthPush {
+	float offset; // P[2][2] of Godot's projection P, whose depth d is P[3][2] / z - P[2][2]
+	float padding0;
+	float padding1;
+	float padding2;
+};
+SHARED_SIZE(ConvertDepthPush, 16);
+
+/// Push constants of show_mask.frag.
+struct SHARED_ALIGN ShowMaskPush {
+	uint layer; // of the masks
+	uint padding0;
+	uint padding1;
+	uint padding2;
+};
+SHARED_SIZE(ShowMaskPush, 16);
+
+#include "shared/shared_end.h"
+#endif
