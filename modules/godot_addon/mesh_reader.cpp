@@ -24,15 +24,16 @@ int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 			.to_int();
 }
 
-/// Godot's front faces are clockwise, ours are not.
+/// Godot's front faces are clockwise, ours are not: turned as its export to glTF turns them, so that
+/// both give the same masks to the last bit.
 std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_is_strip) {
 	std::vector<uint32_t> triangles;
 	const size_t step = p_is_strip ? 1 : 3;
 	for (size_t first = 0; first + 2 < p_order.size(); first += step) {
 		const bool is_turned = p_is_strip && first % 2 == 1;
-		triangles.push_back(p_order[first]);
-		triangles.push_back(p_order[first + (is_turned ? 1 : 2)]);
-		triangles.push_back(p_order[first + (is_turned ? 2 : 1)]);
+		triangles.push_back(p_order[first + (is_turned ? 0 : 2)]);
+		triangles.push_back(p_order[first + 1]);
+		triangles.push_back(p_order[first + (is_turned ? 2 : 0)]);
 	}
 	return triangles;
 }

@@ -72,7 +72,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 		view.camera.position_world = glm::dvec3(world_from_camera[3]);
 		view.camera.world_from_camera =
 				compute_orientation(world_from_camera, "Camera", view.camera.name);
-		view.camera.vertical_fov_rad = 2.0f * std::atan(1.0f / std::abs(projection[1][1]));
+		view.camera.vertical_fov_rad =
+				static_cast<float>(2.0 * std::atan(1.0 / std::abs(double(projection[1][1]))));
 		view.depth_offset = projection[2][2];
 		view.camera.near_m = projection[3][2] / (1.0f + projection[2][2]);
 	}
