@@ -14,17 +14,17 @@ TIMEOUT_S = 900
 HARMLESS = re.compile(r"is not supported yet\.$")
 
 
-def prepare():
-    """Makes Godot know the add-on's library, as opening the project in the editor does.
+def prepare(project=PROJECT):
+    """Makes Godot know the add-on's library and the scripts' classes, as opening the project in the editor does.
 
     Godot 4.6 itself crashes where it finds the library of an add-on for the first time while it imports without a window
     (its issue 111048).
     """
-    shutil.rmtree(os.path.join(PROJECT, ".godot"), ignore_errors=True)
-    os.makedirs(os.path.join(PROJECT, ".godot"))
-    with open(os.path.join(PROJECT, ".godot", "extension_list.cfg"), "w", encoding="utf-8") as file:
+    shutil.rmtree(os.path.join(project, ".godot"), ignore_errors=True)
+    os.makedirs(os.path.join(project, ".godot"))
+    with open(os.path.join(project, ".godot", "extension_list.cfg"), "w", encoding="utf-8") as file:
         file.write("res://addons/gnomon/gnomon.gdextension\n")
-    run_godot(["--headless", "--path", PROJECT, "--import"])
+    run_godot(["--headless", "--path", project, "--import"])
 
 
 def run_godot(arguments):
@@ -49,9 +49,9 @@ def run_godot(arguments):
     return done.stdout
 
 
-def run(scene, options, size):
+def run(scene, options, size, project=PROJECT):
     """Runs a scene of the project in a window of that size in pixels; options are its own. What it printed."""
-    arguments = ["--path", PROJECT, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
+    arguments = ["--path", project, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
     arguments += ["--audio-driver", "Dummy", "--disable-vsync", "--resolution", "%dx%d" % (size, size), scene, "--"]
     return run_godot(arguments + options)
 

@@ -102,7 +102,7 @@ void AddonServer::update_worlds() {
 		if (!effect) {
 			effect = std::make_unique<ScenarioEffect>(scenario, render_side);
 		}
-		effect->update(reader.read(scenario, nodes), tree);
+		effect->update(reader.read(scenario, tree, nodes), tree);
 	}
 	reader.end_frame();
 }

@@ -24,8 +24,8 @@ int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 			.to_int();
 }
 
-/// Godot's front faces are clockwise, ours are not: turned as its export to glTF turns them, so that
-/// both give the same masks to the last bit.
+/// Godot's front faces are clockwise, ours are not: turned as its export to glTF turns them, so
+/// that both give the same masks to the last bit.
 std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_is_strip) {
 	std::vector<uint32_t> triangles;
 	const size_t step = p_is_strip ? 1 : 3;

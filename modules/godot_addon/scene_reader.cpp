@@ -216,12 +216,18 @@ LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_s
 	return light;
 }
 
-std::shared_ptr<const ScenarioFrame> SceneReader::read(
-		godot::RID p_scenario, std::span<ShadowNode *const> p_nodes) {
+std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
+		const godot::SceneTree &p_tree, std::span<ShadowNode *const> p_nodes) {
+	if (!grid_maps) {
+		grid_maps = std::make_unique<GridMaps>(p_tree);
+	}
 	auto scene = std::make_shared<SceneSnapshot>();
 	auto frame = std::make_shared<ScenarioFrame>();
 	pending_count = 0;
-	for (const uint64_t id : find_instances(p_scenario)) {
+	std::vector<uint64_t> ids = find_instances(p_scenario);
+	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);
+	ids.insert(ids.end(), grid_map_ids.begin(), grid_map_ids.end());
+	for (const uint64_t id : ids) {
 		try {
 			read_node(id, *scene);
 		} catch (const Error &error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
@@ -13,8 +14,8 @@ class SceneReader {
 public:
 	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
 	/// What cannot be read is left out, with one warning that names the node.
-	std::shared_ptr<const ScenarioFrame> read(
-			godot::RID p_scenario, std::span<ShadowNode *const> p_nodes);
+	std::shared_ptr<const ScenarioFrame> read(godot::RID p_scenario, const godot::SceneTree &p_tree,
+			std::span<ShadowNode *const> p_nodes);
 	/// Once a frame, after all worlds were read.
 	void end_frame();
 
@@ -39,6 +40,7 @@ private:
 	void warn_once(const Body &p_body, const std::string &p_warning);
 	static LightSnapshot read_light(const ShadowNode &p_node, double p_scene_size_m);
 
+	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;
 	ShadowMaterials materials;
 	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning

@@ -190,6 +190,14 @@ Variant count_pending_casters(ShadowNode &p_node, std::span<const Variant>) {
 	return p_node.pending_caster_count;
 }
 
+Variant get_warning(ShadowNode &p_node, std::span<const Variant>) {
+	std::string lines;
+	for (const std::string &warning : p_node.find_warnings()) {
+		lines += (lines.empty() ? "" : "\n") + warning;
+	}
+	return lines;
+}
+
 struct Argument {
 	const char *name;
 	BuiltInType type;
@@ -207,6 +215,7 @@ const std::vector<MethodEntry> &get_methods() {
 		{ SETTER_NAME, &set_value,
 				{ { "index", BuiltInType::INT }, { "value", BuiltInType::VARIANT } }, {} },
 		{ "read_masks", &read_masks, { { "callback", BuiltInType::CALLABLE } }, {} },
+		{ "get_warning", &get_warning, {}, BuiltInType::STRING },
 		{ "count_pending_casters", &count_pending_casters, {}, BuiltInType::INT },
 	};
 	return methods;
@@ -241,11 +250,8 @@ void call_method_typed(void *p_entry, void *p_instance, const GDExtensionConstTy
 	}
 	log_failures([&] {
 		const Variant result = entry.method(to_node(p_instance), arguments);
-		if (entry.result == BuiltInType::INT) {
-			*static_cast<int64_t *>(r_result) = result.to_int();
-		} else if (entry.result == BuiltInType::VARIANT) {
-			godot::destroy_built_in(BuiltInType::VARIANT, r_result);
-			godot::copy_built_in(BuiltInType::VARIANT, r_result, result.get());
+		if (entry.result) {
+			result.store(*entry.result, r_result);
 		}
 	});
 }

@@ -239,6 +239,18 @@ void *Variant::to_object() const {
 											 : nullptr;
 }
 
+void Variant::store(BuiltInType p_type, void *r_value) const {
+	if (p_type == BuiltInType::VARIANT || p_type >= BuiltInType::STRING_NAME ||
+			p_type == BuiltInType::STRING) {
+		destroy_built_in(p_type, r_value);
+	}
+	if (p_type == BuiltInType::VARIANT) {
+		copy_built_in(p_type, r_value, bytes);
+	} else {
+		convert_to_godot_type(p_type, r_value, bytes);
+	}
+}
+
 Variant Variant::get_keyed(const Variant &p_key) const {
 	Variant value;
 	Variant got(Empty::EMPTY);

@@ -146,6 +146,8 @@ public:
 	glm::vec3 to_vector3() const;
 	Transform3D to_transform() const;
 	void *to_object() const; // null: none. Who keeps a RefCounted adds an owner.
+	/// Replaces a value of that type, which Godot hands over by its address.
+	void store(BuiltInType p_type, void *r_value) const;
 	/// Of a Dictionary: empty where it has no such key.
 	Variant get_keyed(const Variant &p_key) const;
 	/// Calls a method of the object or value that it holds. A refusal is an Error that names it.

@@ -6,29 +6,21 @@ extends Node
 
 const TECHNIQUES: Array[String] = ["edge_count", "pcss", "penumbra_fins", "shadow_volume"]
 
-var _options := {"out": "res://out", "size": "800", "cases": ""}
-var _mask: Image
+var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": ""})
 
 
 func _ready() -> void:
-	for argument in OS.get_cmdline_user_args():
-		var parts := argument.split("=", true, 1)
-		if parts.size() != 2 or not _options.has(parts[0]):
-			printerr("ERROR: %s: must be out=DIR, size=PIXELS or cases=LIGHT/CASTER/TECHNIQUE,..." % argument)
-			get_tree().quit(2)
-			return
-		_options[parts[0]] = parts[1]
-	DirAccess.make_dir_recursive_absolute(_options.out)
-	var size := int(_options.size)
-	DisplayServer.window_set_size(Vector2i(size, size))
+	if not _options.read():
+		get_tree().quit(2)
+		return
 	for case in _list_cases():
 		await _run_case(case)
 	get_tree().quit()
 
 
 func _list_cases() -> PackedStringArray:
-	if not _options.cases.is_empty():
-		return _options.cases.split(",")
+	if not _options.text("cases").is_empty():
+		return _options.text("cases").split(",")
 	var cases := PackedStringArray()
 	for light in StudyScene.LIGHTS:
 		for caster in StudyScene.CASTERS:
@@ -42,23 +34,8 @@ func _run_case(case: String) -> void:
 	var scene := StudyScene.create(parts[0], parts[1])
 	add_child(scene)
 	scene.shadow.technique = parts[2]
-	var mask := await _read_mask(scene)
-	var file := FileAccess.open("%s/%s.f32" % [_options.out, "_".join(parts)], FileAccess.WRITE)
-	file.store_buffer(mask.get_data())
-	var gltf := "%s/%s_%s.gltf" % [_options.out, parts[0], parts[1]]
-	if not FileAccess.file_exists(gltf):
-		GltfExport.save(scene, gltf)
+	var reader := MaskReader.new(scene.shadow)
+	_options.store_values("%s.f32" % "_".join(parts), (await reader.read()).get_data())
+	GltfExport.save(scene, _options.path("%s_%s.gltf" % [parts[0], parts[1]]))
 	scene.queue_free()
 	await get_tree().process_frame
-
-
-func _read_mask(scene: StudyScene) -> Image:
-	_mask = null
-	scene.shadow.read_masks(_keep_mask)
-	while _mask == null:
-		await RenderingServer.frame_post_draw
-	return _mask
-
-
-func _keep_mask(mask: Image, _camera: Transform3D) -> void:
-	_mask = mask

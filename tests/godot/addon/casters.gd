@@ -1,0 +1,159 @@
+extends AddonTest
+## Which nodes cast shadows, and which do not.
+
+
+## The mask of a study scene whose caster was replaced by what `change` adds.
+func _render(change: Callable) -> Image:
+	var scene := add_study()
+	change.call(scene)
+	var mask := await read_settled(scene)
+	remove(scene)
+	return mask
+
+
+func _render_without_caster() -> Image:
+	return await _render(func(scene: StudyScene) -> void: scene.caster.visible = false)
+
+
+func _render_with_caster() -> Image:
+	return await _render(func(_scene: StudyScene) -> void: pass)
+
+
+func _check_same(change: Callable, what: String, expects_shadow := true) -> void:
+	var expected: Image
+	if expects_shadow:
+		expected = await _render_with_caster()
+	else:
+		expected = await _render_without_caster()
+	var found := await _render(change)
+	var count := 0
+	var a := expected.get_data().to_float32_array()
+	var b := found.get_data().to_float32_array()
+	for index in a.size():
+		# Where only one has the caster's own surface in view, nothing is compared.
+		count += int(a[index] >= 0.0 and b[index] >= 0.0 and absf(a[index] - b[index]) > 1.0 / 255.0)
+	check(count < 50, "%s: %d pixels differ" % [what, count])
+	if expects_shadow:
+		check(count_darker(found) > 500, what + " casts a shadow")
+
+
+func test_hidden_and_switched_off_casters_cast_nothing() -> void:
+	check(count_darker(await _render_with_caster()) > 500, "a box casts a shadow")
+	check(count_darker(await _render_without_caster()) == 0, "a hidden one casts none")
+	var off := func(scene: StudyScene) -> void: scene.caster.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+	await _check_same(off, "cast_shadow off", false)
+
+
+func test_casters_of_shadows_only_and_of_both_sides_cast() -> void:
+	var both := func(scene: StudyScene) -> void: scene.caster.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_DOUBLE_SIDED
+	await _check_same(both, "double-sided")
+	# Seen from a camera that does not draw the caster, both look the same.
+	var hide_from_camera := func(scene: StudyScene) -> void:
+		scene.caster.layers = 2
+		scene.camera.cull_mask = 1
+	var only := func(scene: StudyScene) -> void: scene.caster.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_SHADOWS_ONLY
+	var expected := await _render(hide_from_camera)
+	check(count_darker(expected) > 500, "a caster that the camera does not draw casts")
+	check(count_different(expected, await _render(only)) == 0, "shadows only")
+
+
+func test_layers_choose_the_casters() -> void:
+	var other := func(scene: StudyScene) -> void:
+		scene.light.shadow_caster_mask = 1
+		scene.caster.layers = 2
+	await _check_same(other, "a caster on another layer", false)
+	var both := func(scene: StudyScene) -> void:
+		scene.light.shadow_caster_mask = 3
+		scene.caster.layers = 2
+	await _check_same(both, "a caster on a chosen layer")
+
+
+func test_blended_materials_cast_nothing() -> void:
+	var blend := func(scene: StudyScene) -> void:
+		var material := StandardMaterial3D.new()
+		material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
+		scene.caster.material_override = material
+	await _check_same(blend, "alpha", false)
+	var shader := func(scene: StudyScene) -> void:
+		var material := ShaderMaterial.new()
+		material.shader = Shader.new()
+		material.shader.code = "shader_type spatial;\nvoid fragment() { ALPHA = 0.5; }"
+		scene.caster.material_override = material
+	await _check_same(shader, "a shader that writes ALPHA", false)
+	var comment := func(scene: StudyScene) -> void:
+		var material := ShaderMaterial.new()
+		material.shader = Shader.new()
+		material.shader.code = "shader_type spatial;\n// no ALPHA\nvoid fragment() { ALBEDO = vec3(1.0); }"
+		scene.caster.material_override = material
+	await _check_same(comment, "a shader that names ALPHA in a comment")
+
+
+func test_a_multimesh_casts_as_its_meshes_do() -> void:
+	var single := func(scene: StudyScene) -> void:
+		for offset in [Vector3(0, 0.2, 0), Vector3(-1.5, 0, 0.5)]:
+			scene._add_mesh("Box", scene.caster.mesh, scene.caster.transform.translated(offset))
+		scene.caster.visible = false
+	var multi := func(scene: StudyScene) -> void:
+		var node := MultiMeshInstance3D.new()
+		node.multimesh = MultiMesh.new()
+		node.multimesh.transform_format = MultiMesh.TRANSFORM_3D
+		node.multimesh.use_colors = true
+		node.multimesh.mesh = scene.caster.mesh
+		node.multimesh.instance_count = 3
+		node.multimesh.visible_instance_count = 2
+		node.multimesh.set_instance_transform(0, scene.caster.transform.translated(Vector3(0, 0.2, 0)))
+		node.multimesh.set_instance_transform(1, scene.caster.transform.translated(Vector3(-1.5, 0, 0.5)))
+		scene.add_child(node)
+		scene.caster.visible = false
+	var expected := await _render(single)
+	var found := await _render(multi)
+	check(count_darker(expected) > 1000, "two boxes cast shadows")
+	check(count_different(expected, found) == 0, "a MultiMesh of two gives the same mask")
+
+
+func test_csg_and_grid_maps_cast() -> void:
+	var csg := func(scene: StudyScene) -> void:
+		var box := CSGBox3D.new()
+		box.transform = scene.caster.transform
+		scene.add_child(box)
+		scene.caster.visible = false
+	await _check_same(csg, "a CSGBox3D")
+	var grid := func(scene: StudyScene) -> void:
+		var library := MeshLibrary.new()
+		library.create_item(0)
+		library.set_item_mesh(0, scene.caster.mesh)
+		var map := GridMap.new()
+		map.mesh_library = library
+		map.cell_size = Vector3.ONE
+		map.transform = scene.caster.transform.translated_local(Vector3(-0.5, -0.5, -0.5))
+		map.set_cell_item(Vector3i.ZERO, 0)
+		scene.add_child(map)
+		scene.caster.visible = false
+	await _check_same(grid, "a GridMap of one cell")
+
+
+func test_triangle_strips_cast() -> void:
+	var strip := func(scene: StudyScene) -> void:
+		var arrays := []
+		arrays.resize(Mesh.ARRAY_MAX)
+		arrays[Mesh.ARRAY_VERTEX] = PackedVector3Array([Vector3(-1, 0, -1), Vector3(1, 0, -1), Vector3(-1, 0, 1), Vector3(1, 0, 1)])
+		var mesh := ArrayMesh.new()
+		mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLE_STRIP, arrays)
+		scene.caster.mesh = mesh
+	var plane := func(scene: StudyScene) -> void:
+		scene.caster.mesh = PlaneMesh.new()
+	var expected := await _render(plane)
+	check(count_darker(expected) > 500, "a plane casts a shadow")
+	check(count_different(expected, await _render(strip), 1.0 / 255.0) < 50, "a strip casts the same")
+
+
+func test_large_meshes_cast_once_their_edges_are_found() -> void:
+	var scene := add_study()
+	var sphere := SphereMesh.new()
+	sphere.radial_segments = 256
+	sphere.rings = 128
+	scene.caster.mesh = sphere
+	await draw_frames(1)
+	while scene.shadow.count_pending_casters() > 0:
+		await draw_frames(1)
+	check(count_darker(await read(scene)) > 500, "a mesh of 65,536 triangles casts")

@@ -1,0 +1,31 @@
+extends Node
+## Runs every test of the add-on: functions named test_* of the scripts below. Prints PASS or FAIL for each.
+
+const CASES: Array[GDScript] = [
+	preload("res://tests/frames.gd"),
+	preload("res://tests/casters.gd"),
+	preload("res://tests/views.gd"),
+	preload("res://tests/nodes.gd"),
+]
+
+
+func _ready() -> void:
+	DisplayServer.window_set_size(Vector2i(200, 200))
+	var wanted := OS.get_cmdline_user_args()
+	for script in CASES:
+		for method in script.get_script_method_list():
+			if method.name.begins_with("test_") and (wanted.is_empty() or method.name in wanted):
+				await _run(script, method.name)
+	get_tree().quit()
+
+
+func _run(script: GDScript, method: String) -> void:
+	var case: AddonTest = script.new()
+	add_child(case)
+	await case.call(method)
+	if case.failures.is_empty():
+		print("PASS ", method)
+	for failure in case.failures:
+		print("FAIL %s: %s" % [method, failure])
+	case.queue_free()
+	await get_tree().process_frame

@@ -1,0 +1,141 @@
+extends AddonTest
+## Viewports of every kind.
+
+
+class CountingEffect:
+	extends CompositorEffect
+	var calls := 0
+
+	func _init() -> void:
+		effect_callback_type = EFFECT_CALLBACK_TYPE_POST_TRANSPARENT
+
+	func _render_callback(_type: int, _data: RenderData) -> void:
+		calls += 1
+
+
+## All masks that views of the scene show, by size.
+func _read_all(scene: StudyScene) -> Dictionary:
+	var masks := {}
+	await draw_frames(2)
+	scene.shadow.read_masks(func(mask: Image, _camera: Transform3D) -> void: masks[mask.get_size()] = mask)
+	await draw_frames(2)
+	return masks
+
+
+func _add_viewport(size: Vector2i, scene: StudyScene) -> SubViewport:
+	var viewport := SubViewport.new()
+	viewport.size = size
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	var camera := Camera3D.new()
+	viewport.add_child(camera)
+	scene.add_child(viewport)
+	camera.look_at_from_position(Vector3(3, 4, 5), Vector3.ZERO)
+	return viewport
+
+
+func test_viewports_of_several_sizes_and_cameras_at_once() -> void:
+	var scene := add_study()
+	var alone := await read_settled(scene)
+	_add_viewport(Vector2i(120, 90), scene)
+	_add_viewport(Vector2i(64, 128), scene)
+	var masks := await _read_all(scene)
+	check(masks.size() == 3, "%d views" % masks.size())
+	for size: Vector2i in [Vector2i(120, 90), Vector2i(64, 128)]:
+		check(masks.has(size) and count_darker(masks[size]) > 50, "a mask of %s" % size)
+	check(masks.has(alone.get_size()) and count_different(masks[alone.get_size()], alone) == 0, "the window's mask stays")
+
+
+func test_a_viewport_with_a_world_of_its_own_has_its_own_lights() -> void:
+	var viewport := SubViewport.new()
+	viewport.own_world_3d = true
+	viewport.size = Vector2i(100, 100)
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(viewport)
+	var inner := StudyScene.create("spot", "torus")
+	viewport.add_child(inner)
+	var outer := add_study()
+	var masks := await _read_all(inner)
+	check(masks.keys() == [Vector2i(100, 100)], "only the viewport shows its light: %s" % masks.keys())
+	check((await _read_all(outer)).keys() == [Vector2i(200, 200)], "only the window shows the other")
+
+
+func test_scaled_resolution_and_a_window_that_is_resized() -> void:
+	var scene := add_study()
+	get_viewport().scaling_3d_scale = 0.5
+	check((await read_settled(scene)).get_size() == Vector2i(100, 100), "half of the resolution")
+	get_viewport().scaling_3d_scale = 1.0
+	await _resize(Vector2i(160, 120))
+	var mask := await read_settled(scene)
+	check(mask.get_size() == Vector2i(160, 120), "the mask has the window's size, not %s" % mask.get_size())
+	check(count_darker(mask) > 100, "and a shadow")
+	await _resize(Vector2i(200, 200))
+
+
+## The window system may take its time.
+func _resize(size: Vector2i) -> void:
+	get_window().size = size
+	for frame in 60:
+		await draw_frames(1)
+		if get_window().size == size:
+			break
+	await draw_frames(2)
+
+
+func test_multisampled_views_have_the_same_mask() -> void:
+	var scene := add_study()
+	var plain := await read_settled(scene)
+	get_viewport().msaa_3d = Viewport.MSAA_4X
+	var found := await read_settled(scene)
+	get_viewport().msaa_3d = Viewport.MSAA_DISABLED
+	check(count_different(plain, found, 1.0 / 255.0) < 400, "%d pixels differ" % count_different(plain, found, 1.0 / 255.0))
+
+
+func test_the_mask_is_shown_over_the_image() -> void:
+	for msaa in [Viewport.MSAA_DISABLED, Viewport.MSAA_4X]:
+		var scene := add_study()
+		get_viewport().msaa_3d = msaa
+		get_viewport().use_hdr_2d = true
+		scene.shadow.show_mask = true
+		var mask := await read_settled(scene)
+		var image := get_viewport().get_texture().get_image()
+		image.convert(Image.FORMAT_RF)
+		get_viewport().use_hdr_2d = false
+		get_viewport().msaa_3d = Viewport.MSAA_DISABLED
+		for index in mask.get_width() * mask.get_height():
+			mask.set_pixel(index % mask.get_width(), index / mask.get_width(), Color(maxf(mask.get_pixel(index % mask.get_width(), index / mask.get_width()).r, 0.0), 0, 0))
+		check(count_different(mask, image, 0.002) == 0, "msaa %d: %d pixels differ" % [msaa, count_different(mask, image, 0.002)])
+		remove(scene)
+		await draw_frames(1)
+
+
+func test_effects_of_the_user_stay() -> void:
+	for holder in ["camera", "environment"]:
+		var scene := add_study()
+		var effect := CountingEffect.new()
+		var compositor := Compositor.new()
+		compositor.compositor_effects = [effect] as Array[CompositorEffect]
+		if holder == "camera":
+			scene.camera.compositor = compositor
+		else:
+			for node in scene.find_children("*", "WorldEnvironment", true, false):
+				node.compositor = compositor
+		var mask := await read_settled(scene)
+		check(count_darker(mask) > 500, "a mask next to a compositor of the " + holder)
+		check(effect.calls > 0, "the effect of the %s runs" % holder)
+		scene.shadow.visible = false
+		await draw_frames(2)
+		var calls := effect.calls
+		await draw_frames(2)
+		check(effect.calls == calls + 2, "and goes on where ours is gone")
+		check(compositor.compositor_effects.size() == 1, "the resource has its one effect")
+		remove(scene)
+		await draw_frames(1)
+
+
+func test_orthogonal_cameras_are_refused_with_one_message() -> void:
+	var scene := add_study()
+	scene.camera.projection = Camera3D.PROJECTION_ORTHOGONAL
+	var masks := await _read_all(scene)
+	check(masks.is_empty(), "no mask")
+	scene.camera.projection = Camera3D.PROJECTION_PERSPECTIVE
+	check(count_darker(await read_settled(scene)) > 500, "a mask again")
