@@ -265,7 +265,10 @@ if [ "$has_godot" = yes ] && is_wanted godot; then
     . demo_project/install_godot.sh
     if run_check "godot program" install_godot "$root" &&
         run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes; then
-        run_part godot python3 tests/godot/test_godot.py
+        run_part "godot device" python3 tests/godot/test_godot.py
+        run_part "godot add-on" python3 tests/godot/test_addon.py
+        run_part "godot masks" python3 tests/godot/test_masks.py
+        run_part "godot soak" python3 tests/godot/test_soak.py
     fi
 fi
 if [ "$is_full" = yes ]; then

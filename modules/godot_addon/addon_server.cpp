@@ -97,6 +97,7 @@ void AddonServer::update_worlds() {
 	if (before > 0 && worlds.empty()) {
 		clear_render_side();
 	}
+	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
 		std::unique_ptr<ScenarioEffect> &effect = effects[scenario];
 		if (!effect) {

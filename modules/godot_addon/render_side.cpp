@@ -52,10 +52,10 @@ void RenderSide::run(
 		if (!shadows) {
 			shadows = std::make_unique<ViewShadows>(*device, meshes);
 		}
-		shadows->last_use = ++frame;
+		shadows->last_use = p_frame.number;
 		if (p_what == What::MAKE) {
 			shadows->make_masks(p_frame, view);
-			forget_unused();
+			forget_unused(p_frame.number);
 		} else {
 			shadows->show_masks(p_frame, view);
 		}
@@ -67,10 +67,11 @@ void RenderSide::run(
 	}
 }
 
-void RenderSide::forget_unused() {
-	const uint64_t kept = KEPT_FRAMES * (views.size() + 1);
-	std::erase_if(
-			views, [&](const auto &p_entry) { return frame - p_entry.second->last_use > kept; });
+void RenderSide::forget_unused(uint64_t p_frame) {
+	std::erase_if(views, [&](const auto &p_entry) {
+		return p_frame - p_entry.second->last_use > KEPT_FRAMES ||
+				godot::get_instance(p_entry.first) == nullptr;
+	});
 }
 
 void RenderSide::clear() {

@@ -14,6 +14,7 @@ namespace gnomon {
 /// What the main thread hands to the render thread of one world (a scenario of Godot's
 /// RenderingServer), new in each frame. Never changes once handed over.
 struct ScenarioFrame {
+	uint64_t number = 0;						// counts Godot's frames
 	std::shared_ptr<const SceneSnapshot> scene; // its camera is each view's own
 	std::set<std::string> shown_lights;			// whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;

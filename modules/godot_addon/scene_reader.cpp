@@ -223,6 +223,7 @@ std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
 	}
 	auto scene = std::make_shared<SceneSnapshot>();
 	auto frame = std::make_shared<ScenarioFrame>();
+	frame->number = frame_number;
 	pending_count = 0;
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);

@@ -16,7 +16,8 @@ public:
 	/// What cannot be read is left out, with one warning that names the node.
 	std::shared_ptr<const ScenarioFrame> read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 			std::span<ShadowNode *const> p_nodes);
-	/// Once a frame, after all worlds were read.
+	/// Once a frame, before all worlds are read, and after that.
+	void begin_frame() { ++frame_number; }
 	void end_frame();
 
 private:
@@ -45,6 +46,7 @@ private:
 	ShadowMaterials materials;
 	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning
 	int64_t pending_count = 0;
+	uint64_t frame_number = 0;
 };
 
 } // namespace gnomon

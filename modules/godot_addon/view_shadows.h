@@ -77,13 +77,12 @@ private:
 	enum class What { MAKE, SHOW };
 	void run(What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void prepare_device();
-	void forget_unused();
+	void forget_unused(uint64_t p_frame);
 
 	std::unique_ptr<GodotDevice> device;
 	std::shared_ptr<MeshStore> meshes;
 	std::map<uint64_t, std::unique_ptr<ViewShadows>> views; // by the id of Godot's buffers
 	std::set<std::string> logged;
-	uint64_t frame = 0;
 };
 
 } // namespace gnomon

@@ -5,17 +5,12 @@ Arguments are names of tests. Warnings and errors that Godot logs fail the run, 
 N passed, N failed, N skipped.
 """
 
-import os
 import re
-import shutil
 import sys
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "demo_project"))
-import godot_project  # noqa: E402
+import addon_project
+import godot_project
 
-FOLDER = os.path.join(ROOT, "build", "godot_addon")
-SOURCES = os.path.join(ROOT, "tests", "godot", "addon")
 # (what a message has, how often it is logged): asked for by a test, once each.
 EXPECTED = (
     ("technique is no such technique, must be", 1),
@@ -23,16 +18,6 @@ EXPECTED = (
     ("penumbra_outer_width is nan, must be", 1),
     ("has an orthogonal projection", 1),
 )
-
-
-def write_project():
-    """The demo's project with the tests in it."""
-    shutil.rmtree(FOLDER, ignore_errors=True)
-    shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
-    shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))
-    with open(os.path.join(FOLDER, "tests", "suite.tscn"), "w", encoding="utf-8") as file:
-        file.write('[gd_scene format=3]\n\n[ext_resource type="Script" path="res://tests/suite.gd" id="1"]\n\n')
-        file.write('[node name="Suite" type="Node"]\nscript = ExtResource("1")\n')
 
 
 def find_unexpected(output, is_whole):
@@ -52,9 +37,8 @@ def find_unexpected(output, is_whole):
 
 
 def main():
-    write_project()
-    godot_project.prepare(FOLDER)
-    output = godot_project.run("res://tests/suite.tscn", sys.argv[1:], 200, FOLDER)
+    addon_project.write()
+    output = godot_project.run("res://tests/suite.tscn", sys.argv[1:], 200, addon_project.FOLDER)
     print(output)
     passed = re.findall(r"^PASS (\w+)$", output, re.MULTILINE)
     failures = re.findall(r"^FAIL (.*)$", output, re.MULTILINE)

@@ -1,0 +1,93 @@
+extends Node
+## 2,000 frames in which scenes, lights and casters come and go, techniques change and the window is resized. Prints
+## what Godot holds every 100 frames as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes
+## memory_kib".
+
+const FRAMES := 2000
+const TECHNIQUES: Array[String] = [
+	"edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_map", "views", "jittered_pcf", "shadow_volume",
+]
+
+var _scene: StudyScene
+var _random := RandomNumberGenerator.new()
+
+
+func _ready() -> void:
+	_random.seed = 7
+	_add_kept_world()
+	for frame in FRAMES:
+		# The same things in each stretch of 100 frames, so that stretches can be compared.
+		await _change(frame % 100)
+		await RenderingServer.frame_post_draw
+		if frame % 100 == 99:
+			await _report(frame + 1)
+	get_tree().quit()
+
+
+## A light that is always there, so that what the add-on keeps from frame to frame is never thrown away as a whole.
+func _add_kept_world() -> void:
+	var viewport := SubViewport.new()
+	viewport.own_world_3d = true
+	viewport.size = Vector2i(64, 64)
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(viewport)
+	viewport.add_child(StudyScene.create("directional", "box"))
+
+
+func _change(step: int) -> void:
+	if step % 20 == 0:
+		if _scene != null:
+			remove_child(_scene)
+			_scene.queue_free()
+		_scene = StudyScene.create(StudyScene.LIGHTS[(step / 20) % 3], StudyScene.CASTERS[(step / 20) % 4])
+		add_child(_scene)
+	if step % 5 == 0:
+		_scene.shadow.technique = TECHNIQUES[(step / 5) % TECHNIQUES.size()]
+		_scene.shadow.show_mask = step % 2 == 0
+	if step % 7 == 0:
+		var mesh := TorusMesh.new()
+		mesh.rings = 16
+		_scene._add_mesh("Torus", mesh, Transform3D(Basis(), Vector3(_random.randf_range(-1, 1), 1, _random.randf_range(-1, 1))))
+	if step % 9 == 0:
+		_scene._add_light("spot" if step % 2 == 0 else "omni")
+	if step % 25 == 0:
+		get_window().size = Vector2i(96 + 32 * ((step / 25) % 3), 96)
+	if step % 30 == 10:
+		var viewport := SubViewport.new()
+		viewport.size = Vector2i(48, 64)
+		viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+		var camera := Camera3D.new()
+		camera.position = Vector3(0, 2, 6)
+		viewport.add_child(camera)
+		_scene.add_child(viewport)
+	_scene.light.position.x += 0.01
+
+
+## With the kept world alone in the tree, so that what more is held then is left over.
+func _report(frame: int) -> void:
+	remove_child(_scene)
+	_scene.queue_free()
+	_scene = null
+	for settled in 4:
+		await RenderingServer.frame_post_draw
+	var device := RenderingServer.get_rendering_device()
+	print("SOAK %d %d %d %d %d %d %d %d" % [
+		frame,
+		Performance.get_monitor(Performance.OBJECT_COUNT),
+		Performance.get_monitor(Performance.OBJECT_NODE_COUNT),
+		Performance.get_monitor(Performance.OBJECT_RESOURCE_COUNT),
+		device.get_memory_usage(RenderingDevice.MEMORY_TEXTURES),
+		device.get_memory_usage(RenderingDevice.MEMORY_BUFFERS),
+		device.get_memory_usage(RenderingDevice.MEMORY_TOTAL),
+		_read_memory_kib(),
+	])
+
+
+## Of the process, from Linux.
+func _read_memory_kib() -> int:
+	var file := FileAccess.open("/proc/self/status", FileAccess.READ)
+	while not file.eof_reached():
+		var line := file.get_line()
+		if line.begins_with("VmRSS:"):
+			return int(line)
+	return 0

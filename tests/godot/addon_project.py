@@ -1,0 +1,19 @@
+"""The demo's Godot project with the add-on's tests in it, in build/godot_addon."""
+
+import os
+import shutil
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "demo_project"))
+import godot_project  # noqa: E402
+
+FOLDER = os.path.join(ROOT, "build", "godot_addon")
+SOURCES = os.path.join(ROOT, "tests", "godot", "addon")
+
+
+def write():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
+    shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))
+    godot_project.prepare(FOLDER)
