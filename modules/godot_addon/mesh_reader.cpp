@@ -3,6 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 
+#include <cstring>
+
 namespace gnomon {
 
 namespace {
@@ -38,16 +40,37 @@ std::vector<uint32_t> make_triangles(std::span<const uint32_t> p_order, bool p_i
 	return triangles;
 }
 
-std::shared_ptr<const Mesh> read_surface(
-		const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
+/// Indices as Godot stores them: of 16 bits where those can name all vertices.
+std::vector<uint32_t> read_indices(std::span<const uint8_t> p_bytes, size_t p_vertex_count) {
+	const size_t size = p_vertex_count <= 65536 ? sizeof(uint16_t) : sizeof(uint32_t);
+	std::vector<uint32_t> indices(p_bytes.size() / size);
+	for (size_t index = 0; index < indices.size(); ++index) {
+		std::memcpy(&indices[index], &p_bytes[index * size], size);
+	}
+	return indices;
+}
+
+/// Null: there are no triangles.
+std::shared_ptr<const Mesh> make_mesh_of(const std::string &p_name,
+		std::span<const glm::vec3> p_positions, std::span<const glm::vec3> p_normals,
+		std::vector<uint32_t> p_triangles) {
+	if (p_triangles.empty()) {
+		return nullptr;
+	}
+	return make_mesh(p_name, { p_positions.begin(), p_positions.end() },
+			{ p_normals.begin(), p_normals.end() }, std::move(p_triangles));
+}
+
+ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
+	ReadSurface surface = { nullptr, p_surface, nullptr };
 	const int64_t primitive = find_primitive(p_mesh, p_surface);
 	const bool is_strip = primitive == godot::Mesh::PRIMITIVE_TRIANGLE_STRIP;
 	if (primitive != godot::Mesh::PRIMITIVE_TRIANGLES && !is_strip) {
-		return nullptr; // points and lines
+		return surface; // points and lines
 	}
 	const godot::Array arrays = p_mesh.surface_get_arrays(p_surface);
 	if (arrays.get_size() <= godot::Mesh::ARRAY_INDEX) {
-		return nullptr;
+		return surface;
 	}
 	const godot::PackedVector3Array positions(arrays.get_value(godot::Mesh::ARRAY_VERTEX));
 	const godot::PackedVector3Array normals(arrays.get_value(godot::Mesh::ARRAY_NORMAL));
@@ -59,12 +82,29 @@ std::shared_ptr<const Mesh> read_surface(
 			order.push_back(vertex);
 		}
 	}
-	const std::vector<uint32_t> triangles = make_triangles(order, is_strip);
-	if (triangles.empty()) {
-		return nullptr;
+	surface.mesh =
+			make_mesh_of(p_name, points, normals.get_values(), make_triangles(order, is_strip));
+	if (!surface.mesh || !godot::cast<godot::ArrayMesh>(p_mesh)) {
+		return surface; // others have no levels
 	}
-	return make_mesh(p_name, { points.begin(), points.end() },
-			{ normals.get_values().begin(), normals.get_values().end() }, triangles);
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const godot::Array levels(
+			server.mesh_get_surface(p_mesh.get_rid(), p_surface).to_variant().get_keyed("lods"));
+	auto read = std::make_shared<DetailLevels>();
+	for (int64_t index = 0; index < levels.get_size(); ++index) {
+		const godot::Variant level = levels.get_value(index);
+		const godot::PackedByteArray bytes(level.get_keyed("index_data"));
+		const std::shared_ptr<const Mesh> mesh = make_mesh_of(p_name, points, normals.get_values(),
+				make_triangles(read_indices(bytes.get_values(), points.size()), is_strip));
+		if (mesh) {
+			read->push_back(
+					{ static_cast<float>(level.get_keyed("edge_length").to_float()), mesh });
+		}
+	}
+	if (!read->empty()) {
+		surface.levels = std::move(read);
+	}
+	return surface;
 }
 
 } // namespace
@@ -84,9 +124,9 @@ const std::vector<ReadSurface> &MeshReader::read(
 	entry.surface_count = surface_count;
 	entry.surfaces.clear();
 	for (int64_t index = 0; index < surface_count; ++index) {
-		ReadSurface surface = { nullptr, index };
+		ReadSurface surface = { nullptr, index, nullptr };
 		try {
-			surface.mesh = read_surface(p_mesh, index, p_name);
+			surface = read_surface(p_mesh, index, p_name);
 		} catch (const Error &error) {
 			log_warning(error.what(), " Surface ", index, " of \"", p_name,
 					"\" casts no shadow of Gnomon until its mesh changes.");

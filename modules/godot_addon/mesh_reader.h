@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/detail_levels.h"
 #include "modules/godot_addon/topology_worker.h"
 #include "modules/godot_addon/watched_resource.h"
 #include "modules/scene/mesh.h"
@@ -15,6 +16,8 @@ namespace gnomon {
 struct ReadSurface {
 	std::shared_ptr<const Mesh> mesh; // null: it has no triangles, or cannot be read
 	int64_t index = 0;				  // in Godot's mesh
+	/// Null: there are none.
+	std::shared_ptr<const DetailLevels> levels;
 };
 
 /// Reads the triangles of Godot's meshes, each once until it changes. Main thread only.

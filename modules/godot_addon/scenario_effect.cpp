@@ -82,8 +82,8 @@ void ScenarioEffect::update(
 		is_shown = shows;
 	}
 	slot->set(std::move(p_frame));
-	// Groups that Godot keeps for itself: the WorldEnvironments of a world, the first of which
-	// counts, and all viewports. Without them only our own compositor is used.
+	// A group that Godot keeps for itself: the WorldEnvironments of a world, the first of which
+	// counts. Without it only our own compositor is used.
 	const Array environments = p_tree.get_nodes_in_group(text("_world_compositor_", scenario.id));
 	bool has_own = true;
 	if (environments.get_size() > 0) {
@@ -99,20 +99,12 @@ void ScenarioEffect::update(
 	if (has_own) {
 		server.scenario_set_compositor(scenario, compositor);
 	}
-	const Array viewports = p_tree.get_nodes_in_group("_viewports");
-	for (int64_t index = 0; index < viewports.get_size(); ++index) {
-		const auto viewport = godot::cast<godot::Viewport>(
-				godot::ObjectHandle(viewports.get_value(index).to_object()));
-		const godot::Camera3D camera = viewport ? viewport.get_camera_3d() : godot::Camera3D();
-		if (!camera) {
-			continue;
-		}
-		const godot::Ref<godot::Compositor> foreign = camera.get_compositor();
-		const godot::Ref<godot::World3D> world = camera.get_world_3d();
-		if (foreign && world && world.get_scenario() == scenario) {
-			add_to(foreign);
-		}
-	}
+	for_each_camera(
+			p_tree, scenario, [&](const godot::Viewport &, const godot::Camera3D &p_camera) {
+				if (const godot::Ref<godot::Compositor> foreign = p_camera.get_compositor()) {
+					add_to(foreign);
+				}
+			});
 }
 
 } // namespace gnomon

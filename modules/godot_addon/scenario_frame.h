@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/detail_levels.h"
 #include "modules/godot_addon/shadow_node.h"
 #include "modules/scene/scene_snapshot.h"
 
@@ -16,7 +17,9 @@ namespace gnomon {
 struct ScenarioFrame {
 	uint64_t number = 0;						// counts Godot's frames
 	std::shared_ptr<const SceneSnapshot> scene; // its camera is each view's own
-	std::set<std::string> shown_lights;			// whose masks are drawn over the image
+	std::vector<InstanceDetail> details;
+	std::vector<ViewDetail> views;
+	std::set<std::string> shown_lights; // whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;
 };
 

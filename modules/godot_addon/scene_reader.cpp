@@ -80,7 +80,27 @@ void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 			instance.casts_shadow = false;
 			++pending_count;
 		}
+		if (surface.levels) {
+			details.push_back({ r_scene.instances.size(), surface.levels, {}, 1 });
+		}
 		r_scene.instances.push_back(std::move(instance));
+	}
+}
+
+void SceneReader::finish_details(const Body &p_body, size_t p_first, const SceneSnapshot &p_scene) {
+	if (p_first == details.size()) {
+		return;
+	}
+	Bounds bounds_world;
+	for (size_t index = p_first; index < details.size(); ++index) {
+		bounds_world.add(p_scene.instances[details[index].instance].bounds_world);
+	}
+	const glm::dmat3 axes(p_body.node.get_global_transform().to_matrix());
+	const double scale =
+			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
+	for (size_t index = p_first; index < details.size(); ++index) {
+		details[index].bounds_world = bounds_world;
+		details[index].scale = static_cast<float>(scale) * p_body.detail_bias;
 	}
 }
 
@@ -156,7 +176,9 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	if (geometry) {
 		body.casts_shadow = geometry.get_cast_shadows_setting() !=
 				GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+		body.detail_bias = static_cast<float>(geometry.get_lod_bias());
 	}
+	const size_t first_detail = details.size();
 	if (const auto mesh_instance = godot::cast<godot::MeshInstance3D>(object)) {
 		const godot::Ref<godot::Mesh> mesh = mesh_instance.get_mesh();
 		if (!mesh) {
@@ -190,6 +212,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		}
 		read_unknown(body, visual, r_scene);
 	}
+	finish_details(body, first_detail, r_scene);
 }
 
 LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_size_m) {
@@ -225,6 +248,7 @@ std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
 	auto frame = std::make_shared<ScenarioFrame>();
 	frame->number = frame_number;
 	pending_count = 0;
+	details.clear();
 	std::vector<uint64_t> ids = find_instances(p_scenario);
 	const std::vector<uint64_t> grid_map_ids = grid_maps->find(p_scenario);
 	ids.insert(ids.end(), grid_map_ids.begin(), grid_map_ids.end());
@@ -259,6 +283,8 @@ std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
 		}
 	}
 	frame->scene = std::move(scene);
+	frame->details = details;
+	frame->views = find_view_details(p_tree, p_scenario);
 	return frame;
 }
 

@@ -27,8 +27,11 @@ private:
 		std::string name;
 		uint32_t layers = 1;
 		bool casts_shadow = true;
+		float detail_bias = 1; // lod_bias
 	};
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
+	/// Of the body that details from p_first on belong to: Godot chooses one level for all of it.
+	void finish_details(const Body &p_body, size_t p_first, const SceneSnapshot &p_scene);
 	void read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
 	/// Pairs of a transform and a mesh, as GridMap and CSGShape3D have them.
@@ -46,6 +49,7 @@ private:
 	ShadowMaterials materials;
 	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning
 	int64_t pending_count = 0;
+	std::vector<InstanceDetail> details;
 	uint64_t frame_number = 0;
 };
 

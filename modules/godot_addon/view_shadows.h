@@ -1,27 +1,12 @@
 #pragma once
 
-#include "modules/godot_addon/scenario_frame.h"
+#include "modules/godot_addon/view_depth.h"
 #include "modules/render_graph/transient_pool.h"
-#include "modules/rendering_device_godot/godot_device.h"
 #include "modules/shadows/shadow_system.h"
 
 #include <map>
 
 namespace gnomon {
-
-/// What Godot has drawn of a view when it calls an effect.
-struct GodotView {
-	godot::RID depth;
-	godot::RID color;
-	glm::uvec2 size_px = glm::uvec2(0);
-	CameraSnapshot camera;
-	godot::Transform3D camera_transform;
-	float depth_offset = 0; // P[2][2] of its projection P
-	/// Why masks cannot be made for it; empty: they can.
-	std::string refusal;
-};
-/// p_buffers: of p_data.
-GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuffersRD &p_buffers);
 
 /// A texture of Godot as one of the device's, while it stays the same.
 class ImportedTexture {
@@ -51,7 +36,6 @@ public:
 	uint64_t last_use = 0; // the frame
 
 private:
-	RGTexture add_depth_pass(RenderGraph &r_graph, const GodotView &p_view);
 	void prepare_masks(glm::uvec2 p_size_px, uint32_t p_count);
 
 	GodotDevice &device;

@@ -34,6 +34,7 @@ struct Transform3D {
 	glm::vec3 rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 	glm::vec3 origin = glm::vec3(0.0f);
 	glm::dmat4 to_matrix() const;
+	bool operator==(const Transform3D &) const = default;
 };
 
 /// As in GDExtensionVariantType; VARIANT: one that holds any of them.

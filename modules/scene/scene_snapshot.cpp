@@ -184,6 +184,7 @@ uint64_t CameraSnapshot::compute_hash(uint64_t p_seed) const {
 	uint64_t hash = compute_value_hash(position_world, p_seed);
 	hash = compute_value_hash(world_from_camera, hash);
 	hash = compute_value_hash(vertical_fov_rad, hash);
+	hash = compute_value_hash(shift, hash);
 	return compute_value_hash(near_m, hash);
 }
 

@@ -18,16 +18,24 @@ LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px)
 	return view;
 }
 
+glm::dmat4 compute_shift(const CameraSnapshot &p_camera) {
+	glm::dmat4 shift(1.0); // of clip space, whose y points down
+	shift[3] = glm::dvec4(-p_camera.shift.x, p_camera.shift.y, 0.0, 1.0);
+	return shift;
+}
+
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px) {
 	const CameraSnapshot &camera = p_scene.camera;
 	const LightView view = make_camera_view(camera, p_size_px);
 	shader::FrameConstants frame = {};
-	frame.clip_from_camera_relative = glm::mat4(view.compute_clip_from_view() *
-			glm::dmat4(glm::dmat3(view.view_from_world))); // the camera is the origin
+	frame.clip_from_camera_relative =
+			glm::mat4(compute_shift(camera) * view.compute_clip_from_view() *
+					glm::dmat4(glm::dmat3(view.view_from_world))); // the camera is the origin
 	const glm::dmat3 &axes = camera.world_from_camera;
 	frame.right_tangent = glm::vec4(glm::vec3(axes[0]) * view.half_extent.x, 0.0f);
 	frame.up_tangent = glm::vec4(glm::vec3(axes[1]) * view.half_extent.y, 0.0f);
-	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f);
+	frame.forward = glm::vec4(glm::vec3(-axes[2]), 0.0f) + camera.shift.x * frame.right_tangent +
+			camera.shift.y * frame.up_tangent;
 	frame.size_px = p_size_px;
 	frame.near_m = camera.near_m;
 	frame.scene_size_m = static_cast<float>(p_scene.scene_size_m);

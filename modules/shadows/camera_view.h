@@ -6,8 +6,11 @@
 
 namespace gnomon {
 
-/// The camera as a view, for culling: its sides and what lies behind it.
+/// The camera as a view, for culling: its sides and what lies behind it. Its shift moves nothing.
 LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
+
+/// What the camera's shift does in clip space, where w is the distance.
+glm::dmat4 compute_shift(const CameraSnapshot &p_camera);
 
 /// The camera as the shaders read it.
 shader::FrameConstants compute_frame_constants(const SceneSnapshot &p_scene, glm::uvec2 p_size_px);

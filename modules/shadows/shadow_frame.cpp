@@ -98,7 +98,9 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 	}
 	system.begin_frame(*scene);
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px));
-	receivers = find_visible_receivers(*scene, make_camera_view(scene->camera, size_px));
+	LightView view = make_camera_view(scene->camera, size_px);
+	view.half_extent *= 1.0f + glm::abs(scene->camera.shift);
+	receivers = find_visible_receivers(*scene, view);
 }
 
 ShadowFrame::~ShadowFrame() {

@@ -2,8 +2,11 @@
 #define GODOT_ADDON_SHARED_H
 #include "shared/shared_begin.h"
 
-// Bindings of convert_depth.frag and show_mask.frag.
+// Bindings of convert_depth.frag, merge_depth.frag and show_mask.frag.
 #define CONVERT_BINDING_DEPTH 0
+#define MERGE_BINDING_SCENE 0
+#define MERGE_BINDING_DRAWN 1
+#define MERGE_BINDING_FULL 2
 #define SHOW_BINDING_MASKS 0
 
 /// Push constants of convert_depth.frag.
@@ -14,6 +17,15 @@ struct SHARED_ALIGN ConvertDepthPush {
 	float padding2;
 };
 SHARED_SIZE(ConvertDepthPush, 16);
+
+/// Push constants of merge_depth.frag: shares of a surface's distance.
+struct SHARED_ALIGN MergeDepthPush {
+	float same_share; // up to here it is the surface that Godot drew
+	float most_share; // farther apart no surface is one of fewer triangles
+	float padding0;
+	float padding1;
+};
+SHARED_SIZE(MergeDepthPush, 16);
 
 /// Push constants of show_mask.frag.
 struct SHARED_ALIGN ShowMaskPush {

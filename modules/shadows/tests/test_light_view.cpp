@@ -1,3 +1,4 @@
+#include "modules/shadows/camera_view.h"
 #include "modules/shadows/light_view.h"
 #include "modules/shadows/tests/mask_fixture.h"
 
@@ -118,4 +119,27 @@ TEST_CASE("[LightView] a margin lists casters beside the view, and a directional
 	const LightView wide = build_light_views(day->lights[0], *day, 512, 1, 0.5f).at(0);
 	CHECK(wide.half_extent.x >= narrow.half_extent.x + 0.5f);
 	CHECK(wide.far_m - wide.near_m == doctest::Approx(narrow.far_m - narrow.near_m + 1.0f));
+}
+
+TEST_CASE("[LightView] a shifted camera draws a point where its pixel's position is read from") {
+	SmallScene scene;
+	SceneSnapshot snapshot = *scene.snap();
+	const glm::uvec2 size_px(80, 60);
+	for (const glm::vec2 shift : { glm::vec2(0), glm::vec2(0.01f, 0), glm::vec2(-0.02f, 0.013f) }) {
+		snapshot.camera.shift = shift;
+		const shader::FrameConstants frame = compute_frame_constants(snapshot, size_px);
+		for (const glm::uvec2 pixel : { glm::uvec2(0), glm::uvec2(79, 59), glm::uvec2(31, 7) }) {
+			const float depth = 0.01f;
+			const glm::vec3 position = compute_position(frame, size_px, pixel, depth);
+			const glm::vec4 clip = frame.clip_from_camera_relative * glm::vec4(position, 1.0f);
+			const glm::vec2 middle = (glm::vec2(pixel) + 0.5f) / glm::vec2(size_px);
+			CHECK(clip.x / clip.w == doctest::Approx(2.0f * middle.x - 1.0f).epsilon(1e-4));
+			CHECK(clip.y / clip.w == doctest::Approx(2.0f * middle.y - 1.0f).epsilon(1e-4));
+			CHECK(clip.z / clip.w == doctest::Approx(depth).epsilon(1e-4));
+		}
+	}
+	snapshot.camera.shift = glm::vec2(0);
+	const uint64_t hash = snapshot.camera.compute_hash(1);
+	snapshot.camera.shift = glm::vec2(0.001f);
+	CHECK(snapshot.camera.compute_hash(1) != hash);
 }

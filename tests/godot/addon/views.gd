@@ -139,3 +139,48 @@ func test_orthogonal_cameras_are_refused_with_one_message() -> void:
 	check(masks.is_empty(), "no mask")
 	scene.camera.projection = Camera3D.PROJECTION_PERSPECTIVE
 	check(count_darker(await read_settled(scene)) > 500, "a mask again")
+
+
+## A sphere with simpler meshes for when it is small in the image, as Godot's import makes them.
+func _add_sphere_with_levels(scene: StudyScene) -> void:
+	var sphere := SphereMesh.new()
+	sphere.radial_segments = 96
+	sphere.rings = 48
+	var importer := ImporterMesh.new()
+	importer.add_surface(Mesh.PRIMITIVE_TRIANGLES, sphere.get_mesh_arrays())
+	importer.generate_lods(60, 60, [])
+	scene.caster.mesh = importer.get_mesh()
+
+
+func _count_primitives() -> int:
+	return get_viewport().get_render_info(Viewport.RENDER_INFO_TYPE_VISIBLE, Viewport.RENDER_INFO_PRIMITIVES_IN_FRAME)
+
+
+func test_meshes_drawn_with_fewer_triangles_have_the_full_mask() -> void:
+	for light in StudyScene.LIGHTS:
+		var scene := add_study(light)
+		_add_sphere_with_levels(scene)
+		get_viewport().mesh_lod_threshold = 0.0
+		var full := await read_settled(scene)
+		var full_primitives := _count_primitives()
+		for threshold: float in [1.0, 3.0]:
+			get_viewport().mesh_lod_threshold = threshold
+			var found := await read_settled(scene)
+			check(_count_primitives() < 0.8 * full_primitives, "Godot draws fewer triangles: %d of %d" % [_count_primitives(), full_primitives])
+			var different := count_different(full, found, 1.0 / 255.0)
+			check(different < 60 * threshold, "%s light, %s px: %d pixels differ" % [light, threshold, different])
+		get_viewport().mesh_lod_threshold = 1.0
+		remove(scene)
+
+
+func test_antialiasing_over_time_leaves_the_mask_in_place() -> void:
+	var scene := add_study()
+	_add_sphere_with_levels(scene)
+	var plain := await read_settled(scene)
+	get_viewport().use_taa = true
+	for frame in 4:
+		var found := await read(scene)
+		var far := count_different(plain, found, 0.1)  # outlines, and where the box touches its shadow
+		check(far < 600, "frame %d: %d pixels differ by more than 0.1" % [frame, far])
+	get_viewport().use_taa = false
+	await draw_frames(2)

@@ -1,0 +1,43 @@
+#include "modules/godot_addon/detail_levels.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot::RID p_scenario) {
+	std::vector<ViewDetail> details;
+	for_each_camera(p_tree, p_scenario,
+			[&](const godot::Viewport &p_viewport, const godot::Camera3D &p_camera) {
+				details.push_back({ p_camera.get_camera_transform(),
+						static_cast<float>(p_viewport.get_mesh_lod_threshold()),
+						static_cast<float>(p_viewport.get_scaling_3d_scale()) });
+			});
+	return details;
+}
+
+std::shared_ptr<const Mesh> choose_detail_level(const InstanceDetail &p_detail,
+		const CameraSnapshot &p_camera, float p_aspect, float p_threshold_px, float p_width_px) {
+	const glm::dvec3 &camera = p_camera.position_world;
+	const Bounds &bounds = p_detail.bounds_world;
+	if (p_threshold_px <= 0 || bounds.compute_distance(camera) == 0) {
+		return nullptr;
+	}
+	// From the camera to the corner of the box that is the first along its view.
+	const glm::dvec3 &back = p_camera.world_from_camera[2];
+	const glm::dvec3 corner =
+			glm::mix(bounds.minimum, bounds.maximum, glm::greaterThanEqual(back, glm::dvec3(0.0)));
+	const double distance_m = glm::distance(camera, corner);
+	const double width_per_m = 2.0 * std::tan(0.5 * p_camera.vertical_fov_rad) * p_aspect;
+	std::shared_ptr<const Mesh> chosen;
+	for (const DetailLevel &level : *p_detail.levels) {
+		const double share =
+				level.edge_length_m * p_detail.scale / (distance_m * width_per_m); // of the width
+		if (share > p_threshold_px / p_width_px) {
+			break;
+		}
+		chosen = level.mesh;
+	}
+	return chosen;
+}
+
+} // namespace gnomon
