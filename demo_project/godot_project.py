@@ -49,6 +49,11 @@ def run_godot(arguments):
     return done.stdout
 
 
+def get_version():
+    """Of Godot: "4.6.3.stable.debian"."""
+    return run_godot(["--version"]).strip().splitlines()[-1]
+
+
 def run(scene, options, size, project=PROJECT):
     """Runs a scene of the project in a window of that size in pixels; options are its own. What it printed."""
     arguments = ["--path", project, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]

@@ -8,16 +8,12 @@ namespace gnomon {
 
 namespace {
 
-// Not offered: planar shadows need receivers that are declared planar, which nodes of Godot are
-// not; volumes made on the CPU are there to be measured.
-const char *const OFFERED[] = { "edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_map",
-	"views", "jittered_pcf", "shadow_volume" };
-
+/// Nodes of Godot are not declared planar, and its users do not start a technique from an example.
 std::vector<const ShadowTechniqueInfo *> find_offered() {
 	std::vector<const ShadowTechniqueInfo *> found;
-	for (const char *id : OFFERED) {
-		if (const ShadowTechniqueInfo *info = ShadowRegistry::find(id)) {
-			found.push_back(info);
+	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
+		if (!info.is_example && !info.needs_planar_receivers) {
+			found.push_back(&info);
 		}
 	}
 	return found;

@@ -30,6 +30,9 @@ struct ShadowTechniqueInfo {
 	std::function<std::unique_ptr<TruthSource>(TruthQuestion)> make_truth_source = {};
 	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
 	bool is_example = false;
+	/// Shadows fall on instances alone that their node declares planar; of no use to a host whose
+	/// nodes cannot (InstanceSnapshot::is_planar_receiver).
+	bool needs_planar_receivers = false;
 };
 
 /// All techniques there are.

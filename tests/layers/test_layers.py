@@ -27,7 +27,7 @@ TECHNIQUE_FOLDERS = ("tests/golden/", "tests/benchmark/", "tests/stability/", "t
 WINDOW_OWNERS = ("modules/desktop/", "modules/main/", "modules/editor/")
 WITHOUT_DEVICE = ("scene", "mesh_tools")
 BACKEND = re.compile(r"rendering_device_\w+")
-BACKEND_USERS = ("desktop", "main")
+BACKEND_USERS = ("desktop", "main", "godot_addon")
 NOTED_LINES, REFUSED_LINES = 400, 800
 VAGUE_NAMES = re.compile(r"(^|_)(utils?|helpers?|misc|managers?)($|_)")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -179,13 +179,14 @@ def check_godot(tree):
 def check_backends(tree):
     """A backend of rendering_device is chosen by the linker: no other module includes or lists it.
 
-    A window shows images of one backend, so desktop may; main lists it, so that a build without it is refused.
+    A window shows images of one backend, so desktop may; main lists it, so that a build without it is refused. The add-on
+    is made for one host, whose device it hands over.
     """
     for path in tree.find_sources(CPP, ("modules/",)):
         module = tree.get_module(path)
         for line, _, name in tree.get_includes(path):
             included = tree.get_module(name)
-            if included and BACKEND.fullmatch(included) and module not in (included, "desktop"):
+            if included and BACKEND.fullmatch(included) and module not in (included, "desktop", "godot_addon"):
                 yield "%s:%d: includes %s; only desktop may" % (path, line, name)
     for name, config in tree.configs.items():
         for dependency in config["dependencies"]:

@@ -2,8 +2,11 @@ extends Node
 ## Renders study cases and stores what came out, for measurements outside:
 ##   godot --path demo_project/godot res://study/runner.tscn -- out=DIR size=800 cases=omni/box/edge_count,...
 ## Of each case: LIGHT_CASTER_TECHNIQUE.f32, the mask (float32, rows from the top, -1: no receiver), and once for each
-## light and caster the scene as LIGHT_CASTER.gltf. Without cases: all.
+## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn. Without cases:
+## all.
 
+const IMPORTED := "imported"
+const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
 const TECHNIQUES: Array[String] = ["edge_count", "pcss", "penumbra_fins", "shadow_volume"]
 
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": ""})
@@ -26,15 +29,24 @@ func _list_cases() -> PackedStringArray:
 		for caster in StudyScene.CASTERS:
 			for technique in TECHNIQUES:
 				cases.append("%s/%s/%s" % [light, caster, technique])
+	for light in IMPORTED_LIGHTS:
+		cases.append("%s/%s/edge_count" % [IMPORTED, light])
 	return cases
 
 
 func _run_case(case: String) -> void:
 	var parts := case.split("/")
-	var scene := StudyScene.create(parts[0], parts[1])
+	var scene: Node3D
+	var shadow: Node3D
+	if parts[0] == IMPORTED:
+		scene = load("res://three_lights.tscn").instantiate()
+		shadow = scene.get_node("Model/%s/Shadow" % parts[1])
+	else:
+		scene = StudyScene.create(parts[0], parts[1])
+		shadow = scene.shadow
 	add_child(scene)
-	scene.shadow.technique = parts[2]
-	var reader := MaskReader.new(scene.shadow)
+	shadow.technique = parts[2]
+	var reader := MaskReader.new(shadow)
 	_options.store_values("%s.f32" % "_".join(parts), (await reader.read()).get_data())
 	GltfExport.save(scene, _options.path("%s_%s.gltf" % [parts[0], parts[1]]))
 	scene.queue_free()

@@ -1,0 +1,29 @@
+extends Node
+## Stores what the window shows of three_lights.tscn: without a mask, and with each light's.
+##   godot --path demo_project/godot res://study/pictures.tscn -- out=DIR size=512
+
+var _options := StudyOptions.new({"out": "res://out", "size": "512"})
+
+
+func _ready() -> void:
+	if not _options.read():
+		get_tree().quit(2)
+		return
+	var scene: Node3D = load("res://three_lights.tscn").instantiate()
+	add_child(scene)
+	var shadows := {}
+	for light in ["Spot", "Omni", "Sun"]:
+		shadows[light] = scene.get_node("Model/%s/Shadow" % light)
+		shadows[light].show_mask = false
+	await _store("three_lights.png")
+	for light: String in shadows:
+		shadows[light].show_mask = true
+		await _store("three_lights_%s.png" % light.to_lower())
+		shadows[light].show_mask = false
+	get_tree().quit()
+
+
+func _store(file_name: String) -> void:
+	for frame in 3:
+		await RenderingServer.frame_post_draw
+	get_viewport().get_texture().get_image().save_png(_options.path(file_name))
