@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
-TIMEOUT_S = 900
+TIMEOUT_S = 1200
 # Godot's SPIR-V optimizer says so of shaders that it then hands on unchanged.
 HARMLESS = re.compile(r"is not supported yet\.$")
 
@@ -27,14 +27,13 @@ def prepare(project=PROJECT):
     run_godot(["--headless", "--path", project, "--import"])
 
 
-def run_godot(arguments):
-    """What it printed. A Godot that fails or does not end is an error."""
-    environment = dict(os.environ)
+def start_godot(arguments, variables={}):
+    """(exit code, what it printed), under a virtual display unless $GODOT_DISPLAY says otherwise. 124: it did not end."""
+    environment = dict(os.environ, **variables)
     environment.setdefault("GODOT_DISPLAY", "virtual")
-    command = [os.environ["GODOT"]] + arguments
     try:
         done = subprocess.run(
-            command,
+            [os.environ["GODOT"]] + arguments,
             env=environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -43,10 +42,16 @@ def run_godot(arguments):
             timeout=TIMEOUT_S,
         )
     except subprocess.TimeoutExpired as late:
-        raise SystemExit("ERROR: no end in %d s: %s\n%s" % (TIMEOUT_S, " ".join(command), late.stdout))
-    if done.returncode != 0:
-        raise SystemExit("ERROR: %s ended with %d\n%s" % (" ".join(command), done.returncode, done.stdout))
-    return done.stdout
+        return 124, (late.stdout or b"").decode("utf-8", "replace") + "\nFAILED: no end in %d s" % TIMEOUT_S
+    return done.returncode, done.stdout
+
+
+def run_godot(arguments):
+    """What it printed. A Godot that fails or does not end is an error."""
+    code, output = start_godot(arguments)
+    if code != 0:
+        raise SystemExit("ERROR: %s ended with %d\n%s" % (" ".join(arguments), code, output))
+    return output
 
 
 def get_version():

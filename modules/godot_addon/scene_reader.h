@@ -13,7 +13,7 @@ namespace gnomon {
 class SceneReader {
 public:
 	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
-	/// What cannot be read is left out, with one warning that names the node.
+	/// What cannot be read is skipped, with one warning that names the node.
 	std::shared_ptr<const ScenarioFrame> read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 			std::span<ShadowNode *const> p_nodes);
 	/// Once a frame, before all worlds are read, and after that.

@@ -50,7 +50,7 @@ public:
 
 	/// For the scene tree of Godot's editor.
 	std::vector<std::string> find_warnings() const;
-	/// Shows them anew where they changed. Once a frame in the editor.
+	/// Updates what is shown where they changed. Once a frame in the editor.
 	void update_warnings();
 
 	void read_masks(const godot::Variant &p_callback);

@@ -54,7 +54,7 @@ public:
 	/// From the callbacks of effects; what fails is logged once.
 	void make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void show_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
-	/// Frees all. The next frame starts anew.
+	/// Frees all. The next frame makes it again.
 	void clear();
 
 private:

@@ -9,13 +9,14 @@ N skipped. Arguments are doctest's.
 import os
 import re
 import shutil
-import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "demo_project"))
+import godot_project  # noqa: E402
+
 FOLDER = os.path.join(ROOT, "build", "godot_tests")
 LIBRARY = "libgnomon_tests.godot.so"
-TIMEOUT_S = 1200
 LEAST_CASES = 120  # fewer: the library lacks modules
 FILES = {
     "project.godot": 'config_version=5\n[application]\nconfig/name="Gnomon\'s tests"\nrun/main_scene="res://main.tscn"\n',
@@ -77,22 +78,9 @@ def run():
     """(exit code, output)"""
     arguments = ["--test-case=*[GPU]*,*SpirvReflection*", "--test-case-exclude=" + ",".join(SKIPPED)]
     arguments += ["--subcase-exclude=geometry stage"] + sys.argv[1:]
-    environment = dict(os.environ, GODOT_DISPLAY="virtual", GNOMON_TEST_ARGUMENTS="\n".join(arguments))
-    command = [os.environ["GODOT"], "--path", FOLDER, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
+    command = ["--path", FOLDER, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
     command += ["--audio-driver", "Dummy"]
-    try:
-        done = subprocess.run(
-            command,
-            env=environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            errors="replace",
-            timeout=TIMEOUT_S,
-        )
-    except subprocess.TimeoutExpired as late:
-        return 124, (late.stdout or b"").decode("utf-8", "replace") + "\nFAILED: no end in %d s" % TIMEOUT_S
-    return done.returncode, done.stdout
+    return godot_project.start_godot(command, {"GNOMON_TEST_ARGUMENTS": "\n".join(arguments)})
 
 
 def main():

@@ -2,14 +2,15 @@ extends Node
 ## Renders study cases and stores what came out, for measurements outside:
 ##   godot --path demo_project/godot res://study/runner.tscn -- out=DIR size=800 cases=omni/box/edge_count,...
 ## Of each case: LIGHT_CASTER_TECHNIQUE.f32, the mask (float32, rows from the top, -1: no receiver), and once for each
-## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn. Without cases:
-## all.
+## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn, and
+## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file. Without cases: all, and the
+## lights Spot, Omni and Sun of the glTF files of scenes=PATH,...
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
 const TECHNIQUES: Array[String] = ["edge_count", "pcss", "penumbra_fins", "shadow_volume"]
 
-var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": ""})
+var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": "", "scenes": ""})
 
 
 func _ready() -> void:
@@ -29,25 +30,30 @@ func _list_cases() -> PackedStringArray:
 		for caster in StudyScene.CASTERS:
 			for technique in TECHNIQUES:
 				cases.append("%s/%s/%s" % [light, caster, technique])
-	for light in IMPORTED_LIGHTS:
-		cases.append("%s/%s/edge_count" % [IMPORTED, light])
+	for scene in [IMPORTED] + Array(_options.text("scenes").split(",", false)):
+		for light in IMPORTED_LIGHTS:
+			cases.append("%s/%s/edge_count" % [scene, light])
 	return cases
 
 
 func _run_case(case: String) -> void:
-	var parts := case.split("/")
+	var parts := case.rsplit("/", true, 2)
+	var stem := "%s_%s" % [parts[0].get_file().get_basename(), parts[1]]
 	var scene: Node3D
 	var shadow: Node3D
 	if parts[0] == IMPORTED:
 		scene = load("res://three_lights.tscn").instantiate()
 		shadow = scene.get_node("Model/%s/Shadow" % parts[1])
+	elif parts[0].ends_with(".gltf"):
+		scene = GltfImport.load_scene(parts[0])
+		shadow = scene.find_child(parts[1], true, false).find_child("Shadow", false, false)
 	else:
 		scene = StudyScene.create(parts[0], parts[1])
 		shadow = scene.shadow
 	add_child(scene)
 	shadow.technique = parts[2]
 	var reader := MaskReader.new(shadow)
-	_options.store_values("%s.f32" % "_".join(parts), (await reader.read()).get_data())
-	GltfExport.save(scene, _options.path("%s_%s.gltf" % [parts[0], parts[1]]))
+	_options.store_values("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
+	GltfExport.save(scene, _options.path(stem + ".gltf"))
 	scene.queue_free()
 	await get_tree().process_frame

@@ -17,9 +17,9 @@ static func create(light_kind: String, caster_kind: String) -> StudyScene:
 	var scene := StudyScene.new()
 	scene.name = "Study"
 	scene._add_environment()
-	scene._add_mesh("Ground", _make_plane(), Transform3D())
-	scene.caster = scene._add_mesh("Caster", _make_caster(caster_kind), _place_caster(caster_kind))
-	scene._add_light(light_kind)
+	scene.add_mesh("Ground", _make_plane(), Transform3D())
+	scene.caster = scene.add_mesh("Caster", _make_caster(caster_kind), _place_caster(caster_kind))
+	scene.add_light(light_kind)
 	scene.camera = Camera3D.new()
 	scene.camera.name = "Camera"
 	scene.camera.fov = 45.0
@@ -77,7 +77,8 @@ func _add_environment() -> void:
 	add_child(node)
 
 
-func _add_mesh(node_name: String, mesh: Mesh, place: Transform3D) -> MeshInstance3D:
+## A caster or receiver more.
+func add_mesh(node_name: String, mesh: Mesh, place: Transform3D) -> MeshInstance3D:
 	var node := MeshInstance3D.new()
 	node.name = node_name
 	node.mesh = mesh
@@ -86,7 +87,8 @@ func _add_mesh(node_name: String, mesh: Mesh, place: Transform3D) -> MeshInstanc
 	return node
 
 
-func _add_light(kind: String) -> void:
+## A light with its shadow: the one that `light` and `shadow` are from now on.
+func add_light(kind: String) -> void:
 	match kind:
 		"omni":
 			var omni := OmniLight3D.new()

@@ -91,7 +91,7 @@ func test_blended_materials_cast_nothing() -> void:
 func test_a_multimesh_casts_as_its_meshes_do() -> void:
 	var single := func(scene: StudyScene) -> void:
 		for offset in [Vector3(0, 0.2, 0), Vector3(-1.5, 0, 0.5)]:
-			scene._add_mesh("Box", scene.caster.mesh, scene.caster.transform.translated(offset))
+			scene.add_mesh("Box", scene.caster.mesh, scene.caster.transform.translated(offset))
 		scene.caster.visible = false
 	var multi := func(scene: StudyScene) -> void:
 		var node := MultiMeshInstance3D.new()

@@ -14,7 +14,7 @@ var _random := RandomNumberGenerator.new()
 
 func _ready() -> void:
 	_random.seed = 7
-	_add_kept_world()
+	_add_permanent_world()
 	for frame in FRAMES:
 		# The same things in each stretch of 100 frames, so that stretches can be compared.
 		await _change(frame % 100)
@@ -24,8 +24,8 @@ func _ready() -> void:
 	get_tree().quit()
 
 
-## A light that is always there, so that what the add-on keeps from frame to frame is never thrown away as a whole.
-func _add_kept_world() -> void:
+## A light that is always there, so that what the add-on caches is never freed as a whole.
+func _add_permanent_world() -> void:
 	var viewport := SubViewport.new()
 	viewport.own_world_3d = true
 	viewport.size = Vector2i(64, 64)
@@ -47,9 +47,9 @@ func _change(step: int) -> void:
 	if step % 7 == 0:
 		var mesh := TorusMesh.new()
 		mesh.rings = 16
-		_scene._add_mesh("Torus", mesh, Transform3D(Basis(), Vector3(_random.randf_range(-1, 1), 1, _random.randf_range(-1, 1))))
+		_scene.add_mesh("Torus", mesh, Transform3D(Basis(), Vector3(_random.randf_range(-1, 1), 1, _random.randf_range(-1, 1))))
 	if step % 9 == 0:
-		_scene._add_light("spot" if step % 2 == 0 else "omni")
+		_scene.add_light("spot" if step % 2 == 0 else "omni")
 	if step % 25 == 0:
 		get_window().size = Vector2i(96 + 32 * ((step / 25) % 3), 96)
 	if step % 30 == 10:
@@ -63,7 +63,7 @@ func _change(step: int) -> void:
 	_scene.light.position.x += 0.01
 
 
-## With the kept world alone in the tree, so that what more is held then is left over.
+## With the permanent world alone in the tree, so that anything more that is held then was leaked.
 func _report(frame: int) -> void:
 	remove_child(_scene)
 	_scene.queue_free()
