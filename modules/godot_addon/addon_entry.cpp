@@ -4,6 +4,7 @@
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
 #include "modules/godot_addon/addon_server.h"
+#include "modules/godot_addon/receiver_textures.h"
 #include "modules/godot_addon/shadow_node.h"
 #include "modules/godot_addon/shadow_properties.h"
 #include "modules/rendering_device_godot/godot_interface.h"
@@ -15,6 +16,7 @@ namespace gnomon {
 namespace {
 
 std::unique_ptr<AddonServer> addon_server;
+std::unique_ptr<ReceiverGlobals> receiver_globals;
 
 void log_to_godot(LogLevel p_level, const std::string &p_line) {
 	const std::string line = "Gnomon: " + p_line;
@@ -28,10 +30,16 @@ void log_to_godot(LogLevel p_level, const std::string &p_line) {
 
 void start_server() {
 	try {
+		receiver_globals = std::make_unique<ReceiverGlobals>();
 		addon_server = std::make_unique<AddonServer>();
 	} catch (const std::exception &failure) {
 		log_error(describe_failure(failure));
 	}
+}
+
+void stop_server() {
+	addon_server.reset();
+	receiver_globals.reset();
 }
 
 void initialize(void *, GDExtensionInitializationLevel p_level) {
@@ -51,13 +59,13 @@ void initialize(void *, GDExtensionInitializationLevel p_level) {
 	register_shadow_node_class();
 	GDExtensionMainLoopCallbacks callbacks = {};
 	callbacks.startup_func = &start_server; // there is a RenderingServer now
-	callbacks.shutdown_func = [] { addon_server.reset(); };
+	callbacks.shutdown_func = &stop_server;
 	interface.register_main_loop_callbacks(interface.extension, &callbacks);
 }
 
 void uninitialize(void *, GDExtensionInitializationLevel p_level) {
 	if (p_level == GDEXTENSION_INITIALIZATION_SCENE) {
-		addon_server.reset();
+		stop_server();
 		unregister_shadow_node_class();
 		ModuleRegistry::uninitialize();
 		set_log_sink({});

@@ -24,6 +24,18 @@ std::string find_refusal(const godot::RenderingServer &p_server) {
 	return {};
 }
 
+bool reaches_godot_receiver(
+		const godot::Light3D &p_light, const std::vector<GodotReceiver> &p_receivers) {
+	const bool is_everywhere = bool(godot::cast<godot::DirectionalLight3D>(p_light));
+	const glm::dvec3 position(p_light.get_global_transform().to_matrix()[3]);
+	const double range_m = p_light.get_param(godot::Light3D::PARAM_RANGE);
+	const int64_t mask = p_light.get_cull_mask();
+	return std::any_of(p_receivers.begin(), p_receivers.end(), [&](const GodotReceiver &receiver) {
+		return (mask & int64_t(receiver.layers)) != 0 &&
+				(is_everywhere || receiver.bounds_world.compute_distance(position) <= range_m);
+	});
+}
+
 } // namespace
 
 AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
@@ -57,6 +69,8 @@ AddonServer::~AddonServer() {
 }
 
 void AddonServer::clear_render_side() {
+	reserved_px = glm::uvec2(0);
+	reserved_count = 0;
 	server.call_on_render_thread(godot::Callable([side = render_side](auto) { side->clear(); }));
 }
 
@@ -97,15 +111,73 @@ void AddonServer::update_worlds() {
 	if (before > 0 && worlds.empty()) {
 		clear_render_side();
 	}
+	const bool has_failed = render_side->take_failure();
+	glm::uvec2 size_px(0);
+	size_t mask_count = 0;
+	receivers.begin_frame();
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
+		const ReadWorld world = reader.read(scenario, tree, nodes);
+		std::set<float> other_speculars;
+		for (const godot::Light3D &light : world.other_lights) {
+			other_speculars.insert(
+					static_cast<float>(light.get_param(godot::Light3D::PARAM_SPECULAR)));
+		}
+		world.frame->receiver_lights =
+				stand_ins.update(scenario, choose_stand_ins(world, has_failed), other_speculars);
+		for (const ViewDetail &view : world.frame->views) {
+			size_px = glm::max(size_px, view.size_px);
+		}
+		mask_count = std::max(mask_count, world.frame->scene->lights.size());
 		std::unique_ptr<ScenarioEffect> &effect = effects[scenario];
 		if (!effect) {
 			effect = std::make_unique<ScenarioEffect>(scenario, render_side);
 		}
-		effect->update(reader.read(scenario, tree, nodes), tree);
+		effect->update(world.frame, tree);
 	}
 	reader.end_frame();
+	stand_ins.end_frame();
+	const std::vector<ShadowNode *> &nodes = get_shadow_nodes();
+	if (nodes.empty()) {
+		receivers.clear();
+	} else {
+		receivers.ask(nodes.front()->get_node(),
+				godot::SceneTree(nodes.front()->get_node().get_tree().get_owner()));
+	}
+	if (mask_count > 0 && size_px.x > 0) {
+		reserve(size_px, static_cast<uint32_t>(mask_count));
+	}
+}
+
+void AddonServer::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
+	if (p_mask_count <= reserved_count && glm::all(glm::lessThanEqual(p_size_px, reserved_px))) {
+		return;
+	}
+	reserved_px = glm::max(reserved_px, p_size_px);
+	reserved_count = std::max(reserved_count, p_mask_count);
+	server.call_on_render_thread(godot::Callable(
+			[=, side = render_side](auto) { side->reserve(p_size_px, p_mask_count); }));
+}
+
+std::vector<WantedStandIn> AddonServer::choose_stand_ins(
+		const ReadWorld &p_world, bool p_has_failed) const {
+	std::vector<WantedStandIn> wanted;
+	if (!p_world.reads_masks) {
+		return wanted;
+	}
+	const bool needs_all = p_has_failed || p_world.has_godot_readers;
+	for (size_t index = 0; index < p_world.masked_lights.size(); ++index) {
+		const godot::Light3D &light = p_world.masked_lights[index];
+		wanted.push_back({ light, static_cast<int32_t>(index),
+				needs_all || reaches_godot_receiver(light, p_world.godot_receivers) });
+	}
+	for (const godot::Light3D &light : p_world.other_lights) {
+		if (!godot::cast<godot::DirectionalLight3D>(light) &&
+				light.get_param(godot::Light3D::PARAM_SIZE) > 0) {
+			wanted.push_back({ light }); // materials have to know its size
+		}
+	}
+	return wanted;
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 
 #include "modules/godot_addon/scenario_effect.h"
 #include "modules/godot_addon/scene_reader.h"
+#include "modules/godot_addon/stand_in_lights.h"
 
 namespace gnomon {
 
@@ -18,6 +19,10 @@ public:
 private:
 	void before_draw();
 	void update_worlds();
+	/// Which lights shine through stand-ins, and which of those need Godot's shadow too.
+	std::vector<WantedStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
+	/// Makes room for the masks of a frame, on the render thread.
+	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
 	/// On the render thread.
 	void clear_render_side();
 
@@ -25,8 +30,12 @@ private:
 	godot::Callable on_frame;
 	bool is_connected = false;
 	bool is_editor = false;
-	SceneReader reader;
+	ReceiverMaterials receivers;
+	StandInLights stand_ins;
+	SceneReader reader{ receivers };
 	std::shared_ptr<RenderSide> render_side = std::make_shared<RenderSide>();
+	glm::uvec2 reserved_px = glm::uvec2(0); // for masks
+	uint32_t reserved_count = 0;
 	std::map<godot::RID, std::unique_ptr<ScenarioEffect>> effects; // by scenario
 };
 

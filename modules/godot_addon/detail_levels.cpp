@@ -8,9 +8,12 @@ std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot:
 	std::vector<ViewDetail> details;
 	for_each_camera(p_tree, p_scenario,
 			[&](const godot::Viewport &p_viewport, const godot::Camera3D &p_camera) {
+				const float scale = static_cast<float>(p_viewport.get_scaling_3d_scale());
+				const godot::Ref<godot::ViewportTexture> texture = p_viewport.get_texture();
+				const glm::vec2 size_px(float(texture.get_width()), float(texture.get_height()));
 				details.push_back({ p_camera.get_camera_transform(),
-						static_cast<float>(p_viewport.get_mesh_lod_threshold()),
-						static_cast<float>(p_viewport.get_scaling_3d_scale()) });
+						static_cast<float>(p_viewport.get_mesh_lod_threshold()), scale,
+						glm::uvec2(glm::ceil(size_px * scale)) });
 			});
 	return details;
 }

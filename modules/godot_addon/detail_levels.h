@@ -34,6 +34,7 @@ struct ViewDetail {
 	godot::Transform3D camera; // of the viewport
 	float threshold_px = 1;	   // mesh_lod_threshold
 	float resolution_scale = 1;
+	glm::uvec2 size_px = glm::uvec2(0); // of the image that is drawn in 3D
 };
 
 /// The cameras of all viewports that show a world, with their viewports' settings.

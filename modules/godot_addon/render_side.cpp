@@ -17,6 +17,7 @@ void RenderSide::prepare_device() {
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 	device = std::make_unique<GodotDevice>(server.get_rendering_device(), GodotDevice::Kind::MAIN);
 	meshes = std::make_shared<MeshStore>(*device);
+	receivers = std::make_unique<ReceiverTextures>(*device);
 }
 
 void RenderSide::make_masks(const ScenarioFrame &p_frame, const godot::Variant &p_render_data) {
@@ -50,7 +51,7 @@ void RenderSide::run(
 		}
 		std::unique_ptr<ViewShadows> &shadows = views[godot::get_instance_id(buffers.get_owner())];
 		if (!shadows) {
-			shadows = std::make_unique<ViewShadows>(*device, meshes);
+			shadows = std::make_unique<ViewShadows>(*device, meshes, *receivers);
 		}
 		shadows->last_use = p_frame.number;
 		if (p_what == What::MAKE) {
@@ -60,10 +61,15 @@ void RenderSide::run(
 			shadows->show_masks(p_frame, view);
 		}
 	} catch (const std::exception &failure) { // Godot knows no exceptions
-		const std::string description = describe_failure(failure);
-		if (logged.insert(description).second) {
-			log_error(description);
-		}
+		note_failure(failure);
+	}
+}
+
+void RenderSide::note_failure(const std::exception &p_failure) {
+	has_failed = true;
+	const std::string description = describe_failure(p_failure);
+	if (logged.insert(description).second) {
+		log_error(description);
 	}
 }
 
@@ -74,8 +80,18 @@ void RenderSide::forget_unused(uint64_t p_frame) {
 	});
 }
 
+void RenderSide::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
+	try {
+		prepare_device();
+		receivers->reserve(p_size_px, p_mask_count);
+	} catch (const std::exception &failure) {
+		note_failure(failure);
+	}
+}
+
 void RenderSide::clear() {
 	views.clear();
+	receivers.reset();
 	meshes.reset();
 	device.reset();
 }

@@ -12,6 +12,22 @@
 
 namespace gnomon {
 
+/// What materials know of a light: a row of their table, see gnomon.gdshaderinc.
+struct ReceiverLight {
+	uint32_t row = 0;	// 1 to RECEIVER_ROW_COUNT - 1
+	float specular = 0; // of the stand-in: ends with the row
+	int32_t mask = -1;	// the layer; -1: none
+	float mask_opacity = 1;
+	float size_m = 0; // 0 for directional lights
+	bool has_godot_shadow = false;
+	glm::dvec3 position_world = glm::dvec3(0.0);
+	glm::dvec3 direction_world = glm::dvec3(0.0); // in which it shines
+	float range_m = 1;
+	float distance_exponent = 1;
+	float cone_cosine = -1; // -1: no spot light
+	float cone_exponent = 1;
+};
+
 /// What the main thread hands to the render thread of one world (a scenario of Godot's
 /// RenderingServer), new in each frame. Never changes once handed over.
 struct ScenarioFrame {
@@ -19,6 +35,7 @@ struct ScenarioFrame {
 	std::shared_ptr<const SceneSnapshot> scene; // its camera is each view's own
 	std::vector<InstanceDetail> details;
 	std::vector<ViewDetail> views;
+	std::vector<ReceiverLight> receiver_lights;
 	std::set<std::string> shown_lights; // whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;
 };

@@ -41,6 +41,23 @@ glm::dmat4 read_instance_transform(std::span<const float> p_floats, bool p_is_3d
 	return matrix;
 }
 
+bool has_fog_or_gi(const godot::Environment &p_environment) {
+	return p_environment &&
+			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
+}
+
+bool has_fog_or_gi(const godot::SceneTree &p_tree, godot::RID p_scenario) {
+	bool has = false;
+	for_each_camera(
+			p_tree, p_scenario, [&](const godot::Viewport &, const godot::Camera3D &p_camera) {
+				const godot::Ref<godot::World3D> world = p_camera.get_world_3d();
+				const godot::Ref<godot::Environment> of_world = world.get_environment();
+				const godot::Ref<godot::Environment> of_camera = p_camera.get_environment();
+				has = has || has_fog_or_gi(of_world) || has_fog_or_gi(of_camera);
+			});
+	return has;
+}
+
 } // namespace
 
 void SceneReader::warn_once(const Body &p_body, const std::string &p_warning) {
@@ -73,6 +90,7 @@ void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 				make_instance(surface.mesh, nullptr, p_world_from_mesh, p_body.name);
 		instance.layers = p_body.layers;
 		instance.casts_shadow = p_body.casts_shadow && kind != ShadowKind::NONE;
+		read_receiver(p_body, material, p_mesh, surface.index, instance.bounds_world);
 		if (instance.casts_shadow && kind == ShadowKind::CUT_OUT) {
 			warn_once(p_body, "is cut out by alpha, and casts the shadow of its whole surface.");
 		}
@@ -84,6 +102,37 @@ void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 			details.push_back({ r_scene.instances.size(), surface.levels, {}, 1 });
 		}
 		r_scene.instances.push_back(std::move(instance));
+	}
+}
+
+void SceneReader::read_receiver(const Body &p_body, const godot::Material &p_material,
+		const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world) {
+	if (!p_body.is_drawn) {
+		return;
+	}
+	note_receiver(p_body,
+			p_material ? receivers.use(p_material, p_body.node)
+					   : receivers.use_bare(p_mesh, p_surface),
+			p_bounds_world);
+	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
+	if (const godot::Ref<godot::Material> overlay =
+					geometry ? geometry.get_material_overlay() : godot::Ref<godot::Material>()) {
+		note_receiver(p_body, receivers.use(overlay, p_body.node), p_bounds_world);
+	}
+}
+
+void SceneReader::note_receiver(
+		const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
+	if (p_kind == ReceiverKind::GODOT) {
+		world.godot_receivers.push_back({ p_bounds_world, p_body.layers });
+	} else if (p_kind != ReceiverKind::UNLIT) {
+		world.reads_masks = true;
+	}
+}
+
+void SceneReader::read_light_node(const godot::Light3D &p_light) {
+	if (p_light.is_visible_in_tree()) {
+		world.other_lights.push_back(p_light);
 	}
 }
 
@@ -162,6 +211,12 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	const godot::ObjectHandle object(godot::get_instance(p_id));
 	Body body;
 	body.node = godot::cast<godot::Node3D>(object);
+	if (const auto light = godot::cast<godot::Light3D>(object)) {
+		read_light_node(light);
+	}
+	if (godot::cast<godot::ReflectionProbe>(object) || godot::cast<godot::VoxelGI>(object)) {
+		world.has_godot_readers = true;
+	}
 	const auto visual = godot::cast<godot::VisualInstance3D>(object);
 	const auto geometry = godot::cast<GeometryInstance3D>(object);
 	const auto grid_map = godot::cast<godot::GridMap>(object);
@@ -174,8 +229,9 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		body.layers = static_cast<uint32_t>(visual.get_layer_mask());
 	}
 	if (geometry) {
-		body.casts_shadow = geometry.get_cast_shadows_setting() !=
-				GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+		const int64_t casting = geometry.get_cast_shadows_setting();
+		body.casts_shadow = casting != GeometryInstance3D::SHADOW_CASTING_SETTING_OFF;
+		body.is_drawn = casting != GeometryInstance3D::SHADOW_CASTING_SETTING_SHADOWS_ONLY;
 		body.detail_bias = static_cast<float>(geometry.get_lod_bias());
 	}
 	const size_t first_detail = details.size();
@@ -239,13 +295,14 @@ LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_s
 	return light;
 }
 
-std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
-		const godot::SceneTree &p_tree, std::span<ShadowNode *const> p_nodes) {
+ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tree,
+		std::span<ShadowNode *const> p_nodes) {
 	if (!grid_maps) {
 		grid_maps = std::make_unique<GridMaps>(p_tree);
 	}
 	auto scene = std::make_shared<SceneSnapshot>();
 	auto frame = std::make_shared<ScenarioFrame>();
+	world = {};
 	frame->number = frame_number;
 	pending_count = 0;
 	details.clear();
@@ -273,6 +330,7 @@ std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
 			}
 			continue;
 		}
+		world.masked_lights.push_back(node->find_light());
 		node->pending_caster_count = pending_count;
 		if (node->shows_mask()) {
 			frame->shown_lights.insert(scene->lights.back().name);
@@ -285,7 +343,15 @@ std::shared_ptr<const ScenarioFrame> SceneReader::read(godot::RID p_scenario,
 	frame->scene = std::move(scene);
 	frame->details = details;
 	frame->views = find_view_details(p_tree, p_scenario);
-	return frame;
+	world.frame = std::move(frame);
+	std::erase_if(world.other_lights, [this](const godot::Light3D &p_light) {
+		return std::any_of(world.masked_lights.begin(), world.masked_lights.end(),
+				[&](const godot::Light3D &p_masked) {
+					return p_masked.get_owner() == p_light.get_owner();
+				});
+	});
+	world.has_godot_readers = world.has_godot_readers || has_fog_or_gi(p_tree, p_scenario);
+	return std::exchange(world, {});
 }
 
 void SceneReader::end_frame() {

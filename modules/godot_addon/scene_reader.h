@@ -2,6 +2,7 @@
 
 #include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
+#include "modules/godot_addon/receiver_materials.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
 
@@ -9,12 +10,29 @@
 
 namespace gnomon {
 
+/// A surface that stays in Godot's light and shadow.
+struct GodotReceiver {
+	Bounds bounds_world;
+	uint32_t layers = 1;
+};
+
+/// A world of the RenderingServer as it is in a frame.
+struct ReadWorld {
+	std::shared_ptr<ScenarioFrame> frame;
+	std::vector<godot::Light3D> masked_lights; // those of frame->scene, in its order
+	std::vector<godot::Light3D> other_lights;
+	bool reads_masks = false; // some surface does
+	std::vector<GodotReceiver> godot_receivers;
+	bool has_godot_readers = false; // others of Godot's shadows, such as fog
+};
+
 /// Reads the casters and lights of Godot's scenes. Main thread only.
 class SceneReader {
 public:
+	explicit SceneReader(ReceiverMaterials &p_receivers) : receivers(p_receivers) {}
 	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
 	/// What cannot be read is skipped, with one warning that names the node.
-	std::shared_ptr<const ScenarioFrame> read(godot::RID p_scenario, const godot::SceneTree &p_tree,
+	ReadWorld read(godot::RID p_scenario, const godot::SceneTree &p_tree,
 			std::span<ShadowNode *const> p_nodes);
 	/// Once a frame, before all worlds are read, and after that.
 	void begin_frame() { ++frame_number; }
@@ -27,6 +45,7 @@ private:
 		std::string name;
 		uint32_t layers = 1;
 		bool casts_shadow = true;
+		bool is_drawn = true;  // besides its shadow
 		float detail_bias = 1; // lod_bias
 	};
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
@@ -41,9 +60,16 @@ private:
 	/// Its box alone: it may receive shadows.
 	void read_unknown(
 			const Body &p_body, const godot::VisualInstance3D &p_instance, SceneSnapshot &r_scene);
+	/// Of a surface: gives its material masks to read. p_material may be empty.
+	void read_receiver(const Body &p_body, const godot::Material &p_material,
+			const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world);
+	void note_receiver(const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world);
+	void read_light_node(const godot::Light3D &p_light);
 	void warn_once(const Body &p_body, const std::string &p_warning);
 	static LightSnapshot read_light(const ShadowNode &p_node, double p_scene_size_m);
 
+	ReceiverMaterials &receivers;
+	ReadWorld world;
 	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;
 	ShadowMaterials materials;

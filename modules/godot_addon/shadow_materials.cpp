@@ -1,8 +1,5 @@
 #include "modules/godot_addon/shadow_materials.h"
 
-#include <cctype>
-#include <set>
-
 namespace gnomon {
 
 namespace {
@@ -24,42 +21,20 @@ ShadowKind read_base_material(const godot::BaseMaterial3D &p_material) {
 	}
 }
 
-/// Its identifiers, without comments.
-std::set<std::string> find_words(const std::string &p_code) {
-	std::set<std::string> words;
-	std::string word;
-	for (size_t index = 0; index <= p_code.size(); ++index) {
-		if (p_code.compare(index, 2, "//") == 0) {
-			index = std::min(p_code.find('\n', index), p_code.size());
-		} else if (p_code.compare(index, 2, "/*") == 0) {
-			const size_t end = p_code.find("*/", index + 2);
-			index = end == std::string::npos ? p_code.size() : end + 1;
-		} else if (index < p_code.size() &&
-				(std::isalnum(static_cast<unsigned char>(p_code[index])) != 0 ||
-						p_code[index] == '_')) {
-			word += p_code[index];
-			continue;
-		}
-		words.insert(std::exchange(word, {}));
-	}
-	return words;
-}
-
 } // namespace
 
-ShadowKind find_shadow_kind(const std::string &p_shader_code) {
-	const std::set<std::string> words = find_words(p_shader_code);
+ShadowKind find_shadow_kind(const ShaderText &p_shader) {
 	for (const char *word : { "depth_draw_never", "depth_test_disabled", "blend_add", "blend_sub",
 				 "blend_mul", "blend_premul_alpha" }) {
-		if (words.contains(word)) {
+		if (p_shader.has_word(word)) {
 			return ShadowKind::NONE;
 		}
 	}
-	if (words.contains("ALPHA_SCISSOR_THRESHOLD") || words.contains("ALPHA_HASH_SCALE") ||
-			(words.contains("ALPHA") && words.contains("depth_prepass_alpha"))) {
+	if (p_shader.has_word("ALPHA_SCISSOR_THRESHOLD") || p_shader.has_word("ALPHA_HASH_SCALE") ||
+			(p_shader.has_word("ALPHA") && p_shader.has_word("depth_prepass_alpha"))) {
 		return ShadowKind::CUT_OUT;
 	}
-	return words.contains("ALPHA") ? ShadowKind::NONE : ShadowKind::OPAQUE;
+	return p_shader.has_word("ALPHA") ? ShadowKind::NONE : ShadowKind::OPAQUE;
 }
 
 ShadowKind ShadowMaterials::read(const godot::Material &p_material) {
@@ -80,7 +55,7 @@ ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {
 		entry.watched = std::make_unique<WatchedResource>(p_shader);
 	}
 	if (entry.watched->take_change() || is_new) {
-		entry.kind = find_shadow_kind(p_shader.get_code().to_utf8());
+		entry.kind = find_shadow_kind(ShaderText(p_shader.get_code().to_utf8()));
 	}
 	return entry.kind;
 }

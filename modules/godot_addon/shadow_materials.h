@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/shader_text.h"
 #include "modules/godot_addon/watched_resource.h"
 
 #include <map>
@@ -32,6 +33,6 @@ private:
 };
 
 /// What a shader's code says: the built-ins and render modes that decide it.
-ShadowKind find_shadow_kind(const std::string &p_shader_code);
+ShadowKind find_shadow_kind(const ShaderText &p_shader);
 
 } // namespace gnomon

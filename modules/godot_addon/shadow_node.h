@@ -74,6 +74,9 @@ void register_shadow_node_class();
 void unregister_shadow_node_class();
 /// Called when one enters the scene tree, and at once where one is in it. Empty: nothing.
 void set_shadow_node_listener(std::function<void()> p_listener);
+/// Called with the shader of a material that Material::inspect_native_shader_code was called of
+/// while one of the nodes was in the group of its viewers. Empty: nothing.
+void set_shader_listener(std::function<void(godot::RID)> p_listener);
 /// All nodes of that class in the scene tree.
 const std::vector<ShadowNode *> &get_shadow_nodes();
 

@@ -22,6 +22,7 @@ const char CLASS_NAME[] = "GnomonShadow3D";
 const char BASE_NAME[] = "Node3D";
 const char GETTER_NAME[] = "_get_value";
 const char SETTER_NAME[] = "_set_value";
+const char INSPECT_NAME[] = "_inspect_shader"; // Godot calls it
 // Of Godot's global enums, which the API describes apart from classes.
 const uint32_t HINT_NONE = 0;
 const uint32_t HINT_RANGE = 1;
@@ -35,6 +36,7 @@ const int32_t NOTIFICATION_EXIT_TREE = 11;
 
 std::vector<ShadowNode *> nodes;
 std::function<void()> listener;
+std::function<void(godot::RID)> shader_listener;
 
 void call_listener() {
 	if (const std::function<void()> called = listener) { // it may replace itself
@@ -186,6 +188,13 @@ Variant read_masks(ShadowNode &r_node, std::span<const Variant> p_arguments) {
 	return {};
 }
 
+Variant inspect_shader(ShadowNode &, std::span<const Variant> p_arguments) {
+	if (shader_listener) {
+		shader_listener(p_arguments[0].to_rid());
+	}
+	return {};
+}
+
 Variant count_pending_casters(ShadowNode &p_node, std::span<const Variant>) {
 	return p_node.pending_caster_count;
 }
@@ -214,6 +223,7 @@ const std::vector<MethodEntry> &get_methods() {
 		{ GETTER_NAME, &get_value, { { "index", BuiltInType::INT } }, BuiltInType::VARIANT },
 		{ SETTER_NAME, &set_value,
 				{ { "index", BuiltInType::INT }, { "value", BuiltInType::VARIANT } }, {} },
+		{ INSPECT_NAME, &inspect_shader, { { "shader", BuiltInType::RID } }, {} },
 		{ "read_masks", &read_masks, { { "callback", BuiltInType::CALLABLE } }, {} },
 		{ "get_warning", &get_warning, {}, BuiltInType::STRING },
 		{ "count_pending_casters", &count_pending_casters, {}, BuiltInType::INT },
@@ -324,6 +334,10 @@ void set_shadow_node_listener(std::function<void()> p_listener) {
 	if (!nodes.empty()) {
 		call_listener();
 	}
+}
+
+void set_shader_listener(std::function<void(godot::RID)> p_listener) {
+	shader_listener = std::move(p_listener);
 }
 
 const std::vector<ShadowNode *> &get_shadow_nodes() {

@@ -106,6 +106,7 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 				compute_orientation(world_from_camera, "Camera", view.camera.name);
 		view.camera.vertical_fov_rad =
 				static_cast<float>(2.0 * std::atan(1.0 / std::abs(double(projection[1][1]))));
+		view.horizontal_scale = projection[0][0];
 		view.depth_offset = projection[2][2];
 		view.camera.shift = glm::vec2(projection[2][0], -projection[2][1]); // its y points down
 		view.camera.near_m = projection[3][2] / (1.0f + projection[2][2]);

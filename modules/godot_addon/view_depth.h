@@ -14,7 +14,8 @@ struct GodotView {
 	glm::uvec2 size_px = glm::uvec2(0);
 	CameraSnapshot camera;
 	godot::Transform3D camera_transform;
-	float depth_offset = 0; // P[2][2] of its projection P
+	float horizontal_scale = 1; // P[0][0]
+	float depth_offset = 0;		// P[2][2] of its projection P
 	/// Why masks cannot be made for it; empty: they can.
 	std::string refusal;
 };

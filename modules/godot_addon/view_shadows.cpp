@@ -14,6 +14,8 @@ namespace gnomon {
 
 namespace {
 
+const float NO_RECEIVER = -1.0f; // materials decide by their own normals
+
 RasterPipelineDesc make_show_pipeline() {
 	RasterPipelineDesc desc;
 	desc.name = "show mask";
@@ -42,31 +44,23 @@ void ImportedTexture::free(GodotDevice &r_device) {
 	}
 }
 
-ViewShadows::ViewShadows(GodotDevice &p_device, std::shared_ptr<MeshStore> p_meshes) :
-		device(p_device), transients(p_device), shadows(p_device, std::move(p_meshes)) {}
+ViewShadows::ViewShadows(
+		GodotDevice &p_device, std::shared_ptr<MeshStore> p_meshes, ReceiverTextures &p_receivers) :
+		device(p_device),
+		receivers(p_receivers), transients(p_device), shadows(p_device, std::move(p_meshes)) {}
 
 ViewShadows::~ViewShadows() {
 	depth.free(device);
 	color.free(device);
 }
 
-void ViewShadows::prepare_masks(glm::uvec2 p_size_px, uint32_t p_count) {
-	if (masks) {
-		const TextureDesc &desc = device.get_desc(masks.get());
-		if (desc.size_px == p_size_px && desc.layer_count == p_count) {
-			return;
-		}
-	}
-	masks = OwnedTexture(device,
-			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, p_size_px, p_count,
-					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
-					true }));
-}
-
 void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_view) {
 	layers.clear();
 	const uint32_t count = static_cast<uint32_t>(p_frame.scene->lights.size());
-	prepare_masks(p_view.size_px, count);
+	if (glm::any(glm::greaterThan(p_view.size_px, receivers.get_size_px()))) {
+		fail("A view has ", p_view.size_px.x, "x", p_view.size_px.y, " pixels, which were not ",
+				"expected. It has no shadow masks in this frame.");
+	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_frame.scene);
 	scene->camera = p_view.camera;
 	RenderGraph graph(device, transients);
@@ -83,12 +77,13 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			std::make_shared<const ReducedInstances>(
 					find_reduced_instances(p_frame, *scene, p_view)));
 	frame.set_surfaces(surfaces);
-	const RGTexture held = graph.import_texture(masks.get(), RenderGraph::ImportedContent::NONE);
+	const RGTexture held =
+			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::NONE);
 	std::map<std::string, MaskReadback> reads;
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		const LightSnapshot &light = scene->lights[layer];
 		const LightShadow shadow = frame.add_light(light);
-		frame.hold(shadow, held, layer);
+		frame.hold(shadow, held, layer, NO_RECEIVER);
 		for (const std::shared_ptr<MaskRequest> &request : p_frame.requests) {
 			if (request->light == light.name) {
 				reads[light.name].add(graph, shadow.mask, shadow.receivers);
@@ -97,6 +92,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	}
 	graph.execute(reads.empty() ? RenderGraph::Mode::QUEUE : RenderGraph::Mode::WAIT);
 	frame.end();
+	receivers.write_lights(p_view, p_frame.receiver_lights);
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		layers[scene->lights[layer].name] = layer;
 	}
@@ -116,7 +112,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 }
 
 void ViewShadows::show_masks(const ScenarioFrame &p_frame, const GodotView &p_view) {
-	if (!masks || device.get_desc(masks.get()).size_px != p_view.size_px) {
+	if (layers.empty()) {
 		return;
 	}
 	RenderGraph graph(device, transients);
@@ -125,7 +121,8 @@ void ViewShadows::show_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 										 { "image of Godot", Format::RGBA16_SFLOAT, p_view.size_px,
 												 1, TextureUsage::COLOR_ATTACHMENT }),
 					RenderGraph::ImportedContent::KEPT);
-	const RGTexture held = graph.import_texture(masks.get(), RenderGraph::ImportedContent::KEPT);
+	const RGTexture held =
+			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::KEPT);
 	const PipelineRID pipeline = device.get_raster_pipeline(make_show_pipeline());
 	for (const std::string &light : p_frame.shown_lights) {
 		const auto layer = layers.find(light);

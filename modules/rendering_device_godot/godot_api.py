@@ -9,7 +9,7 @@ import json
 
 USED = {
     "Object": {"methods": "connect disconnect get_class notification notify_property_list_changed"},
-    "RefCounted": {"methods": "init_ref reference unreference"},
+    "RefCounted": {"methods": "init_ref reference unreference get_reference_count"},
     "RDTextureFormat": {
         "methods": "set_format set_width set_height set_array_layers set_texture_type set_usage_bits"
     },
@@ -65,9 +65,21 @@ USED = {
             get_rendering_device create_local_rendering_device get_current_rendering_method call_on_render_thread
             compositor_effect_create compositor_effect_set_callback compositor_effect_set_flag
             compositor_effect_set_enabled compositor_create compositor_set_compositor_effects scenario_set_compositor
+            shader_create shader_get_code shader_set_code get_shader_parameter_list
+            shader_get_default_texture_parameter shader_set_default_texture_parameter material_create material_set_shader
+            mesh_surface_get_material mesh_surface_set_material
+            global_shader_parameter_add global_shader_parameter_remove global_shader_parameter_set
+            texture_2d_create texture_rd_create
+            directional_light_create omni_light_create spot_light_create light_set_color light_set_param
+            light_set_shadow light_set_projector light_set_negative light_set_cull_mask light_set_distance_fade
+            light_set_reverse_cull_face_mode light_set_shadow_caster_mask light_set_bake_mode
+            light_omni_set_shadow_mode light_directional_set_shadow_mode light_directional_set_blend_splits
+            light_directional_set_sky_mode instance_create2 instance_set_layer_mask instance_set_transform
+            instance_set_visible
             instances_cull_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface free_rid
         """,
-        "enums": "CompositorEffectFlags CompositorEffectCallbackType",
+        "enums": """CompositorEffectFlags CompositorEffectCallbackType GlobalShaderParameterType
+            TextureLayeredType""",
     },
     "RenderData": {"methods": "get_render_scene_buffers get_render_scene_data"},
     "RenderSceneBuffers": {"methods": ""},
@@ -77,29 +89,40 @@ USED = {
     "MainLoop": {"methods": ""},
     "Node": {
         "methods": """get_parent get_path is_inside_tree get_tree update_configuration_warnings find_children
-            get_node_or_null get_name"""
+            get_node_or_null get_name add_to_group remove_from_group"""
     },
     "SceneTree": {"methods": "get_root get_nodes_in_group"},
     "Node3D": {"methods": "get_global_transform is_visible_in_tree get_world_3d"},
-    "VisualInstance3D": {"methods": "get_layer_mask get_aabb"},
+    "VisualInstance3D": {"methods": "get_layer_mask get_aabb get_instance"},
+    "ReflectionProbe": {"methods": ""},
+    "VoxelGI": {"methods": ""},
     "GeometryInstance3D": {
-        "methods": "get_cast_shadows_setting get_material_override get_lod_bias",
+        "methods": "get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias",
         "enums": "ShadowCastingSetting",
     },
     "MeshInstance3D": {"methods": "get_mesh get_active_material get_skin_reference"},
     "MultiMeshInstance3D": {"methods": "get_multimesh"},
     "CSGShape3D": {"methods": "get_meshes is_root_shape"},
     "GridMap": {"methods": "get_meshes"},
-    "Light3D": {"methods": "get_param get_shadow_caster_mask is_editor_only", "enums": "Param"},
-    "OmniLight3D": {"methods": ""},
+    "Light3D": {
+        "methods": """get_param get_shadow_caster_mask is_editor_only has_shadow get_color get_correlated_color is_negative
+            get_shadow_reverse_cull_face is_distance_fade_enabled get_distance_fade_begin get_distance_fade_shadow
+            get_distance_fade_length get_cull_mask get_bake_mode get_projector""",
+        "enums": "Param",
+    },
+    "OmniLight3D": {"methods": "get_shadow_mode"},
     "SpotLight3D": {"methods": ""},
-    "DirectionalLight3D": {"methods": ""},
-    "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_scaling_3d_scale"},
-    "Camera3D": {"methods": "get_compositor get_camera_transform"},
+    "DirectionalLight3D": {"methods": "get_shadow_mode get_sky_mode is_blend_splits_enabled"},
+    "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_scaling_3d_scale get_texture"},
+    "Texture2D": {"methods": "get_width get_height"},
+    "ViewportTexture": {"methods": ""},
+    "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
+    "ProjectSettings": {"methods": "get_setting_with_override"},
+    "Camera3D": {"methods": "get_compositor get_environment get_camera_transform"},
     "WorldEnvironment": {"methods": "get_compositor"},
-    "Resource": {"methods": "get_rid get_path get_name"},
+    "Resource": {"methods": "get_rid get_path get_name duplicate"},
     "Compositor": {"methods": "get_compositor_effects"},
-    "World3D": {"methods": "get_scenario"},
+    "World3D": {"methods": "get_scenario get_environment"},
     "SkinReference": {"methods": ""},
     "Mesh": {"methods": "get_surface_count surface_get_arrays surface_get_material", "enums": "ArrayType PrimitiveType"},
     "ArrayMesh": {"methods": "surface_get_primitive_type get_blend_shape_count"},
@@ -109,7 +132,7 @@ USED = {
             is_using_custom_data""",
         "enums": "TransformFormat",
     },
-    "Material": {"methods": ""},
+    "Material": {"methods": "get_next_pass inspect_native_shader_code"},
     "BaseMaterial3D": {"methods": "get_transparency get_depth_draw_mode get_flag get_blend_mode", "enums": "Transparency DepthDrawMode Flags BlendMode"},
     "ShaderMaterial": {"methods": "get_shader"},
     "Shader": {"methods": "get_code"},

@@ -234,6 +234,10 @@ Transform3D Variant::to_transform() const {
 	return convert<Transform3D>(BuiltInType::TRANSFORM3D, bytes);
 }
 
+RID Variant::to_rid() const {
+	return convert<RID>(BuiltInType::RID, bytes);
+}
+
 void *Variant::to_object() const {
 	return get_type() == BuiltInType::OBJECT ? convert<void *>(BuiltInType::OBJECT, bytes)
 											 : nullptr;

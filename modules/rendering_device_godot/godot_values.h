@@ -146,6 +146,7 @@ public:
 	std::string to_utf8() const;
 	glm::vec3 to_vector3() const;
 	Transform3D to_transform() const;
+	RID to_rid() const;
 	void *to_object() const; // null: none. Who keeps a RefCounted adds an owner.
 	/// Replaces a value of that type, which Godot hands over by its address.
 	void store(BuiltInType p_type, void *r_value) const;

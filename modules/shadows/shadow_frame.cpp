@@ -200,16 +200,19 @@ std::vector<LightShadow> ShadowFrame::add_all_lights() {
 	return shadows;
 }
 
-void ShadowFrame::hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer) {
+void ShadowFrame::hold(
+		const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer, float p_elsewhere) {
 	const TextureDesc desc = graph.get_desc(p_array);
-	GNOMON_ASSERT(desc.is_array && desc.size_px == size_px && p_layer < desc.layer_count, "layer ",
-			p_layer, " of ", desc.is_array ? "an array of " : "no array but ", desc.layer_count,
-			", ", desc.size_px.x, "x", desc.size_px.y);
+	GNOMON_ASSERT(desc.is_array && glm::all(glm::greaterThanEqual(desc.size_px, size_px)) &&
+					p_layer < desc.layer_count,
+			"layer ", p_layer, " of ", desc.is_array ? "an array of " : "no array but ",
+			desc.layer_count, ", ", desc.size_px.x, "x", desc.size_px.y);
 	const bool has_color = desc.format == Format::RGBA16_SFLOAT;
 	GNOMON_ASSERT(has_color || desc.format == Format::R16_SFLOAT, "masks are held as ",
 			get_format_name(desc.format));
 	shader::HoldPush push = {};
 	push.layer = p_layer;
+	push.elsewhere = p_elsewhere;
 	add_compute_pass(graph, "hold mask",
 			system.device.get_compute_pipeline(
 					{ "hold mask", has_color ? "shadows/hold_color.comp" : "shadows/hold_gray.comp",

@@ -77,9 +77,11 @@ public:
 	/// All lights of the snapshot, for a host that uses their masks together.
 	std::vector<LightShadow> add_all_lights();
 	/// Copies a light's mask into a layer of an array that outlives the frame: R16_SFLOAT (of a
-	/// coloured mask its luminance) or RGBA16_SFLOAT, STORAGE, of the frame's size, made with
-	/// TextureDesc::is_array; 0 where there is no receiver.
-	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer);
+	/// coloured mask its luminance) or RGBA16_SFLOAT, STORAGE, at least of the frame's size, made
+	/// with TextureDesc::is_array. p_elsewhere: its value where there is no receiver, because
+	/// nothing is there, the light does not reach it, or the surface is turned away.
+	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
+			float p_elsewhere = 0.0f);
 
 	/// After the graph was executed.
 	void end();

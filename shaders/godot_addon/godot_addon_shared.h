@@ -2,6 +2,9 @@
 #define GODOT_ADDON_SHARED_H
 #include "shared/shared_begin.h"
 
+// Of the table of lights that materials read, its first row included.
+#define RECEIVER_ROW_COUNT 64
+
 // Bindings of convert_depth.frag, merge_depth.frag and show_mask.frag.
 #define CONVERT_BINDING_DEPTH 0
 #define MERGE_BINDING_SCENE 0

@@ -10,6 +10,6 @@ layout(push_constant) uniform Push {
 };
 
 void main() {
-	const float mask = texelFetch(masks_texture, ivec3(gl_FragCoord.xy, push.layer), 0).r;
+	const float mask = max(texelFetch(masks_texture, ivec3(gl_FragCoord.xy, push.layer), 0).r, 0.0);
 	out_color = vec4(mask, mask, mask, 1.0);
 }

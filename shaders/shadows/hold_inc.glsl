@@ -1,4 +1,4 @@
-// Copies a mask into a layer of an array that outlives the frame; 0 where there is no receiver.
+// Copies a mask into a layer of an array that outlives the frame.
 #ifndef HOLD_INC_GLSL
 #define HOLD_INC_GLSL
 
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push {
 vec3 load_visibility(ivec2 p_pixel) {
 	const vec4 mask = texelFetch(mask_texture, p_pixel, 0);
 	const vec3 visibility = IS_COLORED != 0u ? mask.rgb : mask.rrr;
-	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(0.0);
+	return texelFetch(receivers_texture, p_pixel, 0).r > 0.0 ? visibility : vec3(push.elsewhere);
 }
 
 #endif

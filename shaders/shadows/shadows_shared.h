@@ -36,7 +36,7 @@ SHARED_SIZE(TintPush, 16);
 /// Push constants of hold_gray.comp and hold_color.comp.
 struct SHARED_ALIGN HoldPush {
 	uint layer; // of the array
-	uint padding0;
+	float elsewhere; // the value of pixels that are no receivers
 	uint padding1;
 	uint padding2;
 };

@@ -11,12 +11,22 @@ import sys
 import addon_project
 import godot_project
 
-# (what a message has, how often it is logged): asked for by a test, once each.
+# (what a message has, how often it is logged): asked for by tests.
 EXPECTED = (
     ("technique is no such technique, must be", 1),
     ("penumbra_outer_width is -5, must be", 1),
     ("penumbra_outer_width is nan, must be", 1),
     ("has an orthogonal projection", 1),
+    ("is cut out by alpha", 2),
+    ("is transparent or drawn without depth", 3),
+    ("has a rim", 4),
+    ("has toon shading", 1),
+    ("has a clear coat", 1),
+    ("is anisotropic", 1),
+    ("is lit from behind", 1),
+    ("has subsurface scattering", 1),
+    ("is lit at its vertices", 1),
+    ("has a shader with a light() of its own", 1),
 )
 
 

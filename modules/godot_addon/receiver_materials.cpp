@@ -1,0 +1,223 @@
+#include "modules/godot_addon/receiver_materials.h"
+
+#include "modules/core/log.h"
+#include "modules/godot_addon/shadow_node.h"
+
+namespace gnomon {
+
+namespace {
+
+const char VIEWER_GROUP[] = "_native_shader_source_visualizer";
+
+// The look of a surface without a material, measured.
+const char BARE_SHADER[] = "shader_type spatial;\n"
+						   "void fragment() {\n"
+						   "\tALBEDO = vec3(0.6);\n\tROUGHNESS = 0.8;\n\tMETALLIC = 0.2;\n"
+						   "}\n";
+
+std::string describe(const godot::Material &p_material, const godot::Node &p_owner) {
+	const std::string path = p_material.get_path().to_utf8();
+	const std::string name = p_material.get_name().to_utf8();
+	return text(path.empty() && name.empty() ? "A material"
+					: path.empty()			 ? name
+											 : path,
+			" of \"", p_owner.get_path().to_utf8(), "\"");
+}
+
+} // namespace
+
+ReceiverMaterials::ReceiverMaterials() : server(godot::find_singleton("RenderingServer")) {
+	set_shader_listener([this](godot::RID p_shader) { answers.push_back(p_shader); });
+}
+
+ReceiverMaterials::~ReceiverMaterials() {
+	set_shader_listener({});
+	clear();
+}
+
+void ReceiverMaterials::free(godot::RID &r_owned) const {
+	if (r_owned.id) {
+		server.free_rid(std::exchange(r_owned, {}));
+	}
+}
+
+void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
+	r_copy.receiver = make_receiver_shader(server.shader_get_code(p_original).to_utf8());
+	if (r_copy.receiver.kind != ReceiverKind::PATCHED) {
+		return;
+	}
+	if (!r_copy.shader.id) {
+		r_copy.shader = server.shader_create();
+	}
+	server.shader_set_code(r_copy.shader, godot::String(r_copy.receiver.code));
+	const godot::Array parameters = server.get_shader_parameter_list(p_original);
+	for (int64_t index = 0; index < parameters.get_size(); ++index) {
+		const std::string name = parameters.get_value(index).get_keyed("name").to_utf8();
+		const godot::RID texture =
+				server.shader_get_default_texture_parameter(p_original, name.c_str(), 0);
+		if (texture.id) {
+			server.shader_set_default_texture_parameter(r_copy.shader, name.c_str(), texture, 0);
+		}
+	}
+}
+
+ReceiverMaterials::Copy &ReceiverMaterials::find_copy(
+		const Known &p_known, const godot::Material &p_material) {
+	Copy &copy = copies[p_known.original];
+	if (!copy.holder) {
+		if (p_known.is_generated) {
+			// Of the same features, so that it shares the shader.
+			copy.holder = p_material.duplicate(false);
+		} else {
+			const godot::Ref<godot::Shader> shader =
+					godot::cast<godot::ShaderMaterial>(p_material).get_shader();
+			copy.watched = std::make_unique<WatchedResource>(shader);
+			copy.holder = godot::Ref<godot::Resource>::share(shader);
+		}
+		copy_code(p_known.original, copy);
+	} else if (copy.watched && copy.watched->take_change()) {
+		copy_code(p_known.original, copy);
+	}
+	return copy;
+}
+
+ReceiverKind ReceiverMaterials::use(const godot::Material &p_material, const godot::Node &p_owner) {
+	Known &known = materials[godot::get_instance_id(p_material.get_owner())];
+	known.is_used = true;
+	known.is_generated = bool(godot::cast<godot::BaseMaterial3D>(p_material));
+	if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
+		const godot::Ref<godot::Shader> shader = custom.get_shader();
+		known.original = shader ? shader.get_rid() : godot::RID();
+	}
+	ReceiverKind kind = known.is_generated ? ReceiverKind::GODOT : ReceiverKind::UNLIT;
+	if (known.original.id) {
+		const Copy &copy = find_copy(known, p_material);
+		kind = copy.receiver.kind;
+		if (kind == ReceiverKind::PATCHED && known.applied != known.original) {
+			server.material_set_shader(p_material.get_rid(), copy.shader);
+			known.applied = known.original;
+		} else if (kind != ReceiverKind::PATCHED && known.applied.id) {
+			restore(godot::get_instance_id(p_material.get_owner()), known);
+			known.applied = {};
+		}
+		if (kind == ReceiverKind::GODOT && !std::exchange(known.is_warned, true)) {
+			log_warning(describe(p_material, p_owner), " ", copy.receiver.reason,
+					": it stays in Godot's light and shadow.");
+		}
+	}
+	if (const godot::Ref<godot::Material> next = p_material.get_next_pass()) {
+		const ReceiverKind of_next = use(next, p_owner);
+		kind = of_next == ReceiverKind::GODOT || kind == ReceiverKind::UNLIT ? of_next : kind;
+	}
+	return kind;
+}
+
+void ReceiverMaterials::restore(uint64_t p_material, const Known &p_known) const {
+	const godot::Material material(godot::get_instance(p_material));
+	if (material && p_known.applied.id) {
+		server.material_set_shader(material.get_rid(), p_known.original);
+	}
+}
+
+void ReceiverMaterials::make_bare_material() {
+	if (bare_material.id) {
+		return;
+	}
+	bare_shader = server.shader_create();
+	server.shader_set_code(bare_shader, godot::String(make_receiver_shader(BARE_SHADER).code));
+	bare_material = server.material_create();
+	server.material_set_shader(bare_material, bare_shader);
+}
+
+ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_surface) {
+	make_bare_material();
+	std::unique_ptr<WatchedResource> &watched =
+			bare_meshes[godot::get_instance_id(p_mesh.get_owner())];
+	if (!watched) {
+		watched = std::make_unique<WatchedResource>(p_mesh);
+	}
+	if (!server.mesh_surface_get_material(p_mesh.get_rid(), p_surface).id) {
+		server.mesh_surface_set_material(p_mesh.get_rid(), p_surface, bare_material);
+	}
+	return ReceiverKind::PATCHED;
+}
+
+void ReceiverMaterials::take_answers() {
+	if (answers.size() == asked.size()) { // else one of them has no shader yet
+		for (size_t index = 0; index < asked.size(); ++index) {
+			const auto known = materials.find(asked[index]);
+			if (known != materials.end()) {
+				known->second.original = answers[index];
+			}
+		}
+	}
+	answers.clear();
+	asked.clear();
+}
+
+void ReceiverMaterials::ask(const godot::Node &p_node, const godot::SceneTree &p_tree) {
+	// Its other nodes, of the editor, would open a window.
+	const godot::Array viewers = p_tree.get_nodes_in_group(VIEWER_GROUP);
+	const auto for_each_viewer = [&](auto p_function) {
+		for (int64_t index = 0; index < viewers.get_size(); ++index) {
+			p_function(godot::Node(viewers.get_value(index).to_object()));
+		}
+	};
+	for_each_viewer([](const godot::Node &p_viewer) { p_viewer.remove_from_group(VIEWER_GROUP); });
+	p_node.add_to_group(VIEWER_GROUP, false);
+	for (auto &[id, known] : materials) {
+		if (known.is_used && known.is_generated) {
+			godot::Material(godot::get_instance(id)).inspect_native_shader_code();
+			asked.push_back(id);
+		}
+		known.is_used = false;
+	}
+	p_node.remove_from_group(VIEWER_GROUP);
+	for_each_viewer(
+			[](const godot::Node &p_viewer) { p_viewer.add_to_group(VIEWER_GROUP, false); });
+}
+
+void ReceiverMaterials::begin_frame() {
+	take_answers();
+	std::erase_if(materials,
+			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
+	std::erase_if(bare_meshes, [](const auto &p_entry) { return !p_entry.second->is_alive(); });
+	std::set<godot::RID> in_use;
+	for (const auto &[id, known] : materials) {
+		in_use.insert({ known.original, known.applied });
+	}
+	for (auto entry = copies.begin(); entry != copies.end();) {
+		if (in_use.contains(entry->first)) {
+			++entry;
+			continue;
+		}
+		free(entry->second.shader);
+		entry = copies.erase(entry);
+	}
+}
+
+void ReceiverMaterials::clear() {
+	for (const auto &[id, known] : materials) {
+		restore(id, known);
+	}
+	materials.clear();
+	for (auto &[original, copy] : copies) {
+		free(copy.shader);
+	}
+	copies.clear();
+	asked.clear();
+	answers.clear();
+	for (const auto &[id, watched] : bare_meshes) {
+		const godot::Mesh mesh(godot::get_instance(id));
+		for (int64_t surface = 0; mesh && surface < mesh.get_surface_count(); ++surface) {
+			if (server.mesh_surface_get_material(mesh.get_rid(), surface) == bare_material) {
+				server.mesh_surface_set_material(mesh.get_rid(), surface, {});
+			}
+		}
+	}
+	bare_meshes.clear();
+	free(bare_material);
+	free(bare_shader);
+}
+
+} // namespace gnomon

@@ -1,0 +1,98 @@
+#include "modules/godot_addon/receiver_shader.h"
+
+#include "modules/core/text.h"
+#include "modules/godot_addon/shader_text.h"
+#include "modules/godot_addon/shadow_materials.h"
+
+#include <receiver_text.gen.h>
+
+namespace gnomon {
+
+namespace {
+
+struct Refusal {
+	const char *word; // of the code
+	const char *reason;
+};
+
+// What light() would have to compute and has no published formula, or cannot reach.
+const Refusal REFUSALS[] = {
+	{ "vertex_lighting", "is lit at its vertices" },
+	{ "diffuse_toon", "has toon shading" },
+	{ "specular_toon", "has toon shading" },
+	{ "RIM", "has a rim" },
+	{ "CLEARCOAT", "has a clear coat" },
+	{ "ANISOTROPY", "is anisotropic" },
+	{ "BACKLIGHT", "is lit from behind" },
+	{ "SSS_STRENGTH", "has subsurface scattering" },
+};
+
+const char ATTENUATION[] = "gnomon_get_attenuation"; // of gnomon.gdshaderinc
+
+std::string find_refusal(const ShaderText &p_shader) {
+	if (p_shader.find_function("light")) {
+		return "has a shader with a light() of its own, see addons/gnomon/gnomon.gdshaderinc";
+	}
+	if (p_shader.has_word(ATTENUATION)) {
+		return "includes gnomon.gdshaderinc, but has no light() that needs it. Remove it";
+	}
+	for (const Refusal &refusal : REFUSALS) {
+		if (p_shader.has_word(refusal.word)) {
+			return refusal.reason;
+		}
+	}
+	if (find_shadow_kind(p_shader) == ShadowKind::NONE) {
+		return "is transparent or drawn without depth";
+	}
+	const ShaderFunction *fragment = p_shader.find_function("fragment");
+	if (fragment && p_shader.has_word(*fragment, "return")) {
+		return "has a shader whose fragment() returns early";
+	}
+	return {};
+}
+
+std::string make_constants(const ShaderText &p_shader) {
+	const char *diffuse = p_shader.has_word("diffuse_lambert_wrap") ? "WRAP"
+			: p_shader.has_word("diffuse_burley")					? "BURLEY"
+																	: "LAMBERT";
+	return text("const int GNOMON_DIFFUSE = GNOMON_DIFFUSE_", diffuse, ";\n",
+			"const bool GNOMON_HAS_SPECULAR = ",
+			p_shader.has_word("specular_disabled") ? "false" : "true", ";\n");
+}
+
+std::string patch(const ShaderText &p_shader) {
+	// Godot wants declarations before the first function.
+	const std::string &code = p_shader.get_code();
+	const size_t declared =
+			p_shader.get_functions().empty() ? code.size() : p_shader.get_functions()[0].begin;
+	const ShaderFunction *fragment = p_shader.find_function("fragment");
+	const size_t computed = fragment ? fragment->body_end : code.size();
+	const std::string end = text("\t", RECEIVER_FRAGMENT);
+	return text(code.substr(0, declared), RECEIVER_DECLARATIONS, make_constants(p_shader),
+			RECEIVER_FUNCTIONS, code.substr(declared, computed - declared),
+			fragment ? end : text("\nvoid fragment() {\n", end, "}\n"), code.substr(computed), "\n",
+			RECEIVER_LIGHT);
+}
+
+} // namespace
+
+ReceiverShader make_receiver_shader(const std::string &p_code) {
+	const ShaderText shader(p_code);
+	ReceiverShader receiver;
+	if (!shader.has_word("spatial") || shader.has_word("unshaded") ||
+			shader.has_word("shadows_disabled")) {
+		receiver.kind = ReceiverKind::UNLIT;
+	} else if (const ShaderFunction *light = shader.find_function("light");
+			   light && shader.has_word(*light, ATTENUATION)) {
+		receiver.kind = ReceiverKind::OWN;
+	} else {
+		receiver.reason = find_refusal(shader);
+		if (receiver.reason.empty()) {
+			receiver.kind = ReceiverKind::PATCHED;
+			receiver.code = patch(shader);
+		}
+	}
+	return receiver;
+}
+
+} // namespace gnomon

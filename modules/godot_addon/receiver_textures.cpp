@@ -1,0 +1,125 @@
+#include "modules/godot_addon/receiver_textures.h"
+
+#include "modules/godot_addon/directional_albedo.h"
+
+#include "godot_addon/godot_addon_shared.h"
+
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+using godot::RenderingServer;
+
+const char MASKS_GLOBAL[] = "gnomon_masks";
+const char LIGHTS_GLOBAL[] = "gnomon_lights";
+const char ALBEDO_GLOBAL[] = "gnomon_albedo";
+const uint32_t COLUMN_COUNT = 4;
+const uint32_t LEAST_LAYER_COUNT = 2; // of one Godot makes no array
+const uint32_t SIZE_STEP_PX = 64; // a window that is dragged larger does not make an array a pixel
+
+using Row = std::array<glm::vec4, COLUMN_COUNT>;
+
+Row make_view_row(const GodotView &p_view) {
+	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
+	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
+		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
+		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)), glm::vec4(0.0f) };
+}
+
+Row make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
+	const glm::vec3 position(p_view_from_world * glm::dvec4(p_light.position_world, 1.0));
+	const glm::vec3 direction(p_view_from_world * glm::dvec4(p_light.direction_world, 0.0));
+	return { glm::vec4(p_light.specular, float(p_light.mask), p_light.size_m,
+					 p_light.has_godot_shadow ? 1.0f : 0.0f),
+		glm::vec4(position, 1.0f / p_light.range_m), glm::vec4(direction, p_light.cone_cosine),
+		glm::vec4(p_light.distance_exponent, p_light.cone_exponent, p_light.mask_opacity, 0.0f) };
+}
+
+} // namespace
+
+ReceiverGlobals::ReceiverGlobals() : server(godot::find_singleton("RenderingServer")) {
+	const std::span<const float> values = get_directional_albedo();
+	const godot::PackedByteArray bytes(
+			std::span(reinterpret_cast<const uint8_t *>(values.data()), values.size_bytes()));
+	const auto image = godot::Image::create_from_data(
+			ALBEDO_SIZE, ALBEDO_SIZE, false, godot::Image::FORMAT_RF, bytes);
+	albedo = server.texture_2d_create(image);
+	server.global_shader_parameter_add(
+			MASKS_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2DARRAY, {});
+	server.global_shader_parameter_add(
+			LIGHTS_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2D, {});
+	server.global_shader_parameter_add(
+			ALBEDO_GLOBAL, RenderingServer::GLOBAL_VAR_TYPE_SAMPLER2D, albedo);
+}
+
+ReceiverGlobals::~ReceiverGlobals() {
+	for (const char *global : { MASKS_GLOBAL, LIGHTS_GLOBAL, ALBEDO_GLOBAL }) {
+		server.global_shader_parameter_remove(global);
+	}
+	server.free_rid(albedo);
+}
+
+void ReceiverTextures::Published::publish(
+		const RenderingServer &p_server, const char *p_global, godot::RID p_texture) {
+	const godot::RID made =
+			p_server.texture_rd_create(p_texture, RenderingServer::TEXTURE_LAYERED_2D_ARRAY);
+	p_server.global_shader_parameter_set(p_global, made);
+	free(p_server);
+	texture = made;
+}
+
+void ReceiverTextures::Published::free(const RenderingServer &p_server) {
+	if (texture.id) {
+		p_server.free_rid(std::exchange(texture, {}));
+	}
+}
+
+ReceiverTextures::ReceiverTextures(GodotDevice &p_device) :
+		device(p_device), server(godot::find_singleton("RenderingServer")) {
+	rows = OwnedBuffer(device,
+			device.create_buffer({ "rows of lights", RECEIVER_ROW_COUNT * sizeof(Row),
+					BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD }));
+	lights = OwnedTexture(device,
+			device.create_texture({ "Gnomon's lights", Format::RGBA32_SFLOAT,
+					{ COLUMN_COUNT, RECEIVER_ROW_COUNT }, 1,
+					TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
+	published_lights.publish(server, LIGHTS_GLOBAL, device.get_rid(lights.get()));
+}
+
+ReceiverTextures::~ReceiverTextures() {
+	server.global_shader_parameter_set(MASKS_GLOBAL, {});
+	server.global_shader_parameter_set(LIGHTS_GLOBAL, {});
+	published_masks.free(server);
+	published_lights.free(server);
+}
+
+void ReceiverTextures::reserve(glm::uvec2 p_size_px, uint32_t p_layer_count) {
+	if (p_layer_count <= layer_count && glm::all(glm::lessThanEqual(p_size_px, size_px))) {
+		return;
+	}
+	size_px = glm::max(size_px, (p_size_px + SIZE_STEP_PX - 1u) / SIZE_STEP_PX * SIZE_STEP_PX);
+	layer_count = glm::max(layer_count, glm::max(p_layer_count, LEAST_LAYER_COUNT));
+	OwnedTexture larger(device,
+			device.create_texture({ "Gnomon's masks", Format::R16_SFLOAT, size_px, layer_count,
+					TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE,
+					true }));
+	published_masks.publish(server, MASKS_GLOBAL, device.get_rid(larger.get()));
+	masks = std::move(larger);
+}
+
+void ReceiverTextures::write_lights(
+		const GodotView &p_view, std::span<const ReceiverLight> p_lights) {
+	std::array<Row, RECEIVER_ROW_COUNT> table = {};
+	table[0] = make_view_row(p_view);
+	const glm::dmat4 view_from_world = glm::inverse(p_view.camera_transform.to_matrix());
+	for (const ReceiverLight &light : p_lights) {
+		table[light.row] = make_light_row(light, view_from_world);
+	}
+	std::memcpy(device.get_mapped(rows.get()), table.data(), sizeof(table));
+	device.begin_commands().copy_buffer_to_texture(rows.get(), lights.get(), 0, 0);
+	device.submit_commands(RenderingDevice::SubmitMode::QUEUE);
+}
+
+} // namespace gnomon

@@ -1,0 +1,103 @@
+#include "modules/godot_addon/shader_text.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace gnomon {
+
+namespace {
+
+bool is_letter(char p_letter) {
+	return std::isalnum(static_cast<unsigned char>(p_letter)) != 0 || p_letter == '_';
+}
+
+std::string blank_comments(std::string p_code) {
+	for (size_t index = 0; index + 1 < p_code.size(); ++index) {
+		size_t end = index;
+		if (p_code.compare(index, 2, "//") == 0) {
+			end = std::min(p_code.find('\n', index), p_code.size());
+		} else if (p_code.compare(index, 2, "/*") == 0) {
+			const size_t found = p_code.find("*/", index + 2);
+			end = found == std::string::npos ? p_code.size() : found + 2;
+		}
+		for (; index < end; ++index) {
+			p_code[index] = p_code[index] == '\n' ? '\n' : ' ';
+		}
+	}
+	return p_code;
+}
+
+template <typename Function> void for_each_word(std::string_view p_text, Function p_function) {
+	for (size_t begin = 0; begin < p_text.size();) {
+		if (!is_letter(p_text[begin])) {
+			++begin;
+			continue;
+		}
+		size_t end = begin;
+		while (end < p_text.size() && is_letter(p_text[end])) {
+			++end;
+		}
+		p_function(p_text.substr(begin, end - begin));
+		begin = end;
+	}
+}
+
+/// The function whose body opens at p_brace; without a name: it is no function's.
+ShaderFunction read_function(std::string_view p_text, size_t p_statement, size_t p_brace) {
+	const std::string_view head = p_text.substr(p_statement, p_brace - p_statement);
+	const size_t parenthesis = head.find('(');
+	const size_t last = head.find_last_not_of(" \t\r\n");
+	ShaderFunction function;
+	if (parenthesis == std::string_view::npos || head[last] != ')') {
+		return function; // a structure or a list of values
+	}
+	for_each_word(
+			head.substr(0, parenthesis), [&](std::string_view p_word) { function.name = p_word; });
+	function.begin = p_statement + head.find_first_not_of(" \t\r\n");
+	function.body_begin = p_brace + 1;
+	return function;
+}
+
+std::vector<ShaderFunction> find_functions(std::string_view p_text) {
+	std::vector<ShaderFunction> functions;
+	size_t depth = 0;
+	size_t statement = 0;
+	ShaderFunction function;
+	for (size_t index = 0; index < p_text.size(); ++index) {
+		if (p_text[index] == '{' && depth++ == 0) {
+			function = read_function(p_text, statement, index);
+		} else if (p_text[index] == '}' && depth > 0 && --depth == 0) {
+			statement = index + 1;
+			function.body_end = index;
+			if (!function.name.empty()) {
+				functions.push_back(function);
+			}
+		} else if (p_text[index] == ';' && depth == 0) {
+			statement = index + 1;
+		}
+	}
+	return functions;
+}
+
+} // namespace
+
+ShaderText::ShaderText(std::string p_code) :
+		code(std::move(p_code)), bare(blank_comments(code)), functions(find_functions(bare)) {
+	for_each_word(bare, [this](std::string_view p_word) { words.emplace(p_word); });
+}
+
+const ShaderFunction *ShaderText::find_function(std::string_view p_name) const {
+	const auto found = std::find_if(functions.begin(), functions.end(),
+			[&](const ShaderFunction &p_function) { return p_function.name == p_name; });
+	return found == functions.end() ? nullptr : &*found;
+}
+
+bool ShaderText::has_word(const ShaderFunction &p_function, std::string_view p_word) const {
+	bool has = false;
+	for_each_word(std::string_view(bare).substr(
+						  p_function.body_begin, p_function.body_end - p_function.body_begin),
+			[&](std::string_view p_found) { has = has || p_found == p_word; });
+	return has;
+}
+
+} // namespace gnomon

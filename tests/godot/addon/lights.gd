@@ -1,0 +1,180 @@
+extends AddonTest
+## What masks do to the image: each light by its own, beside Godot's own shadows.
+
+const SIZE := Vector2i(160, 120)
+const ROUNDING := 0.004 # of half floats whose values reach 1 and more
+
+
+## A viewport with a world of its own whose image has linear values: one scene, drawn with some of its lights.
+func _add_linear(scene: StudyScene, size := SIZE) -> SubViewport:
+	var viewport := SubViewport.new()
+	viewport.size = size
+	viewport.own_world_3d = true
+	viewport.use_hdr_2d = true
+	viewport.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(viewport)
+	if scene.get_parent():
+		scene.get_parent().remove_child(scene)
+	viewport.add_child(scene)
+	return viewport
+
+
+func _draw(viewport: SubViewport) -> PackedFloat32Array:
+	await draw_frames(4)
+	var image := viewport.get_texture().get_image()
+	image.convert(Image.FORMAT_RGBF)
+	return image.get_data().to_float32_array()
+
+
+static func _find_largest_difference(left: PackedFloat32Array, right: PackedFloat32Array) -> float:
+	var largest := 0.0
+	for index in left.size():
+		largest = maxf(largest, absf(left[index] - right[index]))
+	return largest
+
+
+static func _add(left: PackedFloat32Array, right: PackedFloat32Array) -> PackedFloat32Array:
+	var sum := PackedFloat32Array()
+	sum.resize(left.size())
+	for index in left.size():
+		sum[index] = left[index] + right[index]
+	return sum
+
+
+## Of all kinds, two of them at one place and some on a line of sight, so that neither place nor direction tells them apart.
+func _add_eight_lights(scene: StudyScene) -> Array[Light3D]:
+	scene.light.free()
+	var lights: Array[Light3D] = []
+	for index in 8:
+		scene.add_light(["omni", "spot", "omni", "directional", "spot", "omni", "omni", "directional"][index])
+		scene.light.name = "Light%d" % index
+		scene.light.light_color = Color.from_hsv(index / 8.0, 0.7, 1)
+		scene.light.light_energy = 0.3
+		var angle := TAU * index / 7.0
+		var place := Vector3(3 * cos(angle), 4, 3 * sin(angle))
+		if index == 5:
+			place = lights[0].position
+		elif index == 6:
+			place = lights[0].position * 1.3
+		scene.light.look_at_from_position(place, Vector3(0, 0.3, 0))
+		lights.append(scene.light)
+	return lights
+
+
+func test_eight_lights_on_one_surface_add_up() -> void:
+	var scene := StudyScene.create("omni", "torus")
+	var lights := _add_eight_lights(scene)
+	var viewport := _add_linear(scene)
+	var together := await _draw(viewport)
+	var sum := PackedFloat32Array()
+	sum.resize(together.size())
+	for light in lights:
+		for other in lights:
+			other.visible = other == light
+		sum = _add(sum, await _draw(viewport))
+	check(_find_largest_difference(together, sum) < ROUNDING, "the image of all lights is the sum of theirs: %f" % _find_largest_difference(together, sum))
+	check(_find_largest_difference(together, await _draw(viewport)) > 0.1, "one light is not all")
+	viewport.free()
+
+
+func test_another_light_keeps_the_shadow_of_godot() -> void:
+	var scene := StudyScene.create("spot", "box")
+	var ours := scene.light
+	scene.add_light("omni")
+	scene.shadow.free()
+	var other := scene.light
+	other.position += Vector3(3, 0, 0)
+	other.shadow_enabled = true
+	var viewport := _add_linear(scene)
+	var together := await _draw(viewport)
+	other.visible = false
+	var first := await _draw(viewport)
+	other.visible = true
+	ours.visible = false
+	ours.get_child(0).free()
+	var second := await _draw(viewport)
+	check(_find_largest_difference(together, _add(first, second)) < 2 * ROUNDING, "%f" % _find_largest_difference(together, _add(first, second)))
+	viewport.free()
+
+
+func test_an_unpatched_receiver_keeps_the_shadow_of_godot() -> void:
+	for kind in ["omni", "spot", "directional"]:
+		var scene := StudyScene.create(kind, "box")
+		var rim := StandardMaterial3D.new()
+		rim.resource_name = "Rim"
+		rim.rim_enabled = true
+		scene.get_node("Ground").material_override = rim
+		scene.light.shadow_enabled = true
+		scene.remove_child(scene.light)
+		var viewport := _add_linear(scene)
+		scene.add_child(scene.light)
+		var shadow := scene.shadow
+		scene.light.remove_child(shadow)
+		var original := await _draw(viewport)
+		scene.light.add_child(shadow)
+		var mixed := await _draw(viewport)
+		# The box has our light; the ground Godot's, in both images.
+		var differing := 0
+		for pixel in range(0, original.size(), 3):
+			differing += int(absf(original[pixel] - mixed[pixel]) > ROUNDING)
+		var share := float(differing) / (SIZE.x * SIZE.y)
+		check(share < 0.02, "%s: %f of the image differ" % [kind, share])
+		check(scene.light.shadow_enabled and scene.light.light_specular == (1.0 if kind == "directional" else 0.5), "properties stay")
+		viewport.free()
+
+
+func test_each_view_has_its_own_masks() -> void:
+	var scene := StudyScene.create("omni", "torus")
+	var viewport := _add_linear(scene)
+	var alone := await _draw(viewport)
+	var second := SubViewport.new()
+	second.size = Vector2i(90, 130)
+	second.use_hdr_2d = true
+	second.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	scene.add_child(second)
+	var camera := Camera3D.new()
+	second.add_child(camera)
+	camera.look_at_from_position(Vector3(3, 4, 5), Vector3.ZERO)
+	var of_second := await _draw(second)
+	check(_find_largest_difference(await _draw(viewport), alone) == 0.0, "the first view's image stays")
+	viewport.render_target_update_mode = SubViewport.UPDATE_DISABLED
+	check(_find_largest_difference(await _draw(second), of_second) == 0.0, "the second's is the same alone")
+	viewport.free()
+
+
+func test_shadow_opacity_thins_the_shadow() -> void:
+	var scene := StudyScene.create("directional", "box")
+	var viewport := _add_linear(scene)
+	var dark := await _draw(viewport)
+	scene.light.shadow_opacity = 0.5
+	var half := await _draw(viewport)
+	scene.light.shadow_opacity = 0
+	var none := await _draw(viewport)
+	var middle := _add(dark, none)
+	for index in middle.size():
+		middle[index] *= 0.5
+	check(_find_largest_difference(half, middle) < ROUNDING, "half as dark: %f" % _find_largest_difference(half, middle))
+	check(_find_largest_difference(dark, none) > 0.1, "there is a shadow")
+	viewport.free()
+
+
+func test_a_shader_with_a_light_of_its_own_reads_masks() -> void:
+	var scene := StudyScene.create("omni", "box")
+	var viewport := _add_linear(scene)
+	var code := "shader_type spatial;
+render_mode specular_disabled;
+uniform float specular = 0.5;
+#include \"res://addons/gnomon/gnomon.gdshaderinc\"
+void fragment() { ALBEDO = vec3(specular); }
+void light() { DIFFUSE_LIGHT += LIGHT_COLOR * GNOMON_ATTENUATION * max(dot(NORMAL, LIGHT), 0.0) / PI; }
+"
+	var images: Array[PackedFloat32Array] = []
+	var plain := code.get_slice("void light", 0).replace("#include", "//")
+	for shader_code: String in [code, plain]: # its own light(), and the one that it gets
+		var material := ShaderMaterial.new()
+		material.shader = Shader.new()
+		material.shader.code = shader_code
+		scene.get_node("Ground").material_override = material
+		images.append(await _draw(viewport))
+	check(_find_largest_difference(images[0], images[1]) < 2 * ROUNDING, "%f" % _find_largest_difference(images[0], images[1]))
+	viewport.free()
