@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Measures the add-on inside $GODOT next to Godot's own shadows, and writes the page of the Godot demo.
 
-Godot renders demo_project/godot's study scenes: the masks of edge_count, and its own shadows with the qualities Soft Low and
-Soft Ultra, as the image with the shadow over that without. `gnomon visibility --technique reference` traces the same
+Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and Soft
+Ultra; what is compared is the image with the shadow over that without. `gnomon visibility --technique reference` traces the same
 scenes, which Godot exported. Errors are root mean squares over the penumbra's pixels (doc/benchmarks.md), times are what
 a moving light adds to a frame without shadows, medians.
 """

@@ -4,6 +4,8 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
+import zipfile
 
 from SCons.Script import Action
 
@@ -61,3 +63,34 @@ def add_bindings(env):
 
 def add_api_path(env):
     env.Append(CCFLAGS=[("-isystem", env.Dir("#" + env["BUILD_FOLDER"].lstrip("#") + "/api").path)])
+
+
+ZIP_FOLDER = "addons/gnomon"
+ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # the same files make the same archive
+LEFT_OUT = (".import", ".uid")  # what Godot makes itself
+
+
+def add_zip(env):
+    """bin/gnomon_godot_addon.zip: the add-on's folder with its library, without debug information, and the licence."""
+    folder = env.Dir("#demo_project/godot/" + ZIP_FOLDER).abspath
+    files = []
+    for place, _folders, names in os.walk(folder):
+        if place != os.path.join(folder, "bin"):
+            files += [os.path.join(place, name) for name in names if not name.endswith(LEFT_OUT)]
+
+    def pack(target, source, env):
+        with tempfile.TemporaryDirectory() as work, zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:
+            for node in source:
+                path = node.abspath
+                inside = os.path.relpath(path, folder) if path.startswith(folder) else os.path.basename(path)
+                if path.endswith(".so"):
+                    path = shutil.copy(path, work)
+                    subprocess.run(["strip", "--strip-debug", path], check=True)
+                with open(path, "rb") as file:
+                    entry = zipfile.ZipInfo(ZIP_FOLDER + "/" + inside, ZIP_DATE)
+                    entry.compress_type = zipfile.ZIP_DEFLATED
+                    entry.external_attr = 0o644 << 16
+                    archive.writestr(entry, file.read())
+
+    sources = [ADDON_LIBRARY, "#LICENSE"] + sorted(files)
+    return env.Command("#bin/gnomon_godot_addon.zip", sources, Action(pack, "Packing $TARGET"))

@@ -268,6 +268,7 @@ if [ "$has_godot" = yes ] && is_wanted godot; then
         run_part "godot device" python3 tests/godot/test_godot.py
         run_part "godot add-on" python3 tests/godot/test_addon.py
         run_part "godot masks" python3 tests/godot/test_masks.py
+        run_part "godot editor" python3 tests/godot/test_editor.py
         run_part "godot soak" python3 tests/godot/test_soak.py
     fi
 fi

@@ -48,6 +48,7 @@ AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
 		return;
 	}
 	is_editor = godot::Engine(godot::find_singleton("Engine")).is_editor_hint();
+	settings = read_addon_settings();
 	on_frame = godot::Callable([this](auto) {
 		try {
 			before_draw();
@@ -89,10 +90,9 @@ void AddonServer::before_draw() {
 	update_worlds();
 }
 
-void AddonServer::update_worlds() {
+std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::SceneTree &r_tree) {
 	std::map<godot::RID, std::vector<ShadowNode *>> worlds;
 	std::set<void *> lights;
-	godot::SceneTree tree;
 	for (ShadowNode *node : get_shadow_nodes()) {
 		const godot::Light3D light = node->find_light();
 		if (!light || !node->get_node().is_visible_in_tree() ||
@@ -101,10 +101,31 @@ void AddonServer::update_worlds() {
 			continue;
 		}
 		const godot::Ref<godot::World3D> world = light.get_world_3d();
-		if (world) {
-			worlds[world.get_scenario()].push_back(node);
-			tree = godot::SceneTree(node->get_node().get_tree().get_owner());
+		if (!world) {
+			continue;
 		}
+		std::vector<ShadowNode *> &nodes = worlds[world.get_scenario()];
+		if (nodes.size() < settings.most_lights) {
+			nodes.push_back(node);
+		} else if (!std::exchange(has_warned, true)) {
+			log_warning("\"", node->get_path(),
+					"\" has no shadow of Gnomon, nor have those behind ", "it: its world has ",
+					settings.most_lights, " lights that do. Raise ",
+					"rendering/gnomon/most_lights in the project's settings, at most 63.");
+		}
+		r_tree = godot::SceneTree(node->get_node().get_tree().get_owner());
+	}
+	return worlds;
+}
+
+void AddonServer::update_worlds() {
+	godot::SceneTree tree;
+	std::map<godot::RID, std::vector<ShadowNode *>> worlds;
+	if (is_editor) {
+		settings = read_addon_settings();
+	}
+	if (settings.is_enabled) {
+		worlds = find_worlds(tree);
 	}
 	const size_t before = effects.size();
 	std::erase_if(effects, [&](const auto &p_entry) { return !worlds.contains(p_entry.first); });
@@ -138,7 +159,7 @@ void AddonServer::update_worlds() {
 	reader.end_frame();
 	stand_ins.end_frame();
 	const std::vector<ShadowNode *> &nodes = get_shadow_nodes();
-	if (nodes.empty()) {
+	if (nodes.empty() || !settings.is_enabled) {
 		receivers.clear();
 	} else {
 		receivers.ask(nodes.front()->get_node(),

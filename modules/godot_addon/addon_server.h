@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/addon_settings.h"
 #include "modules/godot_addon/scenario_effect.h"
 #include "modules/godot_addon/scene_reader.h"
 #include "modules/godot_addon/stand_in_lights.h"
@@ -18,6 +19,8 @@ public:
 
 private:
 	void before_draw();
+	/// The lights with shadows of Gnomon, by the scenario of their world. r_tree: theirs.
+	std::map<godot::RID, std::vector<ShadowNode *>> find_worlds(godot::SceneTree &r_tree);
 	void update_worlds();
 	/// Which lights shine through stand-ins, and which of those need Godot's shadow too.
 	std::vector<WantedStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
@@ -30,6 +33,8 @@ private:
 	godot::Callable on_frame;
 	bool is_connected = false;
 	bool is_editor = false;
+	AddonSettings settings;
+	bool has_warned = false; // of too many lights
 	ReceiverMaterials receivers;
 	StandInLights stand_ins;
 	SceneReader reader{ receivers };

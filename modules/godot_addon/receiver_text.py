@@ -10,17 +10,19 @@ DECLARATION = re.compile(r"(?:global uniform|varying|const) .*;\n", re.MULTILINE
 DEFINE = re.compile(r"^#define (\w+) (.*)\n", re.MULTILINE)
 COMMENT = re.compile(r"^\t*//.*\n|^\n", re.MULTILINE)
 LIGHT = "void light()"
+FRAGMENT_MARK = "// fragment\n"
+FRAGMENT = FRAGMENT_MARK + "GNOMON_FRAGMENT\n"
 
 
 def divide(texts):
     """(declarations, functions, light(), the end of fragment()) of files behind one another."""
     text = COMMENT.sub("", "".join(texts))
     defines = dict(DEFINE.findall(text))
-    fragment = defines.pop("GNOMON_FRAGMENT") + "\n"
-    text = DEFINE.sub("", text)
+    text = DEFINE.sub("", text) + FRAGMENT
     names = re.compile(r"\b(%s)\b" % "|".join(defines))
     while names.search(text):
         text = names.sub(lambda match: defines[match[1]], text)
+    text, fragment = text.split(FRAGMENT_MARK)
     declarations = "".join(DECLARATION.findall(text))
     functions, light = DECLARATION.sub("", text).split(LIGHT)
     return declarations, functions, LIGHT + light, fragment

@@ -31,10 +31,11 @@ Row make_view_row(const GodotView &p_view) {
 Row make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
 	const glm::vec3 position(p_view_from_world * glm::dvec4(p_light.position_world, 1.0));
 	const glm::vec3 direction(p_view_from_world * glm::dvec4(p_light.direction_world, 0.0));
+	const float godot_shadow = p_light.has_godot_shadow ? 2.0f : 0.0f;
 	return { glm::vec4(p_light.specular, float(p_light.mask), p_light.size_m,
-					 p_light.has_godot_shadow ? 1.0f : 0.0f),
+					 p_light.mask_opacity + godot_shadow),
 		glm::vec4(position, 1.0f / p_light.range_m), glm::vec4(direction, p_light.cone_cosine),
-		glm::vec4(p_light.distance_exponent, p_light.cone_exponent, p_light.mask_opacity, 0.0f) };
+		glm::vec4(p_light.distance_exponent, p_light.cone_exponent, 0.0f, 0.0f) };
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "modules/godot_addon/stand_in_lights.h"
 
 #include "modules/core/log.h"
+#include "modules/godot_addon/addon_settings.h"
 
 #include "godot_addon/godot_addon_shared.h"
 
@@ -34,13 +35,6 @@ glm::vec4 to_linear(const glm::vec4 &p_color) {
 glm::vec4 to_srgb(const glm::vec4 &p_color) {
 	const glm::vec4 curved = 1.055f * glm::pow(p_color, glm::vec4(1.0f / 2.4f)) - 0.055f;
 	return glm::mix(curved, 12.92f * p_color, glm::lessThan(p_color, glm::vec4(0.0031308f)));
-}
-
-bool uses_physical_units() {
-	const godot::ProjectSettings settings(godot::find_singleton("ProjectSettings"));
-	return settings
-			.get_setting_with_override("rendering/lights_and_shadows/use_physical_light_units")
-			.to_bool();
 }
 
 /// 0: there is none left.
@@ -109,7 +103,7 @@ StandInLight::~StandInLight() {
 }
 
 StandInLight::Values StandInLight::read() const {
-	static const bool is_physical = uses_physical_units();
+	static const bool is_physical = uses_physical_light_units();
 	Values values;
 	for (size_t param = 0; param < PARAM_COUNT; ++param) {
 		values.params[param] = node.get_param(int64_t(param));

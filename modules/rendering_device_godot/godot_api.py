@@ -117,7 +117,7 @@ USED = {
     "Texture2D": {"methods": "get_width get_height"},
     "ViewportTexture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
-    "ProjectSettings": {"methods": "get_setting_with_override"},
+    "ProjectSettings": {"methods": "has_setting get_setting_with_override"},
     "Camera3D": {"methods": "get_compositor get_environment get_camera_transform"},
     "WorldEnvironment": {"methods": "get_compositor"},
     "Resource": {"methods": "get_rid get_path get_name duplicate"},

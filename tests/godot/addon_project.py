@@ -17,3 +17,13 @@ def write():
     shutil.copytree(godot_project.PROJECT, FOLDER, ignore=shutil.ignore_patterns(".godot"))
     shutil.copytree(SOURCES, os.path.join(FOLDER, "tests"))
     godot_project.prepare(FOLDER)
+
+
+def report(passed, failures):
+    """Prints what failed and the last line. The exit code."""
+    if not passed and not failures:
+        failures = ["no test ran"]
+    for failure in failures:
+        print("FAILED: " + failure)
+    print("%d passed, %d failed, 0 skipped" % (len(passed), len(failures)))
+    return 0 if not failures else 1

@@ -53,12 +53,7 @@ def main():
     passed = re.findall(r"^PASS (\w+)$", output, re.MULTILINE)
     failures = re.findall(r"^FAIL (.*)$", output, re.MULTILINE)
     failures += find_unexpected(output, len(sys.argv) == 1)
-    if not passed and not failures:
-        failures.append("no test ran")
-    for failure in failures:
-        print("FAILED: " + failure)
-    print("%d passed, %d failed, 0 skipped" % (len(passed), len(failures)))
-    return 0 if not failures else 1
+    return addon_project.report(passed, failures)
 
 
 if __name__ == "__main__":

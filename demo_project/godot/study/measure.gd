@@ -1,9 +1,9 @@
 extends Node
-## Measures Gnomon's masks next to Godot's own shadows in the study scenes:
+## Measures images with Gnomon's shadows and with Godot's own in the study scenes:
 ##   godot --path demo_project/godot res://study/measure.tscn -- out=DIR size=800 frames=20
-## Of each light and caster LIGHT_CASTER_MODE.f32: with mode gnomon the mask, with low and ultra the share of the light
-## that Godot's own shadow leaves (image with shadow / image without; -1 where the light does not shine), LIGHT_CASTER.gltf,
-## and in times.json the milliseconds of a frame in which the light moves (medians), by mode.
+## Of each light and caster LIGHT_CASTER_MODE.f32, the share of the light that the shadow leaves (image with shadow / image
+## without; -1 where the light does not shine), with mode gnomon, and low and ultra for Godot's own; LIGHT_CASTER.gltf, and in
+## times.json the milliseconds of a frame in which the light moves (medians), by mode.
 
 const WARM_UP_FRAMES := 10
 ## RenderingServer.SHADOW_QUALITY_*; the size of the light counts from SOFT_LOW on.
@@ -36,18 +36,14 @@ func _measure(case: String, scene: StudyScene) -> void:
 	for mode in MODES:
 		_set_mode(scene, mode)
 		times[mode] = await _time_moving(scene)
-		if mode == "gnomon":
-			var reader := MaskReader.new(scene.shadow)
-			_options.store_values(case + "_gnomon.f32", (await reader.read()).get_data())
+		await RenderingServer.frame_post_draw
+		await RenderingServer.frame_post_draw
+		var image := get_viewport().get_texture().get_image()
+		image.convert(Image.FORMAT_RF)
+		if mode == "off":
+			lit = image
 		else:
-			await RenderingServer.frame_post_draw
-			await RenderingServer.frame_post_draw
-			var image := get_viewport().get_texture().get_image()
-			image.convert(Image.FORMAT_RF)
-			if mode == "off":
-				lit = image
-			else:
-				_options.store_values("%s_%s.f32" % [case, mode], _divide(image, lit))
+			_options.store_values("%s_%s.f32" % [case, mode], _divide(image, lit))
 	_times[case] = times
 	GltfExport.save(scene, _options.path(case + ".gltf"))
 	scene.queue_free()

@@ -1,8 +1,76 @@
 @tool
 extends EditorPlugin
-## Tells whoever enables the add-on where its library did not load. All else is in the library.
+## The add-on's part of the editor: a checkbox in the inspector of lights, a gizmo with their size. The shadows themselves
+## are made by its library, in the game too.
+
+const ENABLED := "rendering/gnomon/enabled"
+const SETTINGS: Array[Dictionary] = [
+	{"name": ENABLED, "type": TYPE_BOOL, "value": true},
+	{"name": "rendering/gnomon/most_lights", "type": TYPE_INT, "value": 16, "hint": PROPERTY_HINT_RANGE, "hint_string": "1,63"},
+]
+
+var _inspector: EditorInspectorPlugin
+var _gizmo: EditorNode3DGizmoPlugin
 
 
 func _enter_tree() -> void:
 	if not ClassDB.class_exists("GnomonShadow3D"):
 		push_error("Gnomon: its library did not load. It is built for Linux on x86_64 and Godot 4.5 or later; see the messages above, and restart the editor after copying the add-on.")
+		return
+	for setting in SETTINGS:
+		if not ProjectSettings.has_setting(setting.name):
+			ProjectSettings.set_setting(setting.name, setting.value)
+		ProjectSettings.set_initial_value(setting.name, setting.value)
+		ProjectSettings.add_property_info(setting)
+	_inspector = preload("editor/light_inspector.gd").new()
+	_inspector.undo_redo = get_undo_redo()
+	add_inspector_plugin(_inspector)
+	_gizmo = preload("editor/shadow_gizmo.gd").new()
+	_gizmo.undo_redo = get_undo_redo()
+	add_node_3d_gizmo_plugin(_gizmo)
+	_make_gizmos.call_deferred()
+	EditorInterface.get_inspector().property_edited.connect(_on_property_edited)
+	get_undo_redo().version_changed.connect(_update_gizmos)
+
+
+func _exit_tree() -> void:
+	if _inspector:
+		_make_gizmos.call_deferred()
+		remove_inspector_plugin(_inspector)
+		remove_node_3d_gizmo_plugin(_gizmo)
+		EditorInterface.get_inspector().property_edited.disconnect(_on_property_edited)
+		get_undo_redo().version_changed.disconnect(_update_gizmos)
+
+
+func _enable_plugin() -> void:
+	_set_enabled(true)
+
+
+## All lights get Godot's shadows back, in the editor and in the game.
+func _disable_plugin() -> void:
+	_set_enabled(false)
+
+
+func _set_enabled(is_enabled: bool) -> void:
+	ProjectSettings.set_setting(ENABLED, is_enabled)
+	ProjectSettings.save()
+	RenderingServer.force_draw.call_deferred(false) # the editor draws when something in the scene changes
+
+
+## Of the lights of a scene that was open before, and takes them away again.
+func _make_gizmos() -> void:
+	var root := EditorInterface.get_edited_scene_root()
+	if root:
+		for light: Light3D in root.find_children("*", "Light3D", true, false):
+			light.clear_gizmos()
+			light.update_gizmos()
+
+
+func _on_property_edited(_property: String) -> void:
+	_update_gizmos()
+
+
+func _update_gizmos() -> void:
+	for node in EditorInterface.get_selection().get_selected_nodes():
+		if node is Light3D:
+			node.update_gizmos()

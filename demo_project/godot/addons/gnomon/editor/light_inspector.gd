@@ -1,0 +1,69 @@
+@tool
+extends EditorInspectorPlugin
+## A checkbox in the inspector of lights, below Light3D: whether the light has a GnomonShadow3D.
+
+const CLASS := "GnomonShadow3D"
+
+var undo_redo: EditorUndoRedoManager
+
+
+func _can_handle(object: Object) -> bool:
+	return object is OmniLight3D or object is SpotLight3D or object is DirectionalLight3D
+
+
+func _parse_category(object: Object, category: String) -> void:
+	if category == "Light3D":
+		var editor := ShadowCheckBox.new()
+		editor.light = object
+		editor.undo_redo = undo_redo
+		add_property_editor_for_multiple_properties("Gnomon Shadow", PackedStringArray(["shadow_enabled"]), editor)
+
+
+class ShadowCheckBox:
+	extends EditorProperty
+	var light: Light3D
+	var undo_redo: EditorUndoRedoManager
+	var _box := CheckBox.new()
+
+	func _init() -> void:
+		_box.text = "On"
+		_box.tooltip_text = "Gives the light a soft shadow of Gnomon: adds a GnomonShadow3D below it, or removes it."
+		_box.pressed.connect(_toggle)
+		add_child(_box)
+		add_focusable(_box)
+
+	func _enter_tree() -> void:
+		light.child_order_changed.connect(_update_property)
+		_update_property()
+
+	func _exit_tree() -> void:
+		light.child_order_changed.disconnect(_update_property)
+
+	func _update_property() -> void:
+		_box.set_pressed_no_signal(_find() != null)
+
+	func _find() -> Node:
+		for child in light.get_children():
+			if child.is_class(CLASS):
+				return child
+		return null
+
+	func _toggle() -> void:
+		var shadow := _find()
+		if shadow:
+			undo_redo.create_action("Remove Gnomon Shadow")
+			undo_redo.add_do_method(light, "remove_child", shadow)
+			undo_redo.add_undo_method(light, "add_child", shadow, true)
+			undo_redo.add_undo_method(shadow, "set_owner", shadow.owner)
+			undo_redo.add_undo_reference(shadow)
+		else:
+			shadow = ClassDB.instantiate(CLASS)
+			shadow.name = CLASS
+			undo_redo.create_action("Add Gnomon Shadow")
+			undo_redo.add_do_method(light, "add_child", shadow, true)
+			undo_redo.add_do_method(shadow, "set_owner", EditorInterface.get_edited_scene_root())
+			undo_redo.add_do_reference(shadow)
+			undo_redo.add_undo_method(light, "remove_child", shadow)
+		undo_redo.add_do_method(light, "update_gizmos")
+		undo_redo.add_undo_method(light, "update_gizmos")
+		undo_redo.commit_action()
