@@ -2,9 +2,8 @@
 
 #include "modules/godot_addon/directional_albedo.h"
 
-#include "godot_addon/godot_addon_shared.h"
-
 #include <cstring>
+#include <limits>
 
 namespace gnomon {
 
@@ -15,20 +14,17 @@ using godot::RenderingServer;
 const char MASKS_GLOBAL[] = "gnomon_masks";
 const char LIGHTS_GLOBAL[] = "gnomon_lights";
 const char ALBEDO_GLOBAL[] = "gnomon_albedo";
-const uint32_t COLUMN_COUNT = 4;
 const uint32_t LEAST_LAYER_COUNT = 2; // of one Godot makes no array
 const uint32_t SIZE_STEP_PX = 64; // a window that is dragged larger does not make an array a pixel
 
-using Row = std::array<glm::vec4, COLUMN_COUNT>;
-
-Row make_view_row(const GodotView &p_view) {
+ReceiverRow make_view_row(const GodotView &p_view) {
 	const glm::mat4 world_from_camera(p_view.camera_transform.to_matrix());
 	return { glm::vec4(glm::vec3(world_from_camera[3]), p_view.horizontal_scale),
 		glm::vec4(glm::vec3(world_from_camera[0]), float(p_view.size_px.x)),
 		glm::vec4(glm::vec3(world_from_camera[2]), float(p_view.size_px.y)), glm::vec4(0.0f) };
 }
 
-Row make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
+ReceiverRow make_light_row(const ReceiverLight &p_light, const glm::dmat4 &p_view_from_world) {
 	const glm::vec3 position(p_view_from_world * glm::dvec4(p_light.position_world, 1.0));
 	const glm::vec3 direction(p_view_from_world * glm::dvec4(p_light.direction_world, 0.0));
 	const float godot_shadow = p_light.has_godot_shadow ? 2.0f : 0.0f;
@@ -80,11 +76,11 @@ void ReceiverTextures::Published::free(const RenderingServer &p_server) {
 ReceiverTextures::ReceiverTextures(GodotDevice &p_device) :
 		device(p_device), server(godot::find_singleton("RenderingServer")) {
 	rows = OwnedBuffer(device,
-			device.create_buffer({ "rows of lights", RECEIVER_ROW_COUNT * sizeof(Row),
+			device.create_buffer({ "rows of lights", RECEIVER_ROW_COUNT * sizeof(ReceiverRow),
 					BufferUsage::COPY_SOURCE, MemoryKind::UPLOAD }));
 	lights = OwnedTexture(device,
 			device.create_texture({ "Gnomon's lights", Format::RGBA32_SFLOAT,
-					{ COLUMN_COUNT, RECEIVER_ROW_COUNT }, 1,
+					{ RECEIVER_COLUMN_COUNT, RECEIVER_ROW_COUNT }, 1,
 					TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
 	published_lights.publish(server, LIGHTS_GLOBAL, device.get_rid(lights.get()));
 }
@@ -112,13 +108,23 @@ void ReceiverTextures::reserve(glm::uvec2 p_size_px, uint32_t p_layer_count) {
 
 void ReceiverTextures::write_lights(
 		const GodotView &p_view, std::span<const ReceiverLight> p_lights) {
-	std::array<Row, RECEIVER_ROW_COUNT> table = {};
+	Table table = {};
 	table[0] = make_view_row(p_view);
 	const glm::dmat4 view_from_world = glm::inverse(p_view.camera_transform.to_matrix());
 	for (const ReceiverLight &light : p_lights) {
 		table[light.row] = make_light_row(light, view_from_world);
 	}
-	std::memcpy(device.get_mapped(rows.get()), table.data(), sizeof(table));
+	write(table);
+}
+
+void ReceiverTextures::forget_view() {
+	Table table = {};
+	table[0][0] = glm::vec4(std::numeric_limits<float>::quiet_NaN()); // equals no view
+	write(table);
+}
+
+void ReceiverTextures::write(const Table &p_table) {
+	std::memcpy(device.get_mapped(rows.get()), p_table.data(), sizeof(p_table));
 	device.begin_commands().copy_buffer_to_texture(rows.get(), lights.get(), 0, 0);
 	device.submit_commands(RenderingDevice::SubmitMode::QUEUE);
 }

@@ -3,7 +3,13 @@
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/view_depth.h"
 
+#include "godot_addon/godot_addon_shared.h"
+
+#include <array>
+
 namespace gnomon {
+
+using ReceiverRow = std::array<glm::vec4, RECEIVER_COLUMN_COUNT>;
 
 /// The shader globals that materials read, gnomon.gdshaderinc. Main thread only.
 class ReceiverGlobals {
@@ -37,7 +43,12 @@ public:
 	/// Says which view the masks are of, and its lights. Before its opaque objects are drawn.
 	void write_lights(const GodotView &p_view, std::span<const ReceiverLight> p_lights);
 
+	/// Materials take no mask until the next view's: those of this one could not be made.
+	void forget_view();
+
 private:
+	using Table = std::array<ReceiverRow, RECEIVER_ROW_COUNT>;
+	void write(const Table &p_table);
 	/// One of the textures as Godot's materials have it.
 	class Published {
 	public:

@@ -62,6 +62,17 @@ void RenderSide::run(
 		}
 	} catch (const std::exception &failure) { // Godot knows no exceptions
 		note_failure(failure);
+		forget_view();
+	}
+}
+
+void RenderSide::forget_view() {
+	try {
+		if (receivers) {
+			receivers->forget_view();
+		}
+	} catch (const std::exception &failure) {
+		note_failure(failure);
 	}
 }
 

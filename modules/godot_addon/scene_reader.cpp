@@ -121,6 +121,34 @@ void SceneReader::read_receiver(const Body &p_body, const godot::Material &p_mat
 	}
 }
 
+void SceneReader::read_mesh_receivers(
+		const Body &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world) {
+	const godot::Ref<godot::Material> over =
+			godot::cast<GeometryInstance3D>(p_body.node).get_material_override();
+	for (int64_t index = 0; p_mesh && index < p_mesh.get_surface_count(); ++index) {
+		const godot::Ref<godot::Material> own = p_mesh.surface_get_material(index);
+		read_receiver(p_body, over ? over : own, p_mesh, index, p_bounds_world);
+	}
+}
+
+void SceneReader::read_other_receiver(const Body &p_body, const Bounds &p_bounds_world) {
+	if (const auto particles = godot::cast<godot::GPUParticles3D>(p_body.node)) {
+		for (int64_t pass = 0; pass < particles.get_draw_passes(); ++pass) {
+			const godot::Ref<godot::Mesh> mesh = particles.get_draw_pass_mesh(pass);
+			read_mesh_receivers(p_body, mesh, p_bounds_world);
+		}
+	} else if (const auto slow_particles = godot::cast<godot::CPUParticles3D>(p_body.node)) {
+		const godot::Ref<godot::Mesh> mesh = slow_particles.get_mesh();
+		read_mesh_receivers(p_body, mesh, p_bounds_world);
+	} else {
+		const auto sprite = godot::cast<godot::SpriteBase3D>(p_body.node);
+		const auto label = godot::cast<godot::Label3D>(p_body.node);
+		const bool is_unlit = (sprite && !sprite.get_draw_flag(godot::SpriteBase3D::FLAG_SHADED)) ||
+				(label && !label.get_draw_flag(godot::Label3D::FLAG_SHADED));
+		note_receiver(p_body, is_unlit ? ReceiverKind::UNLIT : ReceiverKind::GODOT, p_bounds_world);
+	}
+}
+
 void SceneReader::note_receiver(
 		const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
 	if (p_kind == ReceiverKind::GODOT) {
@@ -204,6 +232,7 @@ void SceneReader::read_unknown(
 	InstanceSnapshot instance = make_instance(box, nullptr,
 			p_body.node.get_global_transform().to_matrix() * node_from_box, p_body.name);
 	instance.casts_shadow = false;
+	read_other_receiver(p_body, instance.bounds_world);
 	r_scene.instances.push_back(std::move(instance));
 }
 

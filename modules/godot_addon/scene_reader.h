@@ -63,6 +63,11 @@ private:
 	/// Of a surface: gives its material masks to read. p_material may be empty.
 	void read_receiver(const Body &p_body, const godot::Material &p_material,
 			const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world);
+	/// Of sprites, labels and particles, whose triangles are not read.
+	void read_other_receiver(const Body &p_body, const Bounds &p_bounds_world);
+	/// Of all surfaces of a mesh.
+	void read_mesh_receivers(
+			const Body &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world);
 	void note_receiver(const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world);
 	void read_light_node(const godot::Light3D &p_light);
 	void warn_once(const Body &p_body, const std::string &p_warning);

@@ -66,6 +66,7 @@ private:
 	enum class What { MAKE, SHOW };
 	void run(What p_what, const ScenarioFrame &p_frame, const godot::Variant &p_render_data);
 	void prepare_device();
+	void forget_view();
 	void note_failure(const std::exception &p_failure);
 	void forget_unused(uint64_t p_frame);
 

@@ -104,6 +104,10 @@ USED = {
     "MultiMeshInstance3D": {"methods": "get_multimesh"},
     "CSGShape3D": {"methods": "get_meshes is_root_shape"},
     "GridMap": {"methods": "get_meshes"},
+    "SpriteBase3D": {"methods": "get_draw_flag", "enums": "DrawFlags"},
+    "Label3D": {"methods": "get_draw_flag", "enums": "DrawFlags"},
+    "GPUParticles3D": {"methods": "get_draw_passes get_draw_pass_mesh"},
+    "CPUParticles3D": {"methods": "get_mesh"},
     "Light3D": {
         "methods": """get_param get_shadow_caster_mask is_editor_only has_shadow get_color get_correlated_color is_negative
             get_shadow_reverse_cull_face is_distance_fade_enabled get_distance_fade_begin get_distance_fade_shadow

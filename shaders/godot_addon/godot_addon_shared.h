@@ -4,6 +4,7 @@
 
 // Of the table of lights that materials read, its first row included.
 #define RECEIVER_ROW_COUNT 64
+#define RECEIVER_COLUMN_COUNT 4
 
 // Bindings of convert_depth.frag, merge_depth.frag and show_mask.frag.
 #define CONVERT_BINDING_DEPTH 0

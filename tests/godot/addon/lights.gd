@@ -123,6 +123,54 @@ func test_an_unpatched_receiver_keeps_the_shadow_of_godot() -> void:
 		viewport.free()
 
 
+## What masks cannot be made for: an orthogonal camera.
+func test_a_view_without_masks_has_the_shadow_of_godot() -> void:
+	var scene := StudyScene.create("omni", "box")
+	scene.light.shadow_enabled = true
+	var shadow := scene.shadow
+	scene.light.remove_child(shadow)
+	scene.camera.set_orthogonal(6, 0.1, 50)
+	var viewport := _add_linear(scene)
+	var original := await _draw(viewport)
+	scene.light.add_child(shadow)
+	check(_find_largest_difference(await _draw(viewport), original) < 2 * ROUNDING, "the image is Godot's")
+	scene.camera.set_perspective(45, 0.1, 50)
+	check(_find_largest_difference(await _draw(viewport), original) > 0.1, "the perspective shows another")
+	scene.light.remove_child(shadow)
+	var soft := await _draw(viewport)
+	scene.light.add_child(shadow)
+	check(_find_largest_difference(await _draw(viewport), soft) > 0.1, "and has masks")
+	viewport.free()
+
+
+## Sprites and labels without shading need no shadow; lit particles read masks.
+func test_particles_and_labels_change_nothing_else() -> void:
+	var scene := StudyScene.create("omni", "box")
+	scene.light.shadow_enabled = true
+	var viewport := _add_linear(scene)
+	var alone := await _draw(viewport)
+	var label := Label3D.new()
+	label.text = "A"
+	label.position = Vector3(0, 1, -3)
+	label.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+	scene.add_child(label)
+	var particles := CPUParticles3D.new()
+	particles.mesh = BoxMesh.new()
+	particles.mesh.size = Vector3.ONE * 0.3
+	particles.amount = 1
+	particles.lifetime = 1000
+	particles.gravity = Vector3.ZERO
+	particles.position = Vector3(2, 1, 1)
+	particles.cast_shadow = GeometryInstance3D.SHADOW_CASTING_SETTING_OFF
+	scene.add_child(particles)
+	var together := await _draw(viewport)
+	var differing := 0
+	for index in alone.size():
+		differing += int(absf(alone[index] - together[index]) > ROUNDING)
+	check(differing > 0 and differing < alone.size() / 20, "%d of %d values differ" % [differing, alone.size()])
+	viewport.free()
+
+
 func test_each_view_has_its_own_masks() -> void:
 	var scene := StudyScene.create("omni", "torus")
 	var viewport := _add_linear(scene)
