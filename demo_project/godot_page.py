@@ -9,10 +9,10 @@ BODY = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Gnomon inside Godot</title><style>%(style)s</style></head><body>
 <header><h1>Gnomon inside Godot</h1>
-<p>Shadow masks that the add-on made in %(godot)s, next to Godot's own shadows and the traced reference.
+<p>Shadows that the add-on made in %(godot)s, next to Godot's own and the traced reference: what share of the light the image shows.
 %(size)d x %(size)d pixels.</p></header><main>
 <section id="lights"><h2>Three lights</h2>
-<p>The image without masks, then each light's mask as <code>show_mask</code> draws it: white is lit.</p>
+<p>The image, then each light's mask as <code>show_mask</code> draws it: white is lit.</p>
 <div class="strip" style="--aspect: 1; grid-template-columns: repeat(4, 1fr)">%(lights)s</div></section>
 <section id="figures"><h2>Error and time</h2>
 <p>Error: root mean square over the penumbra's pixels, against the reference. Time: what a moving light adds to a frame
@@ -54,7 +54,7 @@ def _case(case):
 
 def write_page(path, results):
     """results: of measure_godot.py."""
-    names = [("three_lights.png", "Without masks")]
+    names = [("three_lights.png", "The image")]
     names += [("three_lights_%s.png" % light, light.capitalize()) for light in ("spot", "omni", "sun")]
     page = BODY % {
         "style": STYLE,
