@@ -59,6 +59,12 @@ void ReceiverMaterials::copy_code(godot::RID p_original, Copy &r_copy) const {
 			server.shader_set_default_texture_parameter(r_copy.shader, name.c_str(), texture, 0);
 		}
 	}
+	if (server.get_shader_parameter_list(r_copy.shader).get_size() < parameters.get_size()) {
+		free(r_copy.shader);
+		r_copy.receiver.kind = ReceiverKind::GODOT;
+		r_copy.receiver.reason =
+				"has a shader that does not compile with Gnomon's light(), see above";
+	}
 }
 
 ReceiverMaterials::Copy &ReceiverMaterials::find_copy(

@@ -21,6 +21,8 @@ EXPECTED = (
     ("is transparent or drawn without depth", 3),
     ("has a rim", 4),
     ("has toon shading", 1),
+    ("Shader compilation failed", 1),
+    ("has a shader that does not compile", 1),
     ("has a clear coat", 1),
     ("is anisotropic", 1),
     ("is lit from behind", 1),

@@ -171,6 +171,27 @@ func test_particles_and_labels_change_nothing_else() -> void:
 	viewport.free()
 
 
+## A uniform with a name of ours, which functions must not hide.
+func test_a_shader_that_does_not_compile_with_ours_stays() -> void:
+	var scene := StudyScene.create("directional", "box")
+	var material := ShaderMaterial.new()
+	material.shader = Shader.new()
+	material.shader.code = "shader_type spatial; uniform float gno_light = 0.6; void fragment() { ALBEDO = vec3(gno_light); }"
+	scene.get_node("Ground").material_override = material
+	scene.light.shadow_enabled = true
+	var shadow := scene.shadow
+	scene.light.remove_child(shadow)
+	var viewport := _add_linear(scene)
+	var original := await _draw(viewport)
+	scene.light.add_child(shadow)
+	var drawn := await _draw(viewport)
+	var differing := 0
+	for index in original.size():
+		differing += int(absf(original[index] - drawn[index]) > ROUNDING)
+	check(differing < original.size() / 50, "%d of %d values differ" % [differing, original.size()])
+	viewport.free()
+
+
 func test_each_view_has_its_own_masks() -> void:
 	var scene := StudyScene.create("omni", "torus")
 	var viewport := _add_linear(scene)
