@@ -8,7 +8,7 @@ GODOT_PACKAGES=(
 )
 
 # install_godot ROOT: sets and exports GODOT, a program that runs Godot 4.5 or later: what the variable names already,
-# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot (1.2 GB, 3 minutes; root is needed). Returns 1, with the
+# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot_program (1.2 GB, 3 minutes; root is needed). Returns 1, with the
 # reason on stderr, where none of them works.
 install_godot() {
     local root=$1 folder=$1/build/godot_program version

@@ -3,6 +3,8 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 
+#include "godot_addon/godot_addon_shared.h"
+
 #include <algorithm>
 
 namespace gnomon {
@@ -108,10 +110,12 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 		if (nodes.size() < settings.most_lights) {
 			nodes.push_back(node);
 		} else if (!std::exchange(has_warned, true)) {
-			log_warning("\"", node->get_path(),
-					"\" has no shadow of Gnomon, nor have those behind ", "it: its world has ",
-					settings.most_lights, " lights that do. Raise ",
-					"rendering/gnomon/most_lights in the project's settings, at most 63.");
+			log_warning("\"", node->get_path(), "\" has no shadow of Gnomon: its world has ",
+					settings.most_lights,
+					" lights before it that do. Raise rendering/gnomon/most_lights in the "
+					"project's "
+					"settings, at most ",
+					RECEIVER_ROW_COUNT - 1, ".");
 		}
 		r_tree = godot::SceneTree(node->get_node().get_tree().get_owner());
 	}
@@ -138,7 +142,7 @@ void AddonServer::update_worlds() {
 	receivers.begin_frame();
 	reader.begin_frame();
 	for (const auto &[scenario, nodes] : worlds) {
-		const ReadWorld world = reader.read(scenario, tree, nodes);
+		const ReadWorld world = reader.read(scenario, tree, nodes, stand_ins.find_nodes(scenario));
 		std::set<float> other_speculars;
 		for (const godot::Light3D &light : world.other_lights) {
 			other_speculars.insert(

@@ -1,5 +1,7 @@
 #include "modules/godot_addon/addon_settings.h"
 
+#include "godot_addon/godot_addon_shared.h"
+
 #include <godot_api.gen.h>
 
 #include <algorithm>
@@ -20,7 +22,7 @@ AddonSettings read_addon_settings() {
 	settings.is_enabled = read_setting("rendering/gnomon/enabled", settings.is_enabled).to_bool();
 	const int64_t most =
 			read_setting("rendering/gnomon/most_lights", int64_t(settings.most_lights)).to_int();
-	settings.most_lights = size_t(std::clamp<int64_t>(most, 1, 63));
+	settings.most_lights = size_t(std::clamp<int64_t>(most, 1, RECEIVER_ROW_COUNT - 1));
 	return settings;
 }
 

@@ -137,11 +137,7 @@ void ReceiverMaterials::make_bare_material() {
 
 ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_surface) {
 	make_bare_material();
-	std::unique_ptr<WatchedResource> &watched =
-			bare_meshes[godot::get_instance_id(p_mesh.get_owner())];
-	if (!watched) {
-		watched = std::make_unique<WatchedResource>(p_mesh);
-	}
+	bare_meshes.insert(godot::get_instance_id(p_mesh.get_owner()));
 	if (!server.mesh_surface_get_material(p_mesh.get_rid(), p_surface).id) {
 		server.mesh_surface_set_material(p_mesh.get_rid(), p_surface, bare_material);
 	}
@@ -187,7 +183,7 @@ void ReceiverMaterials::begin_frame() {
 	take_answers();
 	std::erase_if(materials,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
-	std::erase_if(bare_meshes, [](const auto &p_entry) { return !p_entry.second->is_alive(); });
+	std::erase_if(bare_meshes, [](uint64_t p_id) { return godot::get_instance(p_id) == nullptr; });
 	std::set<godot::RID> in_use;
 	for (const auto &[id, known] : materials) {
 		in_use.insert({ known.original, known.applied });
@@ -213,7 +209,7 @@ void ReceiverMaterials::clear() {
 	copies.clear();
 	asked.clear();
 	answers.clear();
-	for (const auto &[id, watched] : bare_meshes) {
+	for (const uint64_t id : bare_meshes) {
 		const godot::Mesh mesh(godot::get_instance(id));
 		for (int64_t surface = 0; mesh && surface < mesh.get_surface_count(); ++surface) {
 			if (server.mesh_surface_get_material(mesh.get_rid(), surface) == bare_material) {

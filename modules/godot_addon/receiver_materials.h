@@ -37,7 +37,7 @@ public:
 private:
 	/// A material in use.
 	struct Known {
-		godot::RID original; // its shader; none: not told yet
+		godot::RID original; // its shader; none: not known yet
 		godot::RID applied;	 // the original whose copy it has; none: it has its own
 		bool is_generated = false;
 		bool is_used = false;
@@ -64,7 +64,7 @@ private:
 	std::vector<godot::RID> answers;
 	godot::RID bare_shader;
 	godot::RID bare_material;
-	std::map<uint64_t, std::unique_ptr<WatchedResource>> bare_meshes; // by id
+	std::set<uint64_t> bare_meshes; // ids
 };
 
 } // namespace gnomon

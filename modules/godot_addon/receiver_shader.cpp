@@ -34,7 +34,7 @@ std::string find_refusal(const ShaderText &p_shader) {
 		return "has a shader with a light() of its own, see addons/gnomon/gnomon.gdshaderinc";
 	}
 	if (p_shader.has_word(ATTENUATION)) {
-		return "includes gnomon.gdshaderinc, but has no light() that needs it. Remove it";
+		return "includes gnomon.gdshaderinc without a light() that uses it";
 	}
 	for (const Refusal &refusal : REFUSALS) {
 		if (p_shader.has_word(refusal.word)) {

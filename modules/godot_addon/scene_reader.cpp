@@ -46,16 +46,19 @@ bool has_fog_or_gi(const godot::Environment &p_environment) {
 			(p_environment.is_volumetric_fog_enabled() || p_environment.is_sdfgi_enabled());
 }
 
-bool has_fog_or_gi(const godot::SceneTree &p_tree, godot::RID p_scenario) {
-	bool has = false;
+/// Whether a camera of the world draws what needs Godot's shadows: fog, global illumination, or an
+/// image for which no masks are made.
+bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) {
+	bool needs = false;
 	for_each_camera(
 			p_tree, p_scenario, [&](const godot::Viewport &, const godot::Camera3D &p_camera) {
 				const godot::Ref<godot::World3D> world = p_camera.get_world_3d();
 				const godot::Ref<godot::Environment> of_world = world.get_environment();
 				const godot::Ref<godot::Environment> of_camera = p_camera.get_environment();
-				has = has || has_fog_or_gi(of_world) || has_fog_or_gi(of_camera);
+				needs = needs || has_fog_or_gi(of_world) || has_fog_or_gi(of_camera) ||
+						p_camera.get_projection() != godot::Camera3D::PROJECTION_PERSPECTIVE;
 			});
-	return has;
+	return needs;
 }
 
 } // namespace
@@ -159,7 +162,11 @@ void SceneReader::note_receiver(
 }
 
 void SceneReader::read_light_node(const godot::Light3D &p_light) {
-	if (p_light.is_visible_in_tree()) {
+	const bool is_listed = std::any_of(world.other_lights.begin(), world.other_lights.end(),
+			[&](const godot::Light3D &p_listed) {
+				return p_listed.get_owner() == p_light.get_owner();
+			});
+	if (p_light.is_visible_in_tree() && !is_listed) {
 		world.other_lights.push_back(p_light);
 	}
 }
@@ -325,13 +332,14 @@ LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_s
 }
 
 ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tree,
-		std::span<ShadowNode *const> p_nodes) {
+		std::span<ShadowNode *const> p_nodes, std::vector<godot::Light3D> p_hidden_lights) {
 	if (!grid_maps) {
 		grid_maps = std::make_unique<GridMaps>(p_tree);
 	}
 	auto scene = std::make_shared<SceneSnapshot>();
 	auto frame = std::make_shared<ScenarioFrame>();
 	world = {};
+	world.other_lights = std::move(p_hidden_lights);
 	frame->number = frame_number;
 	pending_count = 0;
 	details.clear();
@@ -379,7 +387,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 					return p_masked.get_owner() == p_light.get_owner();
 				});
 	});
-	world.has_godot_readers = world.has_godot_readers || has_fog_or_gi(p_tree, p_scenario);
+	world.has_godot_readers = world.has_godot_readers || needs_godot_shadows(p_tree, p_scenario);
 	return std::exchange(world, {});
 }
 

@@ -32,8 +32,9 @@ public:
 	explicit SceneReader(ReceiverMaterials &p_receivers) : receivers(p_receivers) {}
 	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
 	/// What cannot be read is skipped, with one warning that names the node.
+	/// p_hidden_lights: whose own light the RenderingServer does not show.
 	ReadWorld read(godot::RID p_scenario, const godot::SceneTree &p_tree,
-			std::span<ShadowNode *const> p_nodes);
+			std::span<ShadowNode *const> p_nodes, std::vector<godot::Light3D> p_hidden_lights);
 	/// Once a frame, before all worlds are read, and after that.
 	void begin_frame() { ++frame_number; }
 	void end_frame();

@@ -102,6 +102,14 @@ StandInLight::~StandInLight() {
 	}
 }
 
+godot::Light3D StandInLight::find_visible_node() const {
+	if (!godot::get_instance(id) || !node.is_inside_tree() || !node.is_visible_in_tree()) {
+		return {};
+	}
+	const godot::Ref<godot::World3D> world = node.get_world_3d();
+	return world && world.get_scenario() == scenario ? node : godot::Light3D();
+}
+
 StandInLight::Values StandInLight::read() const {
 	static const bool is_physical = uses_physical_light_units();
 	Values values;
@@ -217,6 +225,17 @@ std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 		entry.light->update(entry.row, rows.back().has_godot_shadow);
 	}
 	return rows;
+}
+
+std::vector<godot::Light3D> StandInLights::find_nodes(godot::RID p_scenario) const {
+	std::vector<godot::Light3D> nodes;
+	for (const auto &[id, entry] : lights) {
+		const godot::Light3D node = entry.light->find_visible_node();
+		if (node && entry.light->get_scenario() == p_scenario) {
+			nodes.push_back(node);
+		}
+	}
+	return nodes;
 }
 
 void StandInLights::end_frame() {

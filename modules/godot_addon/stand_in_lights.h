@@ -23,6 +23,8 @@ public:
 	/// Once a frame. p_row: see ReceiverLight.
 	void update(uint32_t p_row, bool p_has_godot_shadow);
 	godot::RID get_scenario() const { return scenario; }
+	/// Empty where it is gone or hidden, or in another world.
+	godot::Light3D find_visible_node() const;
 
 private:
 	static const size_t PARAM_COUNT = size_t(godot::Light3D::PARAM_MAX);
@@ -79,6 +81,9 @@ public:
 	/// may equal. Lights beyond RECEIVER_ROW_COUNT - 1 stay Godot's, with one warning.
 	std::vector<ReceiverLight> update(godot::RID p_scenario,
 			std::span<const WantedStandIn> p_wanted, const std::set<float> &p_others);
+	/// The nodes that shine through stand-ins in this world and are visible still. Queries of the
+	/// RenderingServer find them no more, as their own lights are hidden.
+	std::vector<godot::Light3D> find_nodes(godot::RID p_scenario) const;
 	/// Those that were not updated in this frame end.
 	void end_frame();
 

@@ -122,7 +122,7 @@ USED = {
     "ViewportTexture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
     "ProjectSettings": {"methods": "has_setting get_setting_with_override"},
-    "Camera3D": {"methods": "get_compositor get_environment get_camera_transform"},
+    "Camera3D": {"methods": "get_compositor get_environment get_projection get_camera_transform", "enums": "ProjectionType"},
     "WorldEnvironment": {"methods": "get_compositor"},
     "Resource": {"methods": "get_rid get_path get_name duplicate"},
     "Compositor": {"methods": "get_compositor_effects"},
