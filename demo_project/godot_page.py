@@ -14,6 +14,12 @@ BODY = """<!DOCTYPE html>
 <section id="lights"><h2>Three lights</h2>
 <p>The image, then each light's mask as <code>show_mask</code> draws it: white is lit.</p>
 <div class="strip" style="--aspect: 1; grid-template-columns: repeat(4, 1fr)">%(lights)s</div></section>
+<section id="room"><h2>A room with %(light_count)d lights</h2>
+<p>The reference is the sum of the images with one light each, times the traced share of that light that each pixel sees. Error: root
+mean square of the image's share of the unshadowed one, over the penumbra's pixels. Time: of a whole frame in which lights, things
+and shadows move, median of %(frames)d frames; with 1 light that of the swinging lamp.</p>
+%(room_images)s
+<div class="table"><table><tr><th></th><th>Error</th>%(room_heads)s</tr>%(room_rows)s</table></div></section>
 <section id="figures"><h2>Error and time</h2>
 <p>Error: root mean square over the penumbra's pixels, against the reference. Time: what a moving light adds to a frame
 without shadows, median of %(frames)d frames.</p>
@@ -36,24 +42,33 @@ def _cells(row):
     return "".join(cells)
 
 
-def _case(case):
+def _images(case, columns):
+    """A row of what each mode shows, and one of its errors."""
     shadows = [_figure("%s_reference.png" % case, "Reference")]
     errors = []
     for mode, name in NAMES.items():
         shadows.append(_figure("%s_%s.png" % (case, mode), name))
         errors.append(_figure("%s_%s_error.png" % (case, mode), name + ": error (blue too dark, red too light)"))
-    title = html.escape(case.replace("_", ", "))
     strip = '<div class="strip" style="--aspect: 1; grid-template-columns: repeat(%d, 1fr)">%s</div>'
-    return '<section id="%s"><h2>%s</h2>%s%s</section>' % (
-        case,
-        title,
-        strip % (4, "".join(shadows)),
-        strip % (3, "".join(errors)),
-    )
+    return strip % (columns, "".join(shadows)) + strip % (3, "".join(errors))
+
+
+def _case(case):
+    return '<section id="%s"><h2>%s</h2>%s</section>' % (case, html.escape(case.replace("_", ", ")), _images(case, 4))
+
+
+def _room_rows(room):
+    rows = []
+    for mode, name in dict(NAMES, off="Without shadows").items():
+        cells = "".join("<td>%.0f ms</td>" % times[mode] for times in room["times"].values())
+        error = "%.4f" % room["rmse"][mode] if mode in room["rmse"] else ""
+        rows.append("<tr><td>%s</td><td>%s</td>%s</tr>" % (html.escape(name), error, cells))
+    return "".join(rows)
 
 
 def write_page(path, results):
     """results: of measure_godot.py."""
+    room = results["room"]
     names = [("three_lights.png", "The image")]
     names += [("three_lights_%s.png" % light, light.capitalize()) for light in ("spot", "omni", "sun")]
     page = BODY % {
@@ -61,6 +76,10 @@ def write_page(path, results):
         "godot": "Godot " + html.escape(results["godot"]),
         "size": results["size"],
         "frames": results["frames"],
+        "light_count": len(room["lights"]),
+        "room_images": _images("room", 2),
+        "room_heads": "".join("<th>%s light%s</th>" % (count, "" if count == "1" else "s") for count in room["times"]),
+        "room_rows": _room_rows(room),
         "lights": "".join(_figure(*name) for name in names),
         "heads": "".join("<th>%s</th><th>added</th>" % name for name in NAMES.values()),
         "rows": "".join(

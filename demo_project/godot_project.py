@@ -1,12 +1,9 @@
-"""Runs the Godot project of the demo, and reads the masks that it writes."""
+"""Runs the Godot project of the demo."""
 
-import array
 import os
 import re
 import shutil
-import struct
 import subprocess
-import sys
 
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
 TIMEOUT_S = 1200
@@ -70,49 +67,3 @@ def find_messages(output):
     """Lines in which Godot or a script logged a warning or an error."""
     lines = [line for line in output.splitlines() if re.match(r"(WARNING|ERROR|SCRIPT ERROR|USER \w+): ", line)]
     return [line for line in lines if not HARMLESS.search(line)]
-
-
-def load_raw(path, width):
-    """A mask of study/runner.gd: float32, rows from the top, -1 where there is no receiver. (values, height)"""
-    values = array.array("f")
-    with open(path, "rb") as file:
-        values.frombytes(file.read())
-    if sys.byteorder != "little":
-        values.byteswap()
-    if not values or len(values) % width:
-        raise SystemExit("ERROR: %s has %d values, no whole rows of %d." % (path, len(values), width))
-    return values, len(values) // width
-
-
-def _attribute(name, kind, data):
-    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
-
-
-def save_exr(path, values, width, height):
-    """An uncompressed OpenEXR of the channels Y and receiver."""
-    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"Y", b"receiver")) + b"\0"
-    header = struct.pack("<ii", 20000630, 2)
-    for name, kind, data in (
-        ("channels", "chlist", channels),
-        ("compression", "compression", b"\0"),
-        ("dataWindow", "box2i", box),
-        ("displayWindow", "box2i", box),
-        ("lineOrder", "lineOrder", b"\0"),
-        ("pixelAspectRatio", "float", struct.pack("<f", 1.0)),
-        ("screenWindowCenter", "v2f", struct.pack("<2f", 0.0, 0.0)),
-        ("screenWindowWidth", "float", struct.pack("<f", 1.0)),
-    ):
-        header += _attribute(name, kind, data)
-    header += b"\0"
-    line_bytes = 8 * width
-    first = len(header) + 8 * height
-    with open(path + ".part", "wb") as file:
-        file.write(header)
-        file.write(struct.pack("<%dQ" % height, *(first + line * (8 + line_bytes) for line in range(height))))
-        for line in range(height):
-            row = values[line * width : (line + 1) * width]
-            file.write(struct.pack("<ii", line, line_bytes))
-            file.write(struct.pack("<%df" % width, *(max(value, 0.0) for value in row)))
-            file.write(struct.pack("<%df" % width, *(0.0 if value < 0.0 else 1.0 for value in row)))
-    os.replace(path + ".part", path)

@@ -12,21 +12,23 @@ import array
 import json
 import os
 import shutil
-import struct
 import subprocess
 import sys
-import zlib
 
+import godot_images
 import godot_project
 from godot_page import write_page
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "tests", "benchmark"))
-from mask_file import load_mask  # noqa: E402
+from mask_file import Mask, load_mask  # noqa: E402
 
 GNOMON = os.path.join(ROOT, "bin", "gnomon")
 WORK = os.path.join(ROOT, "build", "godot_demo")  # Godot may see nothing outside of the project
+LEAST_BEND = 0.002  # second difference of near / z over its value, of an outline
 MODES = ("gnomon", "low", "ultra")
+ROOM_SAMPLES = 1024  # at most, for each of its lights: with 9216 the errors are the same
+LEAST_SHARE = 0.05  # of a pixel's light that a light gives, for its penumbra to count there
 
 
 def run_gnomon(arguments):
@@ -36,49 +38,115 @@ def run_gnomon(arguments):
     return done.stdout
 
 
-def save_gray_png(path, values, width):
-    """Values of 0..1 as 8 bits; below 0, no receiver, a dark violet."""
-    rows = bytearray()
-    for first in range(0, len(values), width):
-        rows.append(0)
-        for value in values[first : first + width]:
-            gray = round(255 * min(value, 1.0))
-            rows += bytes((gray, gray, gray)) if value >= 0.0 else b"\x30\x10\x38"
-    parts = [(b"IHDR", struct.pack(">2I5B", width, len(values) // width, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(bytes(rows), 6))]
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n")
-        for kind, data in parts + [(b"IEND", b"")]:
-            file.write(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
+def trace_reference(scene, light, out, size_px, samples):
+    """The mask of one light of a scene that Godot exported, WORK/out.exr and .png."""
+    stem = os.path.join(WORK, out)
+    size = "%dx%d" % (size_px, size_px)
+    arguments = ["visibility", os.path.join(WORK, scene), "--technique", "reference", "--light", light, "--out", stem + ".exr"]
+    arguments += ["--png", stem + ".png", "--size", size, "--depth-alone", "--set", "reference_samples=%d" % samples]
+    run_gnomon(arguments)
+    return load_mask(stem + ".exr")
 
 
-def compute_rmse(reference, values):
-    """Over the reference's penumbra, where both have a receiver."""
-    pixels = [pixel for pixel in reference.find_penumbra() if values[pixel] >= 0.0]
+def compute_rmse(reference, values, pixels):
+    """Of the pixels where the values have a receiver too."""
+    pixels = [pixel for pixel in pixels if values[pixel] >= 0.0]
     if not pixels:
         raise SystemExit("ERROR: no pixel is in the penumbra: this is not the study scene.")
     return (sum((values[pixel] - reference.visibility[pixel]) ** 2 for pixel in pixels) / len(pixels)) ** 0.5
 
 
+def show_error(name, reference, values, mode, options):
+    """WORK/NAME_MODE_error.png; WORK/NAME_reference.exr is there."""
+    stem = os.path.join(WORK, name)
+    # Where one alone has a receiver there is no error to show.
+    shown = array.array("f", values)
+    for pixel, receiver in enumerate(reference.receiver):
+        shown[pixel] = -1.0 if receiver < 0.5 else values[pixel] if values[pixel] >= 0.0 else reference.visibility[pixel]
+    godot_images.save_exr("%s_%s.exr" % (stem, mode), shown, options.size, len(shown) // options.size)
+    run_gnomon(["compare", stem + "_reference.exr", "%s_%s.exr" % (stem, mode), "--heatmap", "%s_%s_error.png" % (stem, mode)])
+
+
 def measure_case(case, times, options):
-    stem = os.path.join(WORK, case)
-    size = "%dx%d" % (options.size, options.size)
-    arguments = ["visibility", stem + ".gltf", "--technique", "reference", "--out", stem + "_reference.exr", "--size", size]
-    run_gnomon(arguments + ["--png", stem + "_reference.png", "--depth-alone", "--set", "reference_samples=%d" % options.samples])
-    reference = load_mask(stem + "_reference.exr")
+    reference = trace_reference(case + ".gltf", "Light", case + "_reference", options.size, options.samples)
+    penumbra = reference.find_penumbra()
     row = {"case": case, "rmse": {}, "added_ms": {}}
     for mode in MODES:
-        values, height = godot_project.load_raw("%s_%s.f32" % (stem, mode), options.size)
-        row["rmse"][mode] = compute_rmse(reference, values)
+        stem = os.path.join(WORK, "%s_%s" % (case, mode))
+        values, _height = godot_images.load_rows(stem + ".f32", options.size)
+        row["rmse"][mode] = compute_rmse(reference, values, penumbra)
         row["added_ms"][mode] = times[mode] - times["off"]
-        save_gray_png("%s_%s.png" % (stem, mode), values, options.size)
-        # Where one alone has a receiver there is no error to show.
-        shown = array.array("f", values)
-        for pixel, receiver in enumerate(reference.receiver):
-            shown[pixel] = -1.0 if receiver < 0.5 else values[pixel] if values[pixel] >= 0.0 else reference.visibility[pixel]
-        godot_project.save_exr("%s_%s.exr" % (stem, mode), shown, options.size, height)
-        run_gnomon(["compare", stem + "_reference.exr", "%s_%s.exr" % (stem, mode), "--heatmap", "%s_%s_error.png" % (stem, mode)])
+        godot_images.save_gray_png(stem + ".png", values, options.size)
+        show_error(case, reference, values, mode, options)
     print("%-20s" % case, *("%s %.4f, +%.1f ms" % (mode, row["rmse"][mode], row["added_ms"][mode]) for mode in MODES), flush=True)
     return row
+
+
+def find_outlines(scene, options):
+    """Pixels next to where the surface of a scene ends or bends, in which two rasterizers may see different surfaces."""
+    folder = os.path.join(WORK, "surfaces")
+    os.makedirs(folder, exist_ok=True)
+    arguments = ["visibility", os.path.join(WORK, scene), "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
+    run_gnomon(arguments + ["--size", "%dx%d" % (options.size, options.size), "--surfaces", folder])
+    depth, height = godot_images.load_rows(os.path.join(folder, "depth.f32"), options.size)  # near / z, linear on planes
+    outlines = set()
+    for step in (1, options.size):
+        for i in range(step, len(depth) - step):
+            if abs(depth[i - step] + depth[i + step] - 2 * depth[i]) > LEAST_BEND * depth[i]:
+                outlines.add(i)
+    return outlines
+
+
+def load_room_image(what, options):
+    values, _height = godot_images.load_rows(os.path.join(WORK, "room_%s.f32" % what), 3 * options.size)
+    return values
+
+
+def add_room_light(light, dark, off, image, options):
+    """Adds what a light gives where the reference sees it to an image of the room. (pixels of its penumbra, its receivers)"""
+    alone = load_room_image("only_" + light, options)
+    mask = trace_reference("room.gltf", light, "room_reference_" + light, options.size, min(options.samples, ROOM_SAMPLES))
+    for pixel, visibility in enumerate(mask.visibility):
+        for channel in range(3 * pixel, 3 * pixel + 3):
+            image[channel] += visibility * (alone[channel] - dark[channel])
+    alone, dark = godot_images.get_luminance(alone), godot_images.get_luminance(dark)
+    return [i for i in mask.find_penumbra() if alone[i] - dark[i] >= LEAST_SHARE * off[i]], mask.receiver
+
+
+def measure_room(options):
+    """The reference is the sum of the images with one light each, times the share of it that each pixel sees."""
+    with open(os.path.join(WORK, "room.json"), encoding="utf-8") as file:
+        room = json.load(file)
+    dark = load_room_image("dark", options)
+    unshadowed = load_room_image("off", options)
+    off = godot_images.get_luminance(unshadowed)
+    image = array.array("f", dark)
+    penumbra = set()
+    receivers = array.array("f", bytes(4 * len(off)))
+    for light in room["lights"]:
+        of_light, lit = add_room_light(light, dark, off, image, options)
+        penumbra.update(of_light)
+        receivers = array.array("f", map(max, receivers, lit))
+    penumbra -= find_outlines("room.gltf", options)
+    reference = Mask(options.size, len(off) // options.size)
+    reference.receiver = receivers
+    share = lambda rgb: array.array("f", (a / b if b > 0.0 else 1.0 for a, b in zip(godot_images.get_luminance(rgb), off)))
+    reference.visibility = share(image)
+    stem = os.path.join(WORK, "room_")
+    shown = array.array("f", (v if r >= 0.5 else -1.0 for v, r in zip(reference.visibility, receivers)))
+    godot_images.save_exr(stem + "reference.exr", shown, options.size, reference.height)
+    godot_images.save_color_png(stem + "reference.png", image, options.size)
+    room["rmse"] = {}
+    for mode in MODES:
+        rgb = load_room_image(mode, options)
+        values = share(rgb)
+        room["rmse"][mode] = compute_rmse(reference, values, penumbra)
+        godot_images.save_color_png(stem + mode + ".png", rgb, options.size)
+        show_error("room", reference, values, mode, options)
+        print("room, %d lights: %s %.4f" % (len(room["lights"]), mode, room["rmse"][mode]), flush=True)
+    for count, times in room["times"].items():
+        print("room, frame with %s lights:" % count, ", ".join("%s %.1f ms" % pair for pair in times.items()), flush=True)
+    return room
 
 
 def main():
@@ -97,6 +165,7 @@ def main():
     output += godot_project.run(
         "res://study/measure.tscn", common + ["frames=%d" % options.frames, "cases=" + options.cases], options.size
     )
+    output += godot_project.run("res://study/measure_room.tscn", common + ["frames=%d" % options.frames], options.size)
     messages = godot_project.find_messages(output)
     for message in messages:
         print("Godot logged " + message)
@@ -104,6 +173,7 @@ def main():
         times = json.load(file)
     rows = [measure_case(case, times[case], options) for case in times]
     results = {"godot": godot_project.get_version(), "size": options.size, "frames": options.frames, "rows": rows}
+    results["room"] = measure_room(options)
     with open(os.path.join(WORK, "results.json"), "w", encoding="utf-8") as file:
         json.dump(results, file, indent="\t")
     os.makedirs(options.out, exist_ok=True)

@@ -14,6 +14,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "demo_project"), os.path.join(ROOT, "tests", "benchmark")]
+import godot_images  # noqa: E402
 import godot_project  # noqa: E402
 from mask_file import load_mask  # noqa: E402
 
@@ -39,7 +40,7 @@ def check_case(light, caster, technique):
     """What is wrong; empty when nothing is."""
     stem = os.path.join(OUT, "%s_%s" % (light, caster))
     name = "%s_%s" % (stem, technique)
-    found, _height = godot_project.load_raw(name + ".f32", SIZE)
+    found, _height = godot_images.load_rows(name + ".f32", SIZE)
     in_file = caster if light in ("imported",) + GENERATED else "Light"
     expected = render_in_program(stem + ".gltf", in_file, technique, name + ".exr")
     both = equal = outline = shadowed = 0

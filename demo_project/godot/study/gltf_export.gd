@@ -1,6 +1,7 @@
 class_name GltfExport
 extends RefCounted
-## Writes a scene as glTF that `gnomon` reads: Godot's own export, and in each light's extras what glTF has no word for.
+## Writes a scene as glTF that `gnomon` reads: Godot's own export, and in extras what glTF has no word for: lights' sizes, and
+## who casts no shadow.
 
 
 static func save(root: Node, path: String) -> Error:
@@ -12,44 +13,41 @@ static func save(root: Node, path: String) -> Error:
 	if error != OK:
 		return error
 	var gltf: Dictionary = JSON.parse_string(FileAccess.get_file_as_string(path))
-	_describe_lights(gltf, root)
-	_place_exactly(gltf, root)
+	for index in (gltf.nodes as Array).size():
+		_describe_node(gltf, gltf.nodes[index], state.get_scene_node(index) as Node3D)
 	var file := FileAccess.open(path, FileAccess.WRITE)
 	file.store_string(JSON.stringify(gltf, "\t", false, true))
 	return OK
 
 
-static func _describe_lights(gltf: Dictionary, root: Node) -> void:
-	var lights: Array = gltf.extensions.KHR_lights_punctual.lights
-	for node: Dictionary in gltf.nodes:
-		var reference: Dictionary = node.get("extensions", {}).get("KHR_lights_punctual", {})
-		if reference.is_empty():
-			continue
-		var light: Light3D = root.find_child(node.name, true, false)
-		var described: Dictionary = lights[int(reference.light)]
-		described["name"] = node.name
-		if light is DirectionalLight3D:
-			described["extras"] = {"light_angular_distance": light.light_angular_distance}
-		else:
-			described["extras"] = {"light_size": light.light_size}
-			described["range"] = light.get_param(Light3D.PARAM_RANGE)
+## Its place is what Godot itself draws with: Godot's export rounds a basis to a quaternion, and an angle is no projection.
+static func _describe_node(gltf: Dictionary, described: Dictionary, node: Node3D) -> void:
+	if node == null:
+		return
+	for part: String in ["translation", "rotation", "scale"]:
+		described.erase(part)
+	var basis := node.basis.orthonormalized() if node is Light3D else node.basis  # as Godot places lights
+	var columns: Array[Vector3] = [basis.x, basis.y, basis.z, node.position]
+	var matrix: Array[float] = []
+	for index in 4:
+		var column := columns[index]
+		matrix.append_array([column.x, column.y, column.z, 1.0 if index == 3 else 0.0])
+	described["matrix"] = matrix
+	if node is Light3D:
+		_describe_light(gltf, described, node)
+	elif node is Camera3D:
+		var projection := (node as Camera3D).get_camera_projection()
+		gltf.cameras[int(described.camera)].perspective.yfov = 2.0 * atan(1.0 / projection.y.y)
+	elif node is GeometryInstance3D:
+		var setting := (node as GeometryInstance3D).cast_shadow
+		described["extras"] = {"casts_shadow": setting != GeometryInstance3D.SHADOW_CASTING_SETTING_OFF}
 
 
-## Godot's export rounds a basis to a quaternion, and an angle is no projection: what Godot itself draws with.
-static func _place_exactly(gltf: Dictionary, root: Node) -> void:
-	for described: Dictionary in gltf.nodes:
-		var node := root.find_child(described.name, true, false) as Node3D
-		if node == null:
-			continue
-		for part: String in ["translation", "rotation", "scale"]:
-			described.erase(part)
-		var basis := node.basis.orthonormalized() if node is Light3D else node.basis  # as Godot places lights
-		var columns: Array[Vector3] = [basis.x, basis.y, basis.z, node.position]
-		var matrix: Array[float] = []
-		for index in 4:
-			var column := columns[index]
-			matrix.append_array([column.x, column.y, column.z, 1.0 if index == 3 else 0.0])
-		described["matrix"] = matrix
-		if node is Camera3D:
-			var projection := (node as Camera3D).get_camera_projection()
-			gltf.cameras[int(described.camera)].perspective.yfov = 2.0 * atan(1.0 / projection.y.y)
+static func _describe_light(gltf: Dictionary, described: Dictionary, light: Light3D) -> void:
+	var in_file: Dictionary = gltf.extensions.KHR_lights_punctual.lights[int(described.extensions.KHR_lights_punctual.light)]
+	in_file["name"] = described.name
+	if light is DirectionalLight3D:
+		in_file["extras"] = {"light_angular_distance": light.light_angular_distance}
+	else:
+		in_file["extras"] = {"light_size": light.light_size}
+		in_file["range"] = light.get_param(Light3D.PARAM_RANGE)

@@ -5,11 +5,6 @@ extends Node
 ## without; -1 where the light does not shine), with mode gnomon, and low and ultra for Godot's own; LIGHT_CASTER.gltf, and in
 ## times.json the milliseconds of a frame in which the light moves (medians), by mode.
 
-const WARM_UP_FRAMES := 10
-## RenderingServer.SHADOW_QUALITY_*; the size of the light counts from SOFT_LOW on.
-const QUALITIES := {"low": RenderingServer.SHADOW_QUALITY_SOFT_LOW, "ultra": RenderingServer.SHADOW_QUALITY_SOFT_ULTRA}
-const MODES: Array[String] = ["off", "low", "ultra", "gnomon"]
-
 var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20", "cases": "", "technique": "edge_count"})
 var _times := {}
 
@@ -33,8 +28,8 @@ func _measure(case: String, scene: StudyScene) -> void:
 	scene.shadow.technique = _options.text("technique")
 	var times := {}
 	var lit: Image
-	for mode in MODES:
-		_set_mode(scene, mode)
+	for mode in ShadowModes.ALL:
+		ShadowModes.apply([scene.light], mode)
 		times[mode] = await _time_moving(scene)
 		await RenderingServer.frame_post_draw
 		await RenderingServer.frame_post_draw
@@ -50,29 +45,13 @@ func _measure(case: String, scene: StudyScene) -> void:
 	await get_tree().process_frame
 
 
-func _set_mode(scene: StudyScene, mode: String) -> void:
-	scene.shadow.visible = mode == "gnomon"
-	scene.light.shadow_enabled = QUALITIES.has(mode)
-	if QUALITIES.has(mode):
-		RenderingServer.positional_soft_shadow_filter_set_quality(QUALITIES[mode])
-		RenderingServer.directional_soft_shadow_filter_set_quality(QUALITIES[mode])
-
-
 ## The median of a frame's milliseconds.
 func _time_moving(scene: StudyScene) -> float:
 	var place := scene.light.transform
-	var samples: Array[float] = []
-	var before := 0
-	for frame in WARM_UP_FRAMES + int(_options.text("frames")) + 1:
-		scene.light.transform = place.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5))
-		await RenderingServer.frame_post_draw
-		var now := Time.get_ticks_usec()
-		if frame > WARM_UP_FRAMES:
-			samples.append((now - before) / 1000.0)
-		before = now
+	var time := await FrameTimes.measure(int(_options.text("frames")), func(frame: int) -> void:
+		scene.light.transform = place.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
 	scene.light.transform = place
-	samples.sort()
-	return samples[samples.size() / 2]
+	return time
 
 
 func _divide(image: Image, lit: Image) -> PackedByteArray:

@@ -1,0 +1,78 @@
+extends Node
+## Measures room/room.tscn with Gnomon's shadows and with Godot's own:
+##   godot --path demo_project/godot res://study/measure_room.tscn -- out=DIR size=800 frames=20
+## Images at one time, float32 RGB, linear, rows from the top: room_MODE.f32 with all lights (off: without shadows),
+## room_dark.f32 without lights, room_only_LIGHT.f32 with one light and no shadow. room.gltf is the scene at that time, and
+## room.json has the lights' names and the milliseconds of a frame in which everything moves (medians), by number of lights
+## and mode.
+
+const TIME_S := 2.0
+const STEP_S := 1.0 / 30.0
+const MOST_FRAMES_OF_TEXTURES := 600
+
+var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20"})
+var _room: Room
+
+
+func _ready() -> void:
+	if not _options.read():
+		get_tree().quit(2)
+		return
+	get_viewport().use_hdr_2d = true  # linear images
+	_room = load("res://room/room.tscn").instantiate()
+	_room.is_moving = false
+	add_child(_room)
+	var lights := _room.get_lights()
+	await _wait_for_textures()
+	var times := {}
+	for count: int in [1, lights.size()]:
+		times[str(count)] = await _measure(lights, count)
+	ShadowModes.apply(lights, "off")
+	_show(lights, [])
+	await _store("dark")
+	var names := PackedStringArray()
+	for light in lights:
+		_show(lights, [light])
+		await _store("only_" + light.name)
+		names.append(light.name)
+	_show(lights, lights)
+	ShadowModes.apply(lights, "gnomon")  # all nodes are visible
+	GltfExport.save(_room, _options.path("room.gltf"))
+	_options.store_text("room.json", JSON.stringify({"lights": names, "times": times}, "\t"))
+	get_tree().quit()
+
+
+## Times of each mode with the first lights of the room; with all of them, also images.
+func _measure(lights: Array[Light3D], count: int) -> Dictionary:
+	_show(lights, lights.slice(0, count))
+	var times := {}
+	for mode in ShadowModes.ALL:
+		ShadowModes.apply(lights, mode)
+		times[mode] = await FrameTimes.measure(int(_options.text("frames")), func(frame: int) -> void:
+			_room.show_time(TIME_S + STEP_S * (frame + 1)))
+		if count == lights.size():
+			await _store(mode)
+	return times
+
+
+func _show(lights: Array[Light3D], shown: Array[Light3D]) -> void:
+	for light in lights:
+		light.visible = light in shown
+
+
+## Textures of noise are made on other threads.
+func _wait_for_textures() -> void:
+	for frame in MOST_FRAMES_OF_TEXTURES:
+		await RenderingServer.frame_post_draw
+		if _room.has_textures():
+			return
+	printerr("ERROR: the room's textures were not made in %d frames." % MOST_FRAMES_OF_TEXTURES)
+
+
+func _store(what: String) -> void:
+	_room.show_time(TIME_S)
+	for frame in 3:
+		await RenderingServer.frame_post_draw
+	var image := get_viewport().get_texture().get_image()
+	image.convert(Image.FORMAT_RGBF)
+	_options.store_values("room_%s.f32" % what, image.get_data())
