@@ -7,6 +7,7 @@ import subprocess
 
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
 TIMEOUT_S = 1200
+DEVICE_OPTIONS = ["--rendering-method", "forward_plus", "--rendering-driver", "vulkan", "--audio-driver", "Dummy"]
 # Godot's SPIR-V optimizer says so of shaders that it then hands on unchanged.
 HARMLESS = re.compile(r"is not supported yet\.$")
 
@@ -26,11 +27,21 @@ def prepare(project=PROJECT):
 
 def start_godot(arguments, variables={}):
     """(exit code, what it printed), under a virtual display unless $GODOT_DISPLAY says otherwise. 124: it did not end."""
+    return _start([os.environ["GODOT"]] + arguments, variables)
+
+
+def start_game(path, arguments):
+    """Of a program that Godot exported; see start_godot."""
+    runner = os.environ.get("GODOT_RUN")
+    return _start(([runner] if runner else []) + [path] + DEVICE_OPTIONS + arguments, {})
+
+
+def _start(command, variables):
     environment = dict(os.environ, **variables)
     environment.setdefault("GODOT_DISPLAY", "virtual")
     try:
         done = subprocess.run(
-            [os.environ["GODOT"]] + arguments,
+            command,
             env=environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -58,8 +69,8 @@ def get_version():
 
 def run(scene, options, size, project=PROJECT):
     """Runs a scene of the project in a window of that size in pixels; options are its own. What it printed."""
-    arguments = ["--path", project, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
-    arguments += ["--audio-driver", "Dummy", "--disable-vsync", "--resolution", "%dx%d" % (size, size), scene, "--"]
+    arguments = ["--path", project] + DEVICE_OPTIONS
+    arguments += ["--disable-vsync", "--resolution", "%dx%d" % (size, size), scene, "--"]
     return run_godot(arguments + options)
 
 

@@ -3,23 +3,27 @@
 
 GODOT_SUITE=sid # Debian 12 has no Godot 4
 GODOT_PACKAGES=(
-    godot mesa-vulkan-drivers xvfb xauth libx11-6 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxkbcommon0
+    godot godot-template-release mesa-vulkan-drivers xvfb xauth libx11-6 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxkbcommon0
     libxkbcommon-x11-0 libdbus-1-3 libfontconfig1 libasound2t64 libpulse0 libegl1 libgl1 libgl1-mesa-dri
 )
 
 # install_godot ROOT: sets and exports GODOT, a program that runs Godot 4.5 or later: what the variable names already,
-# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot_program (1.2 GB, 3 minutes; root is needed). Returns 1, with the
-# reason on stderr, where none of them works.
+# or `godot` in PATH, or Debian's, which goes into ROOT/build/godot_program (1.2 GB, 3 minutes; root is needed). Of the last
+# one, GODOT_TEMPLATE is the release template that it exports games with, and GODOT_RUN runs such games: GODOT_RUN PROGRAM
+# ARGUMENT... Returns 1, with the reason on stderr, where none of them works.
 install_godot() {
     local root=$1 folder=$1/build/godot_program version
     if [ -z "${GODOT:-}" ]; then
         GODOT=$(command -v godot || true)
     fi
     if [ -z "$GODOT" ]; then
-        if [ ! -x "$folder/godot" ]; then
+        if [ ! -x "$folder/run" ]; then
             _make_godot_root "$root" "$folder" || return 1
         fi
         GODOT=$folder/godot
+    fi
+    if [ "$GODOT" = "$folder/godot" ]; then
+        export GODOT_RUN=$folder/run GODOT_TEMPLATE=/usr/bin/godot-template-release
     fi
     export GODOT
     version=$("$GODOT" --version 2>/dev/null | tail -n 1)
@@ -59,10 +63,10 @@ _make_godot_root() {
     fi
     rm -rf "$folder/root.part/var/cache/apt/archives"
     mv "$folder/root.part" "$folder/root"
-    cat >"$folder/godot" <<TEXT
+    cat >"$folder/run" <<TEXT
 #!/bin/bash
-# Runs Godot in a root directory of its own, in which this project has the path that it has here. GODOT_DISPLAY=virtual
-# gives it a display, which a RenderingDevice needs.
+# Runs a program in a root directory of its own, in which this project has the path that it has here.
+# GODOT_DISPLAY=virtual gives it a display, which a RenderingDevice needs.
 exec unshare --mount bash -c 'set -e
     S=$folder/root
     mkdir -p "\$S$root"
@@ -72,11 +76,12 @@ exec unshare --mount bash -c 'set -e
     here=\$PWD
     exec chroot "\$S" env HOME=/root XDG_RUNTIME_DIR=/run bash -c "cd \"\$here\" 2>/dev/null || cd /
         if [ \"\${GODOT_DISPLAY:-}\" = virtual ]; then
-            exec xvfb-run -a -s \"-screen 0 1280x1024x24\" godot \"\\\$@\"
+            exec xvfb-run -a -s \"-screen 0 1280x1024x24\" \"\\\$@\"
         fi
-        exec godot \"\\\$@\"" godot "\$@"' godot "\$@"
+        exec \"\\\$@\"" run "\$@"' run "\$@"
 TEXT
-    chmod +x "$folder/godot"
+    printf '#!/bin/bash\nexec "%s" godot "$@"\n' "$folder/run" >"$folder/godot"
+    chmod +x "$folder/run" "$folder/godot"
 }
 
 # _run_in ROOT COMMAND...

@@ -38,13 +38,11 @@ def run_gnomon(arguments):
     return done.stdout
 
 
-def trace_reference(scene, light, out, size_px, samples):
-    """The mask of one light of a scene that Godot exported, WORK/out.exr and .png."""
-    stem = os.path.join(WORK, out)
-    size = "%dx%d" % (size_px, size_px)
-    arguments = ["visibility", os.path.join(WORK, scene), "--technique", "reference", "--light", light, "--out", stem + ".exr"]
-    arguments += ["--png", stem + ".png", "--size", size, "--depth-alone", "--set", "reference_samples=%d" % samples]
-    run_gnomon(arguments)
+def trace_reference(scene, light, stem, size_px, samples, camera=""):
+    """The mask of one light of a scene that Godot exported; STEM.exr and .png. size_px: width and height."""
+    arguments = ["visibility", scene, "--technique", "reference", "--light", light, "--out", stem + ".exr", "--png", stem + ".png"]
+    arguments += ["--size", "%dx%d" % size_px, "--depth-alone", "--set", "reference_samples=%d" % samples]
+    run_gnomon(arguments + (["--camera", camera] if camera else []))
     return load_mask(stem + ".exr")
 
 
@@ -68,15 +66,15 @@ def show_error(name, reference, values, mode, options):
 
 
 def measure_case(case, times, options):
-    reference = trace_reference(case + ".gltf", "Light", case + "_reference", options.size, options.samples)
+    stem = os.path.join(WORK, case)
+    reference = trace_reference(stem + ".gltf", "Light", stem + "_reference", (options.size, options.size), options.samples)
     penumbra = reference.find_penumbra()
     row = {"case": case, "rmse": {}, "added_ms": {}}
     for mode in MODES:
-        stem = os.path.join(WORK, "%s_%s" % (case, mode))
-        values, _height = godot_images.load_rows(stem + ".f32", options.size)
+        values, _height = godot_images.load_rows("%s_%s.f32" % (stem, mode), options.size)
         row["rmse"][mode] = compute_rmse(reference, values, penumbra)
         row["added_ms"][mode] = times[mode] - times["off"]
-        godot_images.save_gray_png(stem + ".png", values, options.size)
+        godot_images.save_gray_png("%s_%s.png" % (stem, mode), values, options.size)
         show_error(case, reference, values, mode, options)
     print("%-20s" % case, *("%s %.4f, +%.1f ms" % (mode, row["rmse"][mode], row["added_ms"][mode]) for mode in MODES), flush=True)
     return row
@@ -105,7 +103,9 @@ def load_room_image(what, options):
 def add_room_light(light, dark, off, image, options):
     """Adds what a light gives where the reference sees it to an image of the room. (pixels of its penumbra, its receivers)"""
     alone = load_room_image("only_" + light, options)
-    mask = trace_reference("room.gltf", light, "room_reference_" + light, options.size, min(options.samples, ROOM_SAMPLES))
+    stem = os.path.join(WORK, "room")
+    size_px = (options.size, options.size)
+    mask = trace_reference(stem + ".gltf", light, stem + "_reference_" + light, size_px, min(options.samples, ROOM_SAMPLES))
     for pixel, visibility in enumerate(mask.visibility):
         for channel in range(3 * pixel, 3 * pixel + 3):
             image[channel] += visibility * (alone[channel] - dark[channel])

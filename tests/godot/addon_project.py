@@ -19,11 +19,11 @@ def write():
     godot_project.prepare(FOLDER)
 
 
-def report(passed, failures):
+def report(passed, failures, skipped=0):
     """Prints what failed and the last line. The exit code."""
     if not passed and not failures:
         failures = ["no test ran"]
     for failure in failures:
         print("FAILED: " + failure)
-    print("%d passed, %d failed, 0 skipped" % (len(passed), len(failures)))
+    print("%d passed, %d failed, %d skipped" % (len(passed), len(failures), skipped))
     return 0 if not failures else 1

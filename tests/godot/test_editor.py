@@ -1,22 +1,44 @@
 #!/usr/bin/env python3
-"""Drives the editor of $GODOT with the add-on (editor/driver.gd), runs the scene that it saved, and that without the add-on.
+"""Drives the editor of $GODOT with the add-on (editor/driver.gd), and runs the scene that it saved: as a game, as an exported
+game where $GODOT_TEMPLATE names a release template, and without the add-on. What the editor's viewport and the game show is
+compared with the traced reference.
 
 Last line: N passed, N failed, N skipped.
 """
 
+import math
 import os
 import re
 import shutil
 import sys
 
 import addon_project
+import godot_images
 import godot_project
+import measure_godot
 
 FOLDER = os.path.join(addon_project.ROOT, "build", "godot_editor")
 SOURCES = os.path.join(addon_project.ROOT, "tests", "godot", "editor")
-NODES = [".", "Ground", "Box", "Camera", "Light", "Light/GnomonShadow3D"]
+NODES = [".", "WorldEnvironment", "Ground", "Box", "Camera", "Light", "Light/GnomonShadow3D"]
 # Of an editor that a script quits, or that runs without what a desktop has, and of a scene whose extension is missing.
 EDITOR_HARMLESS = re.compile(r"absolute paths from outside the active scene tree|text-to-speech|speech-dispatcher|libspeechd|D-Bus|dbus|Blender|SDK|editor_settings")
+PRESET = """[preset.0]
+name="Linux"
+platform="Linux"
+runnable=true
+export_filter="all_resources"
+include_filter=""
+exclude_filter=""
+export_path="exported/game"
+[preset.0.options]
+custom_template/release="%s"
+binary_format/embed_pck=false
+binary_format/architecture="x86_64"
+"""
+EXPORTED = os.path.join(FOLDER, "exported")
+MOST_RMSE = 0.006
+SAMPLES = 1024
+LEAST_LIGHT = 0.02  # of an image that counts
 MISSING = re.compile(r"GnomonShadow3D|gnomon\.gdextension|addons/gnomon")
 
 
@@ -26,6 +48,7 @@ def write_project():
     shutil.copytree(os.path.join(godot_project.PROJECT, "addons"), os.path.join(FOLDER, "addons"))
     driver = os.path.join(FOLDER, "addons", "editor_test")
     os.makedirs(driver)
+    shutil.copy(os.path.join(godot_project.PROJECT, "study", "gltf_export.gd"), FOLDER)
     for name in os.listdir(SOURCES):
         shutil.copy(os.path.join(SOURCES, name), driver if name in ("plugin.cfg", "driver.gd") else FOLDER)
     with open(os.path.join(FOLDER, "project.godot"), "w", encoding="utf-8") as file:
@@ -38,25 +61,62 @@ def write_project():
 
 def run_editor():
     """Names of what passed, and what failed."""
-    arguments = ["--editor", "--path", FOLDER, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
-    code, output = godot_project.start_godot(arguments + ["--audio-driver", "Dummy", "--resolution", "1200x900"])
+    arguments = ["--editor", "--path", FOLDER] + godot_project.DEVICE_OPTIONS
+    code, output = godot_project.start_godot(arguments + ["--resolution", "1200x900"])
     print(output)
     failures = re.findall(r"^FAIL (.*)$", output, re.MULTILINE)
     failures += ["the editor ended with %d" % code] if code != 0 else []
     failures += ["the editor logged " + line for line in godot_project.find_messages(output) if not EDITOR_HARMLESS.search(line)]
-    return re.findall(r"^PASS (.*)$", output, re.MULTILINE), failures
+    return output, re.findall(r"^PASS (.*)$", output, re.MULTILINE), failures
 
 
 def run_game(name):
-    """Runs the saved scene. Its nodes, and what Godot logged."""
-    output = godot_project.run("res://game.tscn", [name], 320, FOLDER)
+    """Runs the saved scene. What it printed."""
+    output = godot_project.run("res://game.tscn", [name, FOLDER], 320, FOLDER)
     print(output)
-    return re.findall(r"^NODE (.*)$", output, re.MULTILINE), godot_project.find_messages(output)
+    return output
+
+
+def find_nodes(output):
+    return re.findall(r"^NODE (.*)$", output, re.MULTILINE)
+
+
+def measure(name, output):
+    """RMSE in the penumbra of what LightImages stored as NAME, against the reference; infinite when it stored nothing."""
+    size = re.search(r"^SIZE %s (\d+) (\d+)$" % name, output, re.MULTILINE)
+    if size is None:
+        return math.inf
+    width, height = map(int, size.groups())
+    stem = os.path.join(FOLDER, name)
+    shadow, lit, dark = (godot_images.load_rows("%s_%s.f32" % (stem, part), width)[0] for part in ("shadow", "lit", "dark"))
+    shares = [(s - d) / (l - d) if l - d > LEAST_LIGHT else -1.0 for s, l, d in zip(shadow, lit, dark)]
+    godot_images.save_gray_png(stem + "_shares.png", shares, width)
+    reference = measure_godot.trace_reference(stem + ".gltf", "Light", stem + "_reference", (width, height), SAMPLES, "ViewCamera")
+    rmse = measure_godot.compute_rmse(reference, shares, reference.find_penumbra())
+    print("%s: RMSE %.4f over %d x %d pixels" % (name, rmse, width, height))
+    return rmse
+
+
+def export_game():
+    """What Godot logged."""
+    with open(os.path.join(FOLDER, "project.godot"), "a", encoding="utf-8") as file:
+        file.write('[application]\nrun/main_scene="res://game.tscn"\n')  # not before: the editor would open it
+    os.makedirs(EXPORTED)
+    open(os.path.join(EXPORTED, ".gdignore"), "w").close()
+    with open(os.path.join(FOLDER, "export_presets.cfg"), "w", encoding="utf-8") as file:
+        file.write(PRESET % os.environ["GODOT_TEMPLATE"])
+    path = os.path.join(EXPORTED, "game")
+    return godot_project.find_messages(godot_project.run_godot(["--headless", "--path", FOLDER, "--export-release", "Linux", path]))
+
+
+def read_bytes(path):
+    with open(path, "rb") as file:
+        return file.read()
 
 
 def main():
     write_project()
-    passed, failures = run_editor()
+    output, passed, failures = run_editor()
 
     def check(name, holds, what=""):
         if holds:
@@ -64,15 +124,34 @@ def main():
         else:
             failures.append("%s: %s" % (name, what))
 
-    nodes, messages = run_game("game")
-    check("the game has all nodes", nodes == NODES, nodes)
+    def check_rmse(name, printed):
+        rmse = measure(name, printed)
+        check("the %s shows the reference's shadow" % name, rmse <= MOST_RMSE, "RMSE %.4f, at most %.4f" % (rmse, MOST_RMSE))
+
+    check_rmse("view", output)
+    output = run_game("game")
+    check("the game has all nodes", find_nodes(output) == NODES, find_nodes(output))
+    messages = godot_project.find_messages(output)
     check("the game logs nothing", not messages, messages)
+    check_rmse("game", output)
+    skipped = 0
+    if os.environ.get("GODOT_TEMPLATE"):
+        messages = export_game()
+        code, output = godot_project.start_game(os.path.join(EXPORTED, "game"), ["--resolution", "320x320", "--", "exported", FOLDER])
+        messages += godot_project.find_messages(output)
+        check("the exported game logs nothing", code == 0 and not messages, [code] + messages)
+        same = read_bytes(os.path.join(FOLDER, "exported.png")) == read_bytes(os.path.join(FOLDER, "game.png"))
+        check("the exported game shows the same", same, "exported.png and game.png differ")
+    else:
+        print("SKIPPED: $GODOT_TEMPLATE names no release template, no game is exported")
+        skipped = 2
     shutil.rmtree(os.path.join(FOLDER, "addons"))
     os.remove(os.path.join(FOLDER, ".godot", "extension_list.cfg"))
-    nodes, messages = run_game("without")
-    check("without the add-on no node is lost", nodes == NODES, nodes)
+    output = run_game("without")
+    messages = godot_project.find_messages(output)
+    check("without the add-on no node is lost", find_nodes(output) == NODES, find_nodes(output))
     check("without the add-on only that is logged", all(MISSING.search(line) for line in messages), messages)
-    return addon_project.report(passed, failures)
+    return addon_project.report(passed, failures, skipped)
 
 
 if __name__ == "__main__":

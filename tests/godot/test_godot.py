@@ -78,8 +78,7 @@ def run():
     """(exit code, output)"""
     arguments = ["--test-case=*[GPU]*,*SpirvReflection*", "--test-case-exclude=" + ",".join(SKIPPED)]
     arguments += ["--subcase-exclude=geometry stage"] + sys.argv[1:]
-    command = ["--path", FOLDER, "--rendering-method", "forward_plus", "--rendering-driver", "vulkan"]
-    command += ["--audio-driver", "Dummy"]
+    command = ["--path", FOLDER] + godot_project.DEVICE_OPTIONS
     return godot_project.start_godot(command, {"GNOMON_TEST_ARGUMENTS": "\n".join(arguments)})
 
 

@@ -1,3 +1,4 @@
+@tool
 class_name GltfExport
 extends RefCounted
 ## Writes a scene as glTF that `gnomon` reads: Godot's own export, and in extras what glTF has no word for: lights' sizes, and

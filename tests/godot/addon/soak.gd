@@ -1,7 +1,6 @@
 extends Node
 ## 2,000 frames in which scenes, lights and casters come and go, techniques change and the window is resized. Prints
-## what Godot holds every 100 frames as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes
-## memory_kib".
+## what Godot holds every 100 frames.
 
 const FRAMES := 2000
 const TECHNIQUES: Array[String] = [
@@ -70,24 +69,4 @@ func _report(frame: int) -> void:
 	_scene = null
 	for settled in 4:
 		await RenderingServer.frame_post_draw
-	var device := RenderingServer.get_rendering_device()
-	print("SOAK %d %d %d %d %d %d %d %d" % [
-		frame,
-		Performance.get_monitor(Performance.OBJECT_COUNT),
-		Performance.get_monitor(Performance.OBJECT_NODE_COUNT),
-		Performance.get_monitor(Performance.OBJECT_RESOURCE_COUNT),
-		device.get_memory_usage(RenderingDevice.MEMORY_TEXTURES),
-		device.get_memory_usage(RenderingDevice.MEMORY_BUFFERS),
-		device.get_memory_usage(RenderingDevice.MEMORY_TOTAL),
-		_read_memory_kib(),
-	])
-
-
-## Of the process, from Linux.
-func _read_memory_kib() -> int:
-	var file := FileAccess.open("/proc/self/status", FileAccess.READ)
-	while not file.eof_reached():
-		var line := file.get_line()
-		if line.begins_with("VmRSS:"):
-			return int(line)
-	return 0
+	SoakReport.print_line(frame)

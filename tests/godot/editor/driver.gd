@@ -4,6 +4,7 @@ extends EditorPlugin
 
 const SCENE := "res://lamp.tscn"
 const SETTLED_FRAMES := 12
+const SCENE_LAYERS := 0xfffff
 
 var _light: OmniLight3D
 
@@ -25,6 +26,7 @@ func _run() -> void:
 	_report("ticking_the_box_adds_the_node", shadow != null and shadow.is_class("GnomonShadow3D") and shadow.owner == EditorInterface.get_edited_scene_root())
 	var ticked := await _look()
 	ticked.save_png("res://ticked.png")
+	await _store_view()
 	_report("the_viewport_shows_the_shadow", _count_darker(before, ticked) > 500)
 	await _drag_size()
 	_undo()
@@ -50,6 +52,16 @@ func _run() -> void:
 	await _draw(SETTLED_FRAMES)
 	_report("switching_it_on_brings_it_back", _count_darker(before, await _look()) > 500)
 	get_tree().quit()
+
+
+## What the viewport shows, without the editor's own things, which are in layers of their own.
+func _store_view() -> void:
+	var viewport := EditorInterface.get_editor_viewport_3d(0)
+	var camera := viewport.get_camera_3d()
+	var layers := camera.cull_mask
+	camera.cull_mask = SCENE_LAYERS
+	await LightImages.store("view", viewport, EditorInterface.get_edited_scene_root(), _light)
+	camera.cull_mask = layers
 
 
 func _draw(count: int) -> void:

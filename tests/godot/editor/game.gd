@@ -1,5 +1,6 @@
 extends Node
-## Shows the scene that the editor saved: prints its nodes, stores its image.
+## Shows the scene that the editor saved: prints its nodes, stores its image as NAME.png in the folder FOLDER, and for the
+## name "game" what LightImages does. Arguments: NAME FOLDER.
 
 
 func _ready() -> void:
@@ -10,5 +11,8 @@ func _ready() -> void:
 		print("NODE ", scene.get_path_to(node))
 	for frame in 10:
 		await RenderingServer.frame_post_draw
-	get_viewport().get_texture().get_image().save_png("res://%s.png" % OS.get_cmdline_user_args()[0])
+	var arguments := OS.get_cmdline_user_args()
+	get_viewport().get_texture().get_image().save_png(arguments[1].path_join(arguments[0] + ".png"))
+	if arguments[0] == "game":
+		await LightImages.store("game", get_viewport(), scene, scene.get_node("Light"))
 	get_tree().quit()

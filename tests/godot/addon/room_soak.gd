@@ -1,0 +1,17 @@
+extends Node
+## Frames of room/room.tscn, as a game draws them; the first argument says how many. Prints what Godot holds every 100.
+
+const LOOP_FRAMES := 200  # in which everything was seen once
+const STEP_S := 0.1
+
+
+func _ready() -> void:
+	var room: Room = load("res://room/room.tscn").instantiate()
+	room.is_moving = false
+	add_child(room)
+	for frame in int(OS.get_cmdline_user_args()[0]):
+		room.show_time(STEP_S * (frame % LOOP_FRAMES))
+		await RenderingServer.frame_post_draw
+		if frame % 100 == 99:
+			SoakReport.print_line(frame + 1)
+	get_tree().quit()

@@ -1,0 +1,27 @@
+class_name SoakReport
+extends RefCounted
+
+
+## Prints what Godot holds as "SOAK frame objects nodes resources textures_bytes buffers_bytes video_bytes memory_kib".
+static func print_line(frame: int) -> void:
+	var device := RenderingServer.get_rendering_device()
+	print("SOAK %d %d %d %d %d %d %d %d" % [
+		frame,
+		Performance.get_monitor(Performance.OBJECT_COUNT),
+		Performance.get_monitor(Performance.OBJECT_NODE_COUNT),
+		Performance.get_monitor(Performance.OBJECT_RESOURCE_COUNT),
+		device.get_memory_usage(RenderingDevice.MEMORY_TEXTURES),
+		device.get_memory_usage(RenderingDevice.MEMORY_BUFFERS),
+		device.get_memory_usage(RenderingDevice.MEMORY_TOTAL),
+		_read_memory_kib(),
+	])
+
+
+## Of the process, from Linux.
+static func _read_memory_kib() -> int:
+	var file := FileAccess.open("/proc/self/status", FileAccess.READ)
+	while not file.eof_reached():
+		var line := file.get_line()
+		if line.begins_with("VmRSS:"):
+			return int(line)
+	return 0

@@ -1,0 +1,50 @@
+@tool
+class_name LightImages
+extends RefCounted
+## What a comparison with the reference needs of a light with a GnomonShadow3D, of one view.
+
+const SETTLED_FRAMES := 12
+
+
+## Linear float32 images of the red channel, rows from the top: NAME_shadow.f32, NAME_lit.f32 without the shadow, NAME_dark.f32
+## without the light. NAME.gltf is the scene with a camera ViewCamera that sees what the view does.
+static func store(name: String, viewport: Viewport, scene: Node, light: Light3D) -> void:
+	var shadow: Node3D = light.get_node("GnomonShadow3D")
+	viewport.use_hdr_2d = true
+	await _store_image(name + "_shadow", viewport)
+	shadow.visible = false
+	await _store_image(name + "_lit", viewport)
+	light.visible = false
+	await _store_image(name + "_dark", viewport)
+	light.visible = true
+	shadow.visible = true
+	viewport.use_hdr_2d = false
+	await _settle(viewport)
+	var copy := scene.duplicate(0)  # with what is not saved yet
+	var seen := viewport.get_camera_3d()
+	var camera := Camera3D.new()
+	camera.name = "ViewCamera"
+	camera.fov = seen.fov
+	camera.near = seen.near
+	camera.far = seen.far
+	camera.transform = seen.global_transform
+	viewport.add_child(copy)
+	copy.add_child(camera)
+	for node in copy.find_children("*", "", true, false):
+		node.owner = copy  # the editor exports no others
+	print("SIZE %s %d %d" % [name, viewport.size.x, viewport.size.y])
+	GltfExport.save(copy, "res://%s.gltf" % name)
+	copy.free()
+
+
+## The editor draws only where something changes: its frames are those of the tree.
+static func _settle(viewport: Viewport) -> void:
+	for frame in SETTLED_FRAMES:
+		await viewport.get_tree().process_frame
+
+
+static func _store_image(name: String, viewport: Viewport) -> void:
+	await _settle(viewport)
+	var image := viewport.get_texture().get_image()
+	image.convert(Image.FORMAT_RF)
+	FileAccess.open("res://%s.f32" % name, FileAccess.WRITE).store_buffer(image.get_data())
