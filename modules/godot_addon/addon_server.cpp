@@ -50,7 +50,6 @@ AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
 		return;
 	}
 	is_editor = godot::Engine(godot::find_singleton("Engine")).is_editor_hint();
-	settings = read_addon_settings();
 	on_frame = godot::Callable([this](auto) {
 		try {
 			before_draw();
@@ -125,9 +124,8 @@ std::map<godot::RID, std::vector<ShadowNode *>> AddonServer::find_worlds(godot::
 void AddonServer::update_worlds() {
 	godot::SceneTree tree;
 	std::map<godot::RID, std::vector<ShadowNode *>> worlds;
-	if (is_editor) {
-		settings = read_addon_settings();
-	}
+	settings = read_addon_settings();
+	set_default_technique(settings.default_technique);
 	if (settings.is_enabled) {
 		worlds = find_worlds(tree);
 	}
@@ -150,6 +148,7 @@ void AddonServer::update_worlds() {
 		}
 		world.frame->receiver_lights =
 				stand_ins.update(scenario, choose_stand_ins(world, has_failed), other_speculars);
+		world.frame->mask_scale = settings.mask_resolution_scale;
 		for (const ViewDetail &view : world.frame->views) {
 			size_px = glm::max(size_px, view.size_px);
 		}

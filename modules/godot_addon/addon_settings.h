@@ -1,14 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 namespace gnomon {
 
-/// What the project's settings below rendering/gnomon say; defaults where it has none. In the
-/// editor they are read again each frame, in the game once.
+/// What the project's settings below rendering/gnomon say; defaults where it has none. A game
+/// may change them while it runs.
 struct AddonSettings {
-	bool is_enabled = true;	 // false: all lights are Godot's
-	size_t most_lights = 16; // with masks, of each world
+	bool is_enabled = true;			 // false: all lights are Godot's
+	size_t most_lights = 16;		 // with masks, of each world
+	std::string default_technique;	 // of nodes whose technique is DEFAULT_TECHNIQUE
+	float mask_resolution_scale = 1; // pixels of a mask to those of the view, along each side
 };
 AddonSettings read_addon_settings();
 

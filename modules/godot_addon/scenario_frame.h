@@ -36,6 +36,7 @@ struct ScenarioFrame {
 	std::vector<InstanceDetail> details;
 	std::vector<ViewDetail> views;
 	std::vector<ReceiverLight> receiver_lights;
+	float mask_scale = 1;				// pixels of a mask to those of the view, along each side
 	std::set<std::string> shown_lights; // whose masks are drawn over the image
 	std::vector<std::shared_ptr<MaskRequest>> requests;
 };

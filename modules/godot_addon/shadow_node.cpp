@@ -12,17 +12,17 @@ const PropertyInfo &get_info(size_t p_property) {
 	return get_shadow_properties()[p_property].info;
 }
 
-const PropertyInfo &find_info(std::string_view p_name) {
-	for (const ShadowProperty &property : get_shadow_properties()) {
-		if (property.info.name == p_name) {
-			return property.info;
-		}
-	}
-	GNOMON_ASSERT(false, "no property ", p_name);
-	return get_info(0);
+std::string &get_default_technique() {
+	static std::string technique =
+			std::get<std::string>(get_default_technique_setting().default_value);
+	return technique;
 }
 
 } // namespace
+
+void set_default_technique(const std::string &p_technique) {
+	get_default_technique() = p_technique;
+}
 
 std::string ShadowNode::get_path() const {
 	return node.is_inside_tree() ? node.get_path().to_utf8() : "outside of the scene tree";
@@ -34,8 +34,7 @@ godot::Light3D ShadowNode::find_light() const {
 
 const std::string &ShadowNode::get_technique() const {
 	const auto found = values.find(TECHNIQUE_PROPERTY);
-	return std::get<std::string>(
-			found != values.end() ? found->second : find_info(TECHNIQUE_PROPERTY).default_value);
+	return found != values.end() ? std::get<std::string>(found->second) : get_default_technique();
 }
 
 bool ShadowNode::shows_mask() const {

@@ -38,6 +38,7 @@ public:
 	/// Of the node, unique in the tree; for messages too.
 	std::string get_path() const;
 
+	/// The project's where the node has the default one.
 	const std::string &get_technique() const;
 	bool shows_mask() const;
 	PropertyValue get_value(size_t p_property) const;
@@ -68,6 +69,9 @@ private:
 	std::vector<godot::Variant> callbacks;
 	std::shared_ptr<MaskRequest> request;
 };
+
+/// Of nodes with DEFAULT_TECHNIQUE. Main thread only.
+void set_default_technique(const std::string &p_technique);
 
 /// Registers the class GnomonShadow3D, or removes it.
 void register_shadow_node_class();

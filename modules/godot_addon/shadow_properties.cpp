@@ -19,9 +19,9 @@ std::vector<const ShadowTechniqueInfo *> find_offered() {
 	return found;
 }
 
-PropertyInfo make_technique_property() {
+PropertyInfo make_default_technique_setting() {
 	PropertyInfo info;
-	info.name = TECHNIQUE_PROPERTY;
+	info.name = "rendering/gnomon/default_technique";
 	info.type = PropertyType::ENUM;
 	for (const ShadowTechniqueInfo *offered : find_offered()) {
 		info.hint += (info.hint.empty() ? "" : ",") + offered->id;
@@ -30,6 +30,19 @@ PropertyInfo make_technique_property() {
 	}
 	const ShadowTechniqueInfo *first = ShadowRegistry::find_default();
 	info.default_value = first ? first->id : std::string();
+	return info;
+}
+
+PropertyInfo make_technique_property() {
+	const PropertyInfo &setting = get_default_technique_setting();
+	PropertyInfo info = setting;
+	info.name = TECHNIQUE_PROPERTY;
+	info.hint = text(DEFAULT_TECHNIQUE, ",", setting.hint);
+	info.choice_tooltips = { text("the one that the project setting ", setting.name, " names.") };
+	for (const std::string &tooltip : setting.choice_tooltips) {
+		info.choice_tooltips.push_back(tooltip);
+	}
+	info.default_value = std::string(DEFAULT_TECHNIQUE);
 	info.tooltip = "How the shadow is computed.";
 	return info;
 }
@@ -108,6 +121,11 @@ std::vector<ShadowProperty> make_properties() {
 }
 
 } // namespace
+
+const PropertyInfo &get_default_technique_setting() {
+	static const PropertyInfo info = make_default_technique_setting();
+	return info;
+}
 
 const std::vector<ShadowProperty> &get_shadow_properties() {
 	static const std::vector<ShadowProperty> properties = make_properties();

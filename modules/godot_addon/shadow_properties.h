@@ -17,6 +17,12 @@ struct ShadowProperty {
 inline constexpr char TECHNIQUE_PROPERTY[] = "technique";
 inline constexpr char SHOW_MASK_PROPERTY[] = "show_mask";
 
+/// The technique that the project names, its own or edge_count.
+inline constexpr char DEFAULT_TECHNIQUE[] = "default";
+
+/// The project setting with that technique.
+const PropertyInfo &get_default_technique_setting();
+
 /// All properties, those of all techniques that Godot's users are offered included; in the order
 /// in which they are shown. The techniques must be registered.
 const std::vector<ShadowProperty> &get_shadow_properties();

@@ -1,6 +1,7 @@
 #include "modules/godot_addon/view_shadows.h"
 
 #include "modules/core/error.h"
+#include "modules/godot_addon/scaled_masks.h"
 #include "modules/render_graph/compute_pass.h"
 #include "modules/shadows/mask.h"
 #include "modules/shadows/shadow_frame.h"
@@ -65,31 +66,35 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	scene->camera = p_view.camera;
 	RenderGraph graph(device, transients);
 	FramePlan plan;
-	ShadowFrame frame(shadows, graph, plan, scene, p_view.size_px);
-	HostSurfaces surfaces;
 	// Godot's own format differs; shaders read the same number from each.
 	const RGTexture drawn_depth =
 			graph.import_texture(depth.get(device, p_view.depth,
 										 { "depth of Godot", Format::D32_SFLOAT, p_view.size_px, 1,
 												 TextureUsage::SAMPLED }),
 					RenderGraph::ImportedContent::KEPT);
-	surfaces.depth = add_view_depth(graph, shadows.get_meshes(), p_view, drawn_depth,
+	const RGTexture full_depth = add_view_depth(graph, shadows.get_meshes(), p_view, drawn_depth,
 			std::make_shared<const ReducedInstances>(
 					find_reduced_instances(p_frame, *scene, p_view)));
+	ScaledMasks scaled(graph, device, full_depth, p_frame.mask_scale, count);
+	ShadowFrame frame(shadows, graph, plan, scene, scaled.get_size_px());
+	HostSurfaces surfaces;
+	surfaces.depth = scaled.get_depth();
 	frame.set_surfaces(surfaces);
 	const RGTexture held =
 			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::NONE);
+	const RGTexture target = scaled.create_target(held);
 	std::map<std::string, MaskReadback> reads;
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		const LightSnapshot &light = scene->lights[layer];
 		const LightShadow shadow = frame.add_light(light);
-		frame.hold(shadow, held, layer, NO_RECEIVER);
+		frame.hold(shadow, target, layer, NO_RECEIVER);
 		for (const std::shared_ptr<MaskRequest> &request : p_frame.requests) {
 			if (request->light == light.name) {
 				reads[light.name].add(graph, shadow.mask, shadow.receivers);
 			}
 		}
 	}
+	scaled.write(held);
 	graph.execute(reads.empty() ? RenderGraph::Mode::QUEUE : RenderGraph::Mode::WAIT);
 	frame.end();
 	receivers.write_lights(p_view, p_frame.receiver_lights);
@@ -102,7 +107,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			continue;
 		}
 		const MaskValues values = read->second.get_values();
-		ReadMask mask = { p_view.size_px, values.visibility, p_view.camera_transform };
+		ReadMask mask = { scaled.get_size_px(), values.visibility, p_view.camera_transform };
 		for (size_t pixel = 0; pixel < mask.visibility.size(); ++pixel) {
 			mask.visibility[pixel] = values.receiver[pixel] > 0 ? mask.visibility[pixel] : -1.0f;
 		}

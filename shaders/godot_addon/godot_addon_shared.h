@@ -13,6 +13,12 @@
 #define MERGE_BINDING_FULL 2
 #define SHOW_BINDING_MASKS 0
 
+// Bindings of scale_depth.frag and scale_masks.comp.
+#define SCALE_BINDING_FULL_DEPTH 0
+#define SCALE_BINDING_DEPTH 1
+#define SCALE_BINDING_MASKS 2
+#define SCALE_BINDING_RESULT 3
+
 /// Push constants of convert_depth.frag.
 struct SHARED_ALIGN ConvertDepthPush {
 	float offset; // P[2][2] of Godot's projection P, whose depth d is P[3][2] / z - P[2][2]
@@ -30,6 +36,13 @@ struct SHARED_ALIGN MergeDepthPush {
 	float padding1;
 };
 SHARED_SIZE(MergeDepthPush, 16);
+
+/// Push constants of scale_depth.frag and scale_masks.comp.
+struct SHARED_ALIGN ScalePush {
+	vec2 ratio; // pixels of the other image to one of what is written
+	vec2 padding;
+};
+SHARED_SIZE(ScalePush, 16);
 
 /// Push constants of show_mask.frag.
 struct SHARED_ALIGN ShowMaskPush {

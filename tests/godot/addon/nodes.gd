@@ -23,7 +23,7 @@ func test_the_node_works_only_below_a_light() -> void:
 
 func test_properties_follow_the_technique() -> void:
 	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
-	check(shadow.technique == "edge_count", "edge_count is the default")
+	check(shadow.technique == "default", "the project's technique is the default")
 	var shown := _list_shown(shadow)
 	check("penumbra_outer_width" in shown and "penumbra_inner_width" in shown, "widths are shown")
 	check(not shown.any(func(property: String) -> bool: return property.begins_with("pcss_")), "of PCSS none is shown")
@@ -47,7 +47,7 @@ func _list_shown(shadow: Node3D) -> Array[String]:
 func test_values_out_of_range_are_refused() -> void:
 	var shadow: Node3D = ClassDB.instantiate("GnomonShadow3D")
 	shadow.technique = "no such technique"
-	check(shadow.technique == "edge_count", "the technique stays")
+	check(shadow.technique == "default", "the technique stays")
 	shadow.penumbra_outer_width = -5.0
 	check(shadow.penumbra_outer_width == -1.0, "the width stays")
 	shadow.penumbra_outer_width = NAN

@@ -7,6 +7,8 @@ const ENABLED := "rendering/gnomon/enabled"
 const SETTINGS: Array[Dictionary] = [
 	{"name": ENABLED, "type": TYPE_BOOL, "value": true},
 	{"name": "rendering/gnomon/most_lights", "type": TYPE_INT, "value": 16, "hint": PROPERTY_HINT_RANGE, "hint_string": "1,63"},
+	{"name": "rendering/gnomon/default_technique", "type": TYPE_STRING, "value": "edge_count", "hint": PROPERTY_HINT_ENUM},
+	{"name": "rendering/gnomon/mask_resolution_scale", "type": TYPE_FLOAT, "value": 1.0, "hint": PROPERTY_HINT_RANGE, "hint_string": "0.25,1,0.01"},
 ]
 
 var _inspector: EditorInspectorPlugin
@@ -17,7 +19,9 @@ func _enter_tree() -> void:
 	if not ClassDB.class_exists("GnomonShadow3D"):
 		push_error("Gnomon: its library did not load. It is built for Linux on x86_64 and Godot 4.5 or later; see the messages above, and restart the editor after copying the add-on.")
 		return
-	for setting in SETTINGS:
+	for setting: Dictionary in SETTINGS.duplicate(true):
+		if setting.name.ends_with("default_technique"):
+			setting["hint_string"] = _list_techniques()
 		if not ProjectSettings.has_setting(setting.name):
 			ProjectSettings.set_setting(setting.name, setting.value)
 		ProjectSettings.set_initial_value(setting.name, setting.value)
@@ -31,6 +35,13 @@ func _enter_tree() -> void:
 	_make_gizmos.call_deferred()
 	EditorInterface.get_inspector().property_edited.connect(_on_property_edited)
 	get_undo_redo().version_changed.connect(_update_gizmos)
+
+
+func _list_techniques() -> String:
+	for property in ClassDB.class_get_property_list("GnomonShadow3D", true):
+		if property.name == "technique":
+			return property.hint_string.trim_prefix("default,")
+	return ""
 
 
 func _exit_tree() -> void:

@@ -1,0 +1,24 @@
+// Surfaces in an image of near / z, which is linear over planes.
+
+// Along one axis the smaller of the two differences: the larger one may lead to another surface.
+float find_smaller_step(float before, float here, float behind) {
+	const float back = here - before;
+	const float ahead = behind - here;
+	return before <= 0.0 || (behind > 0.0 && abs(ahead) < abs(back)) ? ahead : back;
+}
+
+float fetch_inside(texture2D depth_texture, ivec2 pixel) {
+	const ivec2 size = textureSize(depth_texture, 0);
+	return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size)) ? 0.0 : texelFetch(depth_texture, pixel, 0).r;
+}
+
+// How near / z changes from pixel to pixel on the surface at a pixel, along x and y.
+vec2 find_slope(texture2D depth_texture, ivec2 pixel) {
+	const float here = texelFetch(depth_texture, pixel, 0).r;
+	const float left = fetch_inside(depth_texture, pixel - ivec2(1, 0));
+	const float right = fetch_inside(depth_texture, pixel + ivec2(1, 0));
+	const float above = fetch_inside(depth_texture, pixel - ivec2(0, 1));
+	const float below = fetch_inside(depth_texture, pixel + ivec2(0, 1));
+	return vec2(left > 0.0 || right > 0.0 ? find_smaller_step(left, here, right) : 0.0,
+			above > 0.0 || below > 0.0 ? find_smaller_step(above, here, below) : 0.0);
+}

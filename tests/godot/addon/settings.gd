@@ -1,0 +1,50 @@
+extends AddonTest
+## Project settings below rendering/gnomon, which a game may change while it runs.
+
+const TECHNIQUE := "rendering/gnomon/default_technique"
+const SCALE := "rendering/gnomon/mask_resolution_scale"
+
+
+func test_the_project_names_the_technique_of_nodes_that_name_none() -> void:
+	var scene := add_study()
+	var exact := await read_settled(scene)
+	scene.shadow.technique = "pcss"
+	var searched := await read_settled(scene)
+	check(count_different(exact, searched, 0.02) > 100, "pcss differs")
+	scene.shadow.technique = "default"
+	ProjectSettings.set_setting(TECHNIQUE, "pcss")
+	check(count_different(await read_settled(scene), searched) == 0, "the project's technique")
+	scene.shadow.technique = "edge_count"
+	check(count_different(await read_settled(scene), exact) == 0, "the node's own technique")
+	scene.shadow.technique = "default"
+	ProjectSettings.set_setting(TECHNIQUE, "nothing")
+	check(count_different(await read_settled(scene), exact) == 0, "edge_count for one that does not exist")
+	ProjectSettings.set_setting(TECHNIQUE, null)
+	remove(scene)
+
+
+func test_masks_of_fewer_pixels_shadow_the_same_image() -> void:
+	var scene := add_study("spot", "torus")
+	get_viewport().use_hdr_2d = true
+	var full := await _draw()
+	scene.shadow.visible = false
+	scene.light.shadow_enabled = false
+	var lit := await _draw()
+	scene.shadow.visible = true
+	ProjectSettings.set_setting(SCALE, 0.5)
+	var half := await _draw()
+	check((await read(scene)).get_size() == (full.get_size() + Vector2i.ONE) / 2, "the mask has half the size")
+	ProjectSettings.set_setting(SCALE, null)
+	check((await _draw()).get_data() == full.get_data(), "the full masks are back")
+	get_viewport().use_hdr_2d = false
+	var shadowed := count_different(full, lit, 0.1)
+	check(shadowed > 1000, "there is a shadow")
+	check(count_different(half, full, 0.1) < 0.02 * shadowed, "%d pixels differ, %d of their shadow" % [count_different(half, full, 0.1), shadowed])
+	remove(scene)
+
+
+func _draw() -> Image:
+	await draw_frames(3)
+	var image := get_viewport().get_texture().get_image()
+	image.convert(Image.FORMAT_RF)
+	return image
