@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the engine's tests in several processes at once, each a slice of them in a shuffled order.
+"""Runs the engine's tests in several processes at once, each a slice of them in a shuffled order. There are more slices than
+processes, so that none waits long for the last one.
 
     run_engine.py PROGRAM [--processes N] [-- TEST_OPTION...]
 
@@ -13,7 +14,9 @@ import re
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 
+SLICES_PER_PROCESS = 6
 COUNT = re.compile(r"passing the current filters: (\d+)")
 SUMMARY = re.compile(r"(?m)^(\d+) passed, (\d+) failed, (\d+) skipped$")
 ORDER = ("--order-by=rand", "--rand-seed=1")
@@ -31,6 +34,15 @@ def split(count, parts):
     """First and last test of each part, from 1; parts without tests are left out."""
     bounds = [count * part // parts for part in range(parts + 1)]
     return [(low + 1, high) for low, high in zip(bounds, bounds[1:]) if high > low]
+
+
+def run_slice(arguments, first, last):
+    """(exit code, output)"""
+    command = [arguments.program, *ORDER, "--first=%d" % first, "--last=%d" % last, *arguments.options]
+    with tempfile.TemporaryFile("w+", errors="replace") as log:
+        code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
+        log.seek(0)
+        return code, log.read()
 
 
 def add_up(outputs):
@@ -54,20 +66,13 @@ def main():
     arguments = parser.parse_args()
     if arguments.processes < 1:
         parser.error("--processes is %d, must be at least 1" % arguments.processes)
-    running = []
-    for first, last in split(count_tests(arguments.program, arguments.options), arguments.processes):
-        command = [arguments.program, *ORDER, "--first=%d" % first, "--last=%d" % last, *arguments.options]
-        log = tempfile.TemporaryFile("w+", errors="replace")
-        running.append((subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT), log))
+    slices = split(count_tests(arguments.program, arguments.options), SLICES_PER_PROCESS * arguments.processes)
     outputs = []
-    for process, log in running:
-        code = process.wait()
-        log.seek(0)
-        output = log.read()
-        log.close()
-        # The sum alone is to be read as the summary.
-        print(SUMMARY.sub(r"slice: \g<0>", output), flush=True)
-        outputs.append((code, output))
+    with ThreadPoolExecutor(arguments.processes) as pool:
+        for code, output in pool.map(lambda bounds: run_slice(arguments, *bounds), slices):
+            # The sum alone is to be read as the summary.
+            print(SUMMARY.sub(r"slice: \g<0>", output), flush=True)
+            outputs.append((code, output))
     passed, failed, skipped = add_up(outputs)
     print("%d passed, %d failed, %d skipped" % (passed, failed, skipped))
     return 1 if failed else 0
