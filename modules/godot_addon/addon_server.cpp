@@ -26,18 +26,6 @@ std::string find_refusal(const godot::RenderingServer &p_server) {
 	return {};
 }
 
-bool reaches_godot_receiver(
-		const godot::Light3D &p_light, const std::vector<GodotReceiver> &p_receivers) {
-	const bool is_everywhere = bool(godot::cast<godot::DirectionalLight3D>(p_light));
-	const glm::dvec3 position(p_light.get_global_transform().to_matrix()[3]);
-	const double range_m = p_light.get_param(godot::Light3D::PARAM_RANGE);
-	const int64_t mask = p_light.get_cull_mask();
-	return std::any_of(p_receivers.begin(), p_receivers.end(), [&](const GodotReceiver &receiver) {
-		return (mask & int64_t(receiver.layers)) != 0 &&
-				(is_everywhere || receiver.bounds_world.compute_distance(position) <= range_m);
-	});
-}
-
 } // namespace
 
 AddonServer::AddonServer() : server(godot::find_singleton("RenderingServer")) {
@@ -186,14 +174,14 @@ void AddonServer::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
 std::vector<WantedStandIn> AddonServer::choose_stand_ins(
 		const ReadWorld &p_world, bool p_has_failed) const {
 	std::vector<WantedStandIn> wanted;
-	if (!p_world.reads_masks) {
+	if (p_world.receivers.masked.empty()) {
 		return wanted;
 	}
 	const bool needs_all = p_has_failed || p_world.has_godot_readers;
 	for (size_t index = 0; index < p_world.masked_lights.size(); ++index) {
 		const godot::Light3D &light = p_world.masked_lights[index];
 		wanted.push_back({ light, static_cast<int32_t>(index),
-				needs_all || reaches_godot_receiver(light, p_world.godot_receivers) });
+				needs_all || reaches(light, p_world.receivers.others) });
 	}
 	for (const godot::Light3D &light : p_world.other_lights) {
 		if (!godot::cast<godot::DirectionalLight3D>(light) &&

@@ -63,13 +63,13 @@ bool needs_godot_shadows(const godot::SceneTree &p_tree, godot::RID p_scenario) 
 
 } // namespace
 
-void SceneReader::warn_once(const Body &p_body, const std::string &p_warning) {
+void SceneReader::warn_once(const SceneBody &p_body, const std::string &p_warning) {
 	if (warned.insert({ godot::get_instance_id(p_body.node.get_owner()), p_warning }).second) {
 		log_warning("\"", p_body.node.get_path().to_utf8(), "\" ", p_warning);
 	}
 }
 
-void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
+void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene) {
 	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
 	const auto mesh_instance = godot::cast<godot::MeshInstance3D>(p_body.node);
@@ -93,7 +93,7 @@ void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 				make_instance(surface.mesh, nullptr, p_world_from_mesh, p_body.name);
 		instance.layers = p_body.layers;
 		instance.casts_shadow = p_body.casts_shadow && kind != ShadowKind::NONE;
-		read_receiver(p_body, material, p_mesh, surface.index, instance.bounds_world);
+		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world);
 		if (instance.casts_shadow && kind == ShadowKind::CUT_OUT) {
 			warn_once(p_body, "is cut out by alpha, and casts the shadow of its whole surface.");
 		}
@@ -108,59 +108,6 @@ void SceneReader::read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
 	}
 }
 
-void SceneReader::read_receiver(const Body &p_body, const godot::Material &p_material,
-		const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world) {
-	if (!p_body.is_drawn) {
-		return;
-	}
-	note_receiver(p_body,
-			p_material ? receivers.use(p_material, p_body.node)
-					   : receivers.use_bare(p_mesh, p_surface),
-			p_bounds_world);
-	const auto geometry = godot::cast<GeometryInstance3D>(p_body.node);
-	if (const godot::Ref<godot::Material> overlay =
-					geometry ? geometry.get_material_overlay() : godot::Ref<godot::Material>()) {
-		note_receiver(p_body, receivers.use(overlay, p_body.node), p_bounds_world);
-	}
-}
-
-void SceneReader::read_mesh_receivers(
-		const Body &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world) {
-	const godot::Ref<godot::Material> over =
-			godot::cast<GeometryInstance3D>(p_body.node).get_material_override();
-	for (int64_t index = 0; p_mesh && index < p_mesh.get_surface_count(); ++index) {
-		const godot::Ref<godot::Material> own = p_mesh.surface_get_material(index);
-		read_receiver(p_body, over ? over : own, p_mesh, index, p_bounds_world);
-	}
-}
-
-void SceneReader::read_other_receiver(const Body &p_body, const Bounds &p_bounds_world) {
-	if (const auto particles = godot::cast<godot::GPUParticles3D>(p_body.node)) {
-		for (int64_t pass = 0; pass < particles.get_draw_passes(); ++pass) {
-			const godot::Ref<godot::Mesh> mesh = particles.get_draw_pass_mesh(pass);
-			read_mesh_receivers(p_body, mesh, p_bounds_world);
-		}
-	} else if (const auto slow_particles = godot::cast<godot::CPUParticles3D>(p_body.node)) {
-		const godot::Ref<godot::Mesh> mesh = slow_particles.get_mesh();
-		read_mesh_receivers(p_body, mesh, p_bounds_world);
-	} else {
-		const auto sprite = godot::cast<godot::SpriteBase3D>(p_body.node);
-		const auto label = godot::cast<godot::Label3D>(p_body.node);
-		const bool is_unlit = (sprite && !sprite.get_draw_flag(godot::SpriteBase3D::FLAG_SHADED)) ||
-				(label && !label.get_draw_flag(godot::Label3D::FLAG_SHADED));
-		note_receiver(p_body, is_unlit ? ReceiverKind::UNLIT : ReceiverKind::GODOT, p_bounds_world);
-	}
-}
-
-void SceneReader::note_receiver(
-		const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world) {
-	if (p_kind == ReceiverKind::GODOT) {
-		world.godot_receivers.push_back({ p_bounds_world, p_body.layers });
-	} else if (p_kind != ReceiverKind::UNLIT) {
-		world.reads_masks = true;
-	}
-}
-
 void SceneReader::read_light_node(const godot::Light3D &p_light) {
 	const bool is_listed = std::any_of(world.other_lights.begin(), world.other_lights.end(),
 			[&](const godot::Light3D &p_listed) {
@@ -171,7 +118,8 @@ void SceneReader::read_light_node(const godot::Light3D &p_light) {
 	}
 }
 
-void SceneReader::finish_details(const Body &p_body, size_t p_first, const SceneSnapshot &p_scene) {
+void SceneReader::finish_details(
+		const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene) {
 	if (p_first == details.size()) {
 		return;
 	}
@@ -179,7 +127,7 @@ void SceneReader::finish_details(const Body &p_body, size_t p_first, const Scene
 	for (size_t index = p_first; index < details.size(); ++index) {
 		bounds_world.add(p_scene.instances[details[index].instance].bounds_world);
 	}
-	const glm::dmat3 axes(p_body.node.get_global_transform().to_matrix());
+	const glm::dmat3 axes(get_drawn_transform(p_body.node).to_matrix());
 	const double scale =
 			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
 	for (size_t index = p_first; index < details.size(); ++index) {
@@ -189,8 +137,8 @@ void SceneReader::finish_details(const Body &p_body, size_t p_first, const Scene
 }
 
 void SceneReader::read_mesh_list(
-		const Body &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene) {
-	const glm::dmat4 world_from_node = p_body.node.get_global_transform().to_matrix();
+		const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene) {
+	const glm::dmat4 world_from_node = get_drawn_transform(p_body.node).to_matrix();
 	for (int64_t index = 0; index + 1 < p_meshes.get_size(); index += 2) {
 		const godot::Mesh mesh = godot::cast<godot::Mesh>(
 				godot::ObjectHandle(p_meshes.get_value(index + 1).to_object()));
@@ -203,7 +151,7 @@ void SceneReader::read_mesh_list(
 }
 
 void SceneReader::read_multi_mesh(
-		const Body &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene) {
+		const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene) {
 	const godot::Ref<godot::Mesh> mesh = p_multi_mesh.get_mesh();
 	const int64_t visible_count = p_multi_mesh.get_visible_instance_count();
 	const int64_t instance_count = p_multi_mesh.get_instance_count();
@@ -218,7 +166,7 @@ void SceneReader::read_multi_mesh(
 	const bool is_3d = p_multi_mesh.get_transform_format() == godot::MultiMesh::TRANSFORM_3D;
 	const size_t stride = (is_3d ? 12 : 8) + (p_multi_mesh.is_using_colors() ? COLOR_FLOATS : 0) +
 			(p_multi_mesh.is_using_custom_data() ? COLOR_FLOATS : 0);
-	const glm::dmat4 world_from_node = p_body.node.get_global_transform().to_matrix();
+	const glm::dmat4 world_from_node = get_drawn_transform(p_body.node).to_matrix();
 	for (size_t index = 0; index < count && (index + 1) * stride <= buffer.get_values().size();
 			++index) {
 		const std::span<const float> floats = buffer.get_values().subspan(index * stride, stride);
@@ -226,8 +174,8 @@ void SceneReader::read_multi_mesh(
 	}
 }
 
-void SceneReader::read_unknown(
-		const Body &p_body, const godot::VisualInstance3D &p_instance, SceneSnapshot &r_scene) {
+void SceneReader::read_unknown(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
+		SceneSnapshot &r_scene) {
 	static const std::shared_ptr<const Mesh> box = make_box_mesh("box", glm::vec3(0.5f));
 	const godot::AABB bounds = p_instance.get_aabb();
 	if (glm::any(glm::lessThanEqual(bounds.size, glm::vec3(0.0f)))) {
@@ -237,15 +185,15 @@ void SceneReader::read_unknown(
 			glm::translate(glm::dmat4(1.0), glm::dvec3(bounds.position + 0.5f * bounds.size));
 	node_from_box = glm::scale(node_from_box, glm::dvec3(bounds.size));
 	InstanceSnapshot instance = make_instance(box, nullptr,
-			p_body.node.get_global_transform().to_matrix() * node_from_box, p_body.name);
+			get_drawn_transform(p_body.node).to_matrix() * node_from_box, p_body.name);
 	instance.casts_shadow = false;
-	read_other_receiver(p_body, instance.bounds_world);
+	receivers.read_other(p_body, instance.bounds_world);
 	r_scene.instances.push_back(std::move(instance));
 }
 
 void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 	const godot::ObjectHandle object(godot::get_instance(p_id));
-	Body body;
+	SceneBody body;
 	body.node = godot::cast<godot::Node3D>(object);
 	if (const auto light = godot::cast<godot::Light3D>(object)) {
 		read_light_node(light);
@@ -283,7 +231,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 					"is animated by bones or blend shapes, and casts the shadow of its "
 					"rest pose.");
 		}
-		read_mesh(body, mesh, body.node.get_global_transform().to_matrix(), r_scene);
+		read_mesh(body, mesh, get_drawn_transform(body.node).to_matrix(), r_scene);
 	} else if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(object)) {
 		if (const godot::Ref<godot::MultiMesh> multi_mesh = multi.get_multimesh()) {
 			read_multi_mesh(body, multi_mesh, r_scene);
@@ -310,7 +258,7 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 LightSnapshot SceneReader::read_light(const ShadowNode &p_node, double p_scene_size_m) {
 	using godot::Light3D;
 	const Light3D node = p_node.find_light();
-	const glm::dmat4 world_from_light = node.get_global_transform().to_matrix();
+	const glm::dmat4 world_from_light = get_drawn_transform(node).to_matrix();
 	LightSnapshot light;
 	light.name = p_node.get_path();
 	light.type = godot::cast<godot::OmniLight3D>(node) ? LightType::OMNI
@@ -357,7 +305,14 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 	}
 	scene->scene_size_m =
 			std::max(SMALLEST_SCENE_SIZE_M, scene->compute_caster_bounds().get_diagonal());
+	world.receivers = receivers.take();
 	for (ShadowNode *node : p_nodes) {
+		node->pending_caster_count = pending_count;
+		node->makes_mask = node->shows_mask() || node->get_request() ||
+				reaches(node->find_light(), world.receivers.masked);
+		if (!node->makes_mask) {
+			continue;
+		}
 		try {
 			scene->lights.push_back(read_light(*node, scene->scene_size_m));
 		} catch (const Error &error) {
@@ -365,10 +320,10 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 			if (warned.insert({ id, error.what() }).second) {
 				log_warning(error.what(), " It has no shadow of Gnomon until then.");
 			}
+			node->makes_mask = false;
 			continue;
 		}
 		world.masked_lights.push_back(node->find_light());
-		node->pending_caster_count = pending_count;
 		if (node->shows_mask()) {
 			frame->shown_lights.insert(scene->lights.back().name);
 		}

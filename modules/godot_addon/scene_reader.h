@@ -2,7 +2,7 @@
 
 #include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
-#include "modules/godot_addon/receiver_materials.h"
+#include "modules/godot_addon/receiver_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
 
@@ -10,26 +10,19 @@
 
 namespace gnomon {
 
-/// A surface that stays in Godot's light and shadow.
-struct GodotReceiver {
-	Bounds bounds_world;
-	uint32_t layers = 1;
-};
-
 /// A world of the RenderingServer as it is in a frame.
 struct ReadWorld {
 	std::shared_ptr<ScenarioFrame> frame;
 	std::vector<godot::Light3D> masked_lights; // those of frame->scene, in its order
 	std::vector<godot::Light3D> other_lights;
-	bool reads_masks = false; // some surface does
-	std::vector<GodotReceiver> godot_receivers;
+	WorldReceivers receivers;
 	bool has_godot_readers = false; // others of Godot's shadows, such as fog
 };
 
 /// Reads the casters and lights of Godot's scenes. Main thread only.
 class SceneReader {
 public:
-	explicit SceneReader(ReceiverMaterials &p_receivers) : receivers(p_receivers) {}
+	explicit SceneReader(ReceiverMaterials &r_materials) : receivers(r_materials) {}
 	/// p_scenario: a world of the RenderingServer. p_nodes: of the lights in it that are visible.
 	/// What cannot be read is skipped, with one warning that names the node.
 	/// p_hidden_lights: whose own light the RenderingServer does not show.
@@ -40,41 +33,24 @@ public:
 	void end_frame();
 
 private:
-	/// What all surfaces of a node share.
-	struct Body {
-		godot::Node3D node;
-		std::string name;
-		uint32_t layers = 1;
-		bool casts_shadow = true;
-		bool is_drawn = true;  // besides its shadow
-		float detail_bias = 1; // lod_bias
-	};
 	void read_node(uint64_t p_id, SceneSnapshot &r_scene);
 	/// Of the body that details from p_first on belong to: Godot chooses one level for all of it.
-	void finish_details(const Body &p_body, size_t p_first, const SceneSnapshot &p_scene);
-	void read_mesh(const Body &p_body, const godot::Mesh &p_mesh,
+	void finish_details(const SceneBody &p_body, size_t p_first, const SceneSnapshot &p_scene);
+	void read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 			const glm::dmat4 &p_world_from_mesh, SceneSnapshot &r_scene);
 	/// Pairs of a transform and a mesh, as GridMap and CSGShape3D have them.
-	void read_mesh_list(const Body &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
+	void read_mesh_list(
+			const SceneBody &p_body, const godot::Array &p_meshes, SceneSnapshot &r_scene);
 	void read_multi_mesh(
-			const Body &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
+			const SceneBody &p_body, const godot::MultiMesh &p_multi_mesh, SceneSnapshot &r_scene);
 	/// Its box alone: it may receive shadows.
-	void read_unknown(
-			const Body &p_body, const godot::VisualInstance3D &p_instance, SceneSnapshot &r_scene);
-	/// Of a surface: gives its material masks to read. p_material may be empty.
-	void read_receiver(const Body &p_body, const godot::Material &p_material,
-			const godot::Mesh &p_mesh, int64_t p_surface, const Bounds &p_bounds_world);
-	/// Of sprites, labels and particles, whose triangles are not read.
-	void read_other_receiver(const Body &p_body, const Bounds &p_bounds_world);
-	/// Of all surfaces of a mesh.
-	void read_mesh_receivers(
-			const Body &p_body, const godot::Mesh &p_mesh, const Bounds &p_bounds_world);
-	void note_receiver(const Body &p_body, ReceiverKind p_kind, const Bounds &p_bounds_world);
+	void read_unknown(const SceneBody &p_body, const godot::VisualInstance3D &p_instance,
+			SceneSnapshot &r_scene);
 	void read_light_node(const godot::Light3D &p_light);
-	void warn_once(const Body &p_body, const std::string &p_warning);
+	void warn_once(const SceneBody &p_body, const std::string &p_warning);
 	static LightSnapshot read_light(const ShadowNode &p_node, double p_scene_size_m);
 
-	ReceiverMaterials &receivers;
+	ReceiverReader receivers;
 	ReadWorld world;
 	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;

@@ -61,6 +61,7 @@ public:
 	void call_back();
 
 	int64_t pending_caster_count = 0;
+	bool makes_mask = false; // in the last frame
 
 private:
 	godot::Node3D node;

@@ -199,6 +199,10 @@ Variant count_pending_casters(ShadowNode &p_node, std::span<const Variant>) {
 	return p_node.pending_caster_count;
 }
 
+Variant makes_mask(ShadowNode &p_node, std::span<const Variant>) {
+	return p_node.makes_mask;
+}
+
 Variant get_warning(ShadowNode &p_node, std::span<const Variant>) {
 	std::string lines;
 	for (const std::string &warning : p_node.find_warnings()) {
@@ -226,6 +230,7 @@ const std::vector<MethodEntry> &get_methods() {
 		{ INSPECT_NAME, &inspect_shader, { { "shader", BuiltInType::RID } }, {} },
 		{ "read_masks", &read_masks, { { "callback", BuiltInType::CALLABLE } }, {} },
 		{ "get_warning", &get_warning, {}, BuiltInType::STRING },
+		{ "makes_mask", &makes_mask, {}, BuiltInType::BOOL },
 		{ "count_pending_casters", &count_pending_casters, {}, BuiltInType::INT },
 	};
 	return methods;

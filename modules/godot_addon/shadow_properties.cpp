@@ -162,6 +162,10 @@ std::string write_class_documentation() {
 			"\t\t\t<description>\n\t\t\t\tHow many casters of this node's world have a mesh whose "
 			"edges are still being found, in the last frame drawn. They cast no shadow until then."
 			"\n\t\t\t</description>\n\t\t</method>\n"
+			"\t\t<method name=\"makes_mask\">\n\t\t\t<return type=\"bool\" />\n"
+			"\t\t\t<description>\n\t\t\t\tWhether the last frame made this light's mask. It makes "
+			"none where no surface in the light's reach reads masks.\n"
+			"\t\t\t</description>\n\t\t</method>\n"
 			"\t</methods>\n\t<members>\n",
 			members, "\t</members>\n</class>\n");
 }

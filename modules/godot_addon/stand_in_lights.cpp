@@ -2,6 +2,7 @@
 
 #include "modules/core/log.h"
 #include "modules/godot_addon/addon_settings.h"
+#include "modules/godot_addon/scene_body.h"
 
 #include "godot_addon/godot_addon_shared.h"
 
@@ -63,7 +64,7 @@ ReceiverLight make_receiver_light(const WantedStandIn &p_wanted, uint32_t p_row)
 	if (godot::cast<godot::DirectionalLight3D>(node)) {
 		return light;
 	}
-	const glm::dmat4 world_from_light = node.get_global_transform().to_matrix();
+	const glm::dmat4 world_from_light = get_drawn_transform(node).to_matrix();
 	light.size_m = get_param(node, godot::Light3D::PARAM_SIZE);
 	light.position_world = glm::dvec3(world_from_light[3]);
 	light.direction_world = -glm::normalize(glm::dvec3(world_from_light[2]));
@@ -182,7 +183,7 @@ void StandInLight::update(uint32_t p_row, bool p_has_godot_shadow) {
 		applied = values;
 		is_applied = true;
 	}
-	server.instance_set_transform(instance, node.get_global_transform());
+	server.instance_set_transform(instance, get_drawn_transform(node));
 	set_own_visible(server, node, false); // the node shows it again where its visibility changes
 }
 

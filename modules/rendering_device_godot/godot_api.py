@@ -89,10 +89,10 @@ USED = {
     "MainLoop": {"methods": ""},
     "Node": {
         "methods": """get_parent get_path is_inside_tree get_tree update_configuration_warnings find_children
-            get_node_or_null get_name add_to_group remove_from_group"""
+            get_node_or_null get_name add_to_group remove_from_group is_physics_interpolated_and_enabled"""
     },
     "SceneTree": {"methods": "get_root get_nodes_in_group"},
-    "Node3D": {"methods": "get_global_transform is_visible_in_tree get_world_3d"},
+    "Node3D": {"methods": "get_global_transform get_global_transform_interpolated is_visible_in_tree get_world_3d"},
     "VisualInstance3D": {"methods": "get_layer_mask get_aabb get_instance"},
     "ReflectionProbe": {"methods": ""},
     "VoxelGI": {"methods": ""},

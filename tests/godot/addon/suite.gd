@@ -8,6 +8,7 @@ const CASES: Array[GDScript] = [
 	preload("res://tests/nodes.gd"),
 	preload("res://tests/settings.gd"),
 	preload("res://tests/lights.gd"),
+	preload("res://tests/surroundings.gd"),
 	preload("res://tests/materials.gd"),
 ]
 
