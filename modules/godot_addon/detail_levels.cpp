@@ -4,16 +4,30 @@
 
 namespace gnomon {
 
+namespace {
+
+/// Of what the viewport draws in 3D, but for its scaling. A window whose canvas is stretched alone
+/// says the canvas's size.
+glm::vec2 read_size(const godot::Viewport &p_viewport) {
+	const auto window = godot::cast<godot::Window>(p_viewport);
+	if (window &&
+			window.get_content_scale_mode() == godot::Window::CONTENT_SCALE_MODE_CANVAS_ITEMS) {
+		return glm::vec2(window.get_size());
+	}
+	const godot::Ref<godot::ViewportTexture> texture = p_viewport.get_texture();
+	return { float(texture.get_width()), float(texture.get_height()) };
+}
+
+} // namespace
+
 std::vector<ViewDetail> find_view_details(const godot::SceneTree &p_tree, godot::RID p_scenario) {
 	std::vector<ViewDetail> details;
 	for_each_camera(p_tree, p_scenario,
 			[&](const godot::Viewport &p_viewport, const godot::Camera3D &p_camera) {
 				const float scale = static_cast<float>(p_viewport.get_scaling_3d_scale());
-				const godot::Ref<godot::ViewportTexture> texture = p_viewport.get_texture();
-				const glm::vec2 size_px(float(texture.get_width()), float(texture.get_height()));
 				details.push_back({ p_camera.get_camera_transform(),
 						static_cast<float>(p_viewport.get_mesh_lod_threshold()), scale,
-						glm::uvec2(glm::ceil(size_px * scale)) });
+						glm::uvec2(glm::ceil(read_size(p_viewport) * scale)) });
 			});
 	return details;
 }

@@ -57,7 +57,11 @@ ViewShadows::~ViewShadows() {
 
 void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_view) {
 	layers.clear();
+	receivers.write_lights(p_view, p_frame.receiver_lights);
 	const uint32_t count = static_cast<uint32_t>(p_frame.scene->lights.size());
+	if (count == 0) {
+		return;
+	}
 	if (glm::any(glm::greaterThan(p_view.size_px, receivers.get_size_px()))) {
 		fail("A view has ", p_view.size_px.x, "x", p_view.size_px.y, " pixels, which were not ",
 				"expected. It has no shadow masks in this frame.");
@@ -97,7 +101,6 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	scaled.write(held);
 	graph.execute(reads.empty() ? RenderGraph::Mode::QUEUE : RenderGraph::Mode::WAIT);
 	frame.end();
-	receivers.write_lights(p_view, p_frame.receiver_lights);
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		layers[scene->lights[layer].name] = layer;
 	}

@@ -118,6 +118,7 @@ USED = {
     "SpotLight3D": {"methods": ""},
     "DirectionalLight3D": {"methods": "get_shadow_mode get_sky_mode is_blend_splits_enabled"},
     "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_scaling_3d_scale get_texture"},
+    "Window": {"methods": "get_size get_content_scale_mode", "enums": "ContentScaleMode"},
     "Texture2D": {"methods": "get_width get_height"},
     "ViewportTexture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},

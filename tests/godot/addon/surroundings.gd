@@ -122,6 +122,13 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 		scene.get_node(node).material_override = toon
 	await draw_frames(3)
 	check(not scene.shadow.makes_mask(), "nothing takes light")
+	var larger := SubViewport.new() # than any before: no room is made where there are no masks
+	larger.size = Vector2i(640, 480)
+	larger.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	larger.add_child(scene.camera.duplicate())
+	add_child(larger)
+	await draw_frames(2)
+	larger.free()
 	scene.shadow.show_mask = true
 	await draw_frames(2)
 	check(scene.shadow.makes_mask(), "it is shown")

@@ -71,6 +71,24 @@ func test_scaled_resolution_and_a_window_that_is_resized() -> void:
 	await _resize(Vector2i(200, 200))
 
 
+func test_windows_that_stretch_their_content_have_masks() -> void:
+	var scene := add_study()
+	var window := get_window()
+	for mode: Window.ContentScaleMode in [Window.CONTENT_SCALE_MODE_CANVAS_ITEMS, Window.CONTENT_SCALE_MODE_VIEWPORT]:
+		for aspect: Window.ContentScaleAspect in [Window.CONTENT_SCALE_ASPECT_KEEP, Window.CONTENT_SCALE_ASPECT_EXPAND]:
+			for size in [Vector2i(120, 80), Vector2i(900, 900)]:
+				window.content_scale_mode = mode
+				window.content_scale_aspect = aspect
+				window.content_scale_size = size
+				var mask := await read_settled(scene)
+				check(count_darker(mask) > 0.005 * mask.get_width() * mask.get_height(), "mode %d, aspect %d, size %s: no shadow" % [mode, aspect, size])
+	window.content_scale_mode = Window.CONTENT_SCALE_MODE_DISABLED
+	window.content_scale_aspect = Window.CONTENT_SCALE_ASPECT_IGNORE
+	window.content_scale_size = Vector2i.ZERO
+	await draw_frames(2)
+	remove(scene)
+
+
 ## The window system may take its time.
 func _resize(size: Vector2i) -> void:
 	get_window().size = size

@@ -16,7 +16,8 @@ func _parse_category(object: Object, category: String) -> void:
 		var editor := ShadowCheckBox.new()
 		editor.light = object
 		editor.undo_redo = undo_redo
-		add_property_editor_for_multiple_properties("Gnomon Shadow", PackedStringArray(["shadow_enabled"]), editor)
+		editor.label = "Gnomon Shadow"
+		add_property_editor_for_multiple_properties("", PackedStringArray(), editor) # of no property that could be reverted
 
 
 class ShadowCheckBox:
