@@ -153,7 +153,7 @@ void AddonServer::update_worlds() {
 	if (nodes.empty() || !settings.is_enabled) {
 		receivers.clear();
 	} else {
-		receivers.ask(nodes.front()->get_node(),
+		receivers.end_frame(nodes.front()->get_node(),
 				godot::SceneTree(nodes.front()->get_node().get_tree().get_owner()));
 	}
 	if (mask_count > 0 && size_px.x > 0) {

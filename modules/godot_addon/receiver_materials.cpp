@@ -125,6 +125,15 @@ void ReceiverMaterials::restore(uint64_t p_material, const Known &p_known) const
 	}
 }
 
+void ReceiverMaterials::restore_bare(uint64_t p_mesh) const {
+	const godot::Mesh mesh(godot::get_instance(p_mesh));
+	for (int64_t surface = 0; mesh && surface < mesh.get_surface_count(); ++surface) {
+		if (server.mesh_surface_get_material(mesh.get_rid(), surface) == bare_material) {
+			server.mesh_surface_set_material(mesh.get_rid(), surface, {});
+		}
+	}
+}
+
 void ReceiverMaterials::make_bare_material() {
 	if (bare_material.id) {
 		return;
@@ -137,7 +146,9 @@ void ReceiverMaterials::make_bare_material() {
 
 ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_surface) {
 	make_bare_material();
-	bare_meshes.insert(godot::get_instance_id(p_mesh.get_owner()));
+	const uint64_t id = godot::get_instance_id(p_mesh.get_owner());
+	bare_meshes.insert(id);
+	used_bare_meshes.insert(id);
 	if (!server.mesh_surface_get_material(p_mesh.get_rid(), p_surface).id) {
 		server.mesh_surface_set_material(p_mesh.get_rid(), p_surface, bare_material);
 	}
@@ -157,7 +168,15 @@ void ReceiverMaterials::take_answers() {
 	asked.clear();
 }
 
-void ReceiverMaterials::ask(const godot::Node &p_node, const godot::SceneTree &p_tree) {
+void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree) {
+	std::erase_if(bare_meshes, [this](uint64_t p_id) {
+		const bool is_used = used_bare_meshes.contains(p_id);
+		if (!is_used) {
+			restore_bare(p_id);
+		}
+		return !is_used;
+	});
+	used_bare_meshes.clear();
 	// Its other nodes, of the editor, would open a window.
 	const godot::Array viewers = p_tree.get_nodes_in_group(VIEWER_GROUP);
 	const auto for_each_viewer = [&](auto p_function) {
@@ -171,6 +190,9 @@ void ReceiverMaterials::ask(const godot::Node &p_node, const godot::SceneTree &p
 		if (known.is_used && known.is_generated) {
 			godot::Material(godot::get_instance(id)).inspect_native_shader_code();
 			asked.push_back(id);
+		} else if (!known.is_used) {
+			restore(id, known);
+			known.applied = {};
 		}
 		known.is_used = false;
 	}
@@ -183,7 +205,6 @@ void ReceiverMaterials::begin_frame() {
 	take_answers();
 	std::erase_if(materials,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });
-	std::erase_if(bare_meshes, [](uint64_t p_id) { return godot::get_instance(p_id) == nullptr; });
 	std::set<godot::RID> in_use;
 	for (const auto &[id, known] : materials) {
 		in_use.insert({ known.original, known.applied });
@@ -210,14 +231,10 @@ void ReceiverMaterials::clear() {
 	asked.clear();
 	answers.clear();
 	for (const uint64_t id : bare_meshes) {
-		const godot::Mesh mesh(godot::get_instance(id));
-		for (int64_t surface = 0; mesh && surface < mesh.get_surface_count(); ++surface) {
-			if (server.mesh_surface_get_material(mesh.get_rid(), surface) == bare_material) {
-				server.mesh_surface_set_material(mesh.get_rid(), surface, {});
-			}
-		}
+		restore_bare(id);
 	}
 	bare_meshes.clear();
+	used_bare_meshes.clear();
 	free(bare_material);
 	free(bare_shader);
 }

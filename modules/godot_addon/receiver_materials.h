@@ -28,9 +28,9 @@ public:
 	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner);
 	/// Of a surface of p_mesh that has no material.
 	ReceiverKind use_bare(const godot::Mesh &p_mesh, int64_t p_surface);
-	/// Asks for the shaders of the materials that this frame uses. p_node: of the class
-	/// GnomonShadow3D.
-	void ask(const godot::Node &p_node, const godot::SceneTree &p_tree);
+	/// Once all materials of a frame are used: asks for their shaders, and gives those that it does
+	/// not use their own back. p_node: of the class GnomonShadow3D.
+	void end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree);
 	/// Takes everything back: all looks as without the add-on.
 	void clear();
 
@@ -53,6 +53,7 @@ private:
 	Copy &find_copy(const Known &p_known, const godot::Material &p_material);
 	void copy_code(godot::RID p_original, Copy &r_copy) const;
 	void restore(uint64_t p_material, const Known &p_known) const;
+	void restore_bare(uint64_t p_mesh) const;
 	void take_answers();
 	void make_bare_material();
 	void free(godot::RID &r_owned) const;
@@ -65,6 +66,7 @@ private:
 	godot::RID bare_shader;
 	godot::RID bare_material;
 	std::set<uint64_t> bare_meshes; // ids
+	std::set<uint64_t> used_bare_meshes;
 };
 
 } // namespace gnomon

@@ -146,6 +146,25 @@ func test_a_mask_is_made_where_a_surface_reads_it() -> void:
 	remove(scene)
 
 
+## With a hidden node in the tree all is as without it: materials do not wait for masks with a light() that knows no sizes.
+func test_a_hidden_node_leaves_materials_as_they_were() -> void:
+	var scene := StudyScene.create("omni", "box")
+	scene.get_node("Ground").material_override = StandardMaterial3D.new()
+	scene.light.light_size = 2.0
+	scene.light.position = Vector3(-3, 0.6, 0) # grazes the ground
+	var shadow := scene.shadow
+	scene.light.remove_child(shadow)
+	var viewport := _add_linear(scene)
+	var original := await _draw(viewport)
+	scene.light.add_child(shadow)
+	check(_compare(original, await _draw(viewport), 0.02) > 0.01, "the shadow is there")
+	shadow.visible = false
+	check(_compare(original, await _draw(viewport), 0.0) == 0.0, "the image is the same bit for bit")
+	shadow.visible = true
+	check(_compare(original, await _draw(viewport, 2), 0.02) > 0.01, "the shadow is back")
+	viewport.free()
+
+
 ## Between two ticks of physics Godot draws nodes where they are on their way.
 func test_physics_interpolation_moves_masks_too() -> void:
 	var ticks := Engine.physics_ticks_per_second
