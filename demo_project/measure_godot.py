@@ -65,10 +65,13 @@ def show_error(name, reference, values, mode, options):
     run_gnomon(["compare", stem + "_reference.exr", "%s_%s.exr" % (stem, mode), "--heatmap", "%s_%s_error.png" % (stem, mode)])
 
 
-def measure_case(case, times, options):
+def measure_case(case, described, options):
+    """described: of cases.json."""
     stem = os.path.join(WORK, case)
-    reference = trace_reference(stem + ".gltf", "Light", stem + "_reference", (options.size, options.size), options.samples)
-    penumbra = reference.find_penumbra()
+    size_px = (options.size, options.size)
+    reference = trace_reference(stem + ".gltf", described["light"], stem + "_reference", size_px, options.samples)
+    penumbra = set(reference.find_penumbra()) - find_outlines(stem + ".gltf", options)
+    times = described["times"]
     row = {"case": case, "rmse": {}, "added_ms": {}}
     for mode in MODES:
         values, _height = godot_images.load_rows("%s_%s.f32" % (stem, mode), options.size)
@@ -84,7 +87,7 @@ def find_outlines(scene, options):
     """Pixels next to where the surface of a scene ends or bends, in which two rasterizers may see different surfaces."""
     folder = os.path.join(WORK, "surfaces")
     os.makedirs(folder, exist_ok=True)
-    arguments = ["visibility", os.path.join(WORK, scene), "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
+    arguments = ["visibility", scene, "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
     run_gnomon(arguments + ["--size", "%dx%d" % (options.size, options.size), "--surfaces", folder])
     depth, height = godot_images.load_rows(os.path.join(folder, "depth.f32"), options.size)  # near / z, linear on planes
     outlines = set()
@@ -127,7 +130,7 @@ def measure_room(options):
         of_light, lit = add_room_light(light, dark, off, image, options)
         penumbra.update(of_light)
         receivers = array.array("f", map(max, receivers, lit))
-    penumbra -= find_outlines("room.gltf", options)
+    penumbra -= find_outlines(os.path.join(WORK, "room.gltf"), options)
     reference = Mask(options.size, len(off) // options.size)
     reference.receiver = receivers
     share = lambda rgb: array.array("f", (a / b if b > 0.0 else 1.0 for a, b in zip(godot_images.get_luminance(rgb), off)))
@@ -156,6 +159,7 @@ def main():
     parser.add_argument("--frames", type=int, default=20, help="that each mode is timed for")
     parser.add_argument("--samples", type=int, default=9216, help="light samples of the reference")
     parser.add_argument("--cases", default="", help="LIGHT_CASTER, separated by commas; all of them without")
+    parser.add_argument("--scenes", default="", help="more glTF files below the project, separated by commas")
     options = parser.parse_args()
     shutil.rmtree(WORK, ignore_errors=True)
     os.makedirs(WORK)
@@ -163,15 +167,14 @@ def main():
     common = ["out=" + WORK, "size=%d" % options.size]
     output = godot_project.run("res://study/pictures.tscn", common, options.size)
     output += godot_project.run(
-        "res://study/measure.tscn", common + ["frames=%d" % options.frames, "cases=" + options.cases], options.size
+        "res://study/measure.tscn", common + ["frames=%d" % options.frames, "cases=" + options.cases, "scenes=" + options.scenes], options.size
     )
     output += godot_project.run("res://study/measure_room.tscn", common + ["frames=%d" % options.frames], options.size)
     messages = godot_project.find_messages(output)
     for message in messages:
         print("Godot logged " + message)
-    with open(os.path.join(WORK, "times.json"), encoding="utf-8") as file:
-        times = json.load(file)
-    rows = [measure_case(case, times[case], options) for case in times]
+    with open(os.path.join(WORK, "cases.json"), encoding="utf-8") as file:
+        rows = [measure_case(case, described, options) for case, described in json.load(file).items()]
     results = {"godot": godot_project.get_version(), "size": options.size, "frames": options.frames, "rows": rows}
     results["room"] = measure_room(options)
     with open(os.path.join(WORK, "results.json"), "w", encoding="utf-8") as file:

@@ -10,6 +10,7 @@ Usage: demo_project/run_godot_demo.sh [options]
   --samples N     light samples of the reference (default 9216)
   --frames N      frames that each quality is timed for (default 20)
   --cases A,B     of omni_box, spot_torus and the like (default: all twelve)
+  --scenes A,B    also glTF files below this project, each of their lights alone
   --out DIR       where the page goes (default demo_project/godot/out)
   --jobs N        build jobs (default: one a core)
   --no-build      use what is built
@@ -30,7 +31,7 @@ wants_build=yes
 measure_options=()
 while [ $# -gt 0 ]; do
     case $1 in
-        --size | --samples | --frames | --cases | --out | --jobs)
+        --size | --samples | --frames | --cases | --scenes | --out | --jobs)
             [ $# -ge 2 ] || fail_usage "$1 needs a value"
             case $1 in
                 --size | --samples | --frames | --jobs)

@@ -1,12 +1,12 @@
 extends Node
-## Measures images with Gnomon's shadows and with Godot's own in the study scenes:
-##   godot --path demo_project/godot res://study/measure.tscn -- out=DIR size=800 frames=20
-## Of each light and caster LIGHT_CASTER_MODE.f32, the share of the light that the shadow leaves (image with shadow / image
-## without; -1 where the light does not shine), with mode gnomon, and low and ultra for Godot's own; LIGHT_CASTER.gltf, and in
-## times.json the milliseconds of a frame in which the light moves (medians), by mode.
+## Measures images with Gnomon's shadows and with Godot's own in the study scenes, and in glTF files that `gnomon` reads:
+##   godot --path demo_project/godot res://study/measure.tscn -- out=DIR size=800 frames=20 cases=omni_box scenes=A.gltf,B.gltf
+## Of each light and caster, or file and light, CASE_MODE.f32, the share of the light that the shadow leaves (image with shadow /
+## image without; -1 where the light does not shine), with mode gnomon, and low and ultra for Godot's own; CASE.gltf, and in
+## cases.json the light's name and the milliseconds of a frame in which it moves (medians), by mode.
 
-var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20", "cases": "", "technique": "edge_count"})
-var _times := {}
+var _options := StudyOptions.new({"out": "res://out", "size": "800", "frames": "20", "cases": "", "scenes": "", "technique": "edge_count"})
+var _cases := {}
 
 
 func _ready() -> void:
@@ -18,19 +18,49 @@ func _ready() -> void:
 		for caster in StudyScene.CASTERS:
 			var case := "%s_%s" % [light, caster]
 			if _options.text("cases").is_empty() or case in _options.text("cases").split(","):
-				await _measure(case, StudyScene.create(light, caster))
-	_options.store_text("times.json", JSON.stringify(_times, "\t"))
+				await _measure_study(case, StudyScene.create(light, caster))
+	for path in _options.text("scenes").split(",", false):
+		await _measure_file(path)
+	_options.store_text("cases.json", JSON.stringify(_cases, "\t"))
 	get_tree().quit()
 
 
-func _measure(case: String, scene: StudyScene) -> void:
+func _measure_study(case: String, scene: StudyScene) -> void:
 	add_child(scene)
-	scene.shadow.technique = _options.text("technique")
+	await _measure(case, scene.light)
+	GltfExport.save(scene, _options.path(case + ".gltf"))
+	await _remove(scene)
+
+
+## Each light of a file, alone.
+func _measure_file(path: String) -> void:
+	var scene := GltfImport.load_scene(path)
+	scene.add_child(StudyScene.make_darkness())
+	add_child(scene)
+	var lights := scene.find_children("*", "Light3D", true, false)
+	for shown: Light3D in lights:
+		for light: Light3D in lights:
+			light.visible = light == shown
+		var case := "%s_%s" % [path.get_file().get_basename(), shown.name]
+		await _measure(case, shown)
+		for light: Light3D in lights:
+			light.visible = true  # the file tells of no hidden ones
+		GltfExport.save(scene, _options.path(case + ".gltf"))
+	await _remove(scene)
+
+
+func _remove(scene: Node) -> void:
+	scene.queue_free()
+	await get_tree().process_frame
+
+
+func _measure(case: String, light: Light3D) -> void:
+	ShadowModes.find_shadow(light).technique = _options.text("technique")
 	var times := {}
 	var lit: Image
 	for mode in ShadowModes.ALL:
-		ShadowModes.apply([scene.light], mode)
-		times[mode] = await _time_moving(scene)
+		ShadowModes.apply([light], mode)
+		times[mode] = await _time_moving(light)
 		await RenderingServer.frame_post_draw
 		await RenderingServer.frame_post_draw
 		var image := get_viewport().get_texture().get_image()
@@ -39,18 +69,15 @@ func _measure(case: String, scene: StudyScene) -> void:
 			lit = image
 		else:
 			_options.store_values("%s_%s.f32" % [case, mode], _divide(image, lit))
-	_times[case] = times
-	GltfExport.save(scene, _options.path(case + ".gltf"))
-	scene.queue_free()
-	await get_tree().process_frame
+	_cases[case] = {"light": light.name, "times": times}
 
 
 ## The median of a frame's milliseconds.
-func _time_moving(scene: StudyScene) -> float:
-	var place := scene.light.transform
+func _time_moving(light: Light3D) -> float:
+	var place := light.transform
 	var time := await FrameTimes.measure(int(_options.text("frames")), func(frame: int) -> void:
-		scene.light.transform = place.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
-	scene.light.transform = place
+		light.transform = place.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
+	light.transform = place
 	return time
 
 

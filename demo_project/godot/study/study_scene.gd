@@ -16,7 +16,7 @@ var camera: Camera3D
 static func create(light_kind: String, caster_kind: String) -> StudyScene:
 	var scene := StudyScene.new()
 	scene.name = "Study"
-	scene._add_environment()
+	scene.add_child(make_darkness())
 	scene.add_mesh("Ground", _make_plane(), Transform3D())
 	scene.caster = scene.add_mesh("Caster", _make_caster(caster_kind), _place_caster(caster_kind))
 	scene.add_light(light_kind)
@@ -66,7 +66,8 @@ static func _place_caster(kind: String) -> Transform3D:
 	return Transform3D(Basis(), Vector3(0, 1, 0))
 
 
-func _add_environment() -> void:
+## Black background, no ambient light, linear values: what is seen is the lights'.
+static func make_darkness() -> WorldEnvironment:
 	var environment := Environment.new()
 	environment.background_mode = Environment.BG_COLOR
 	environment.background_color = Color.BLACK
@@ -74,7 +75,7 @@ func _add_environment() -> void:
 	environment.tonemap_mode = Environment.TONE_MAPPER_LINEAR
 	var node := WorldEnvironment.new()
 	node.environment = environment
-	add_child(node)
+	return node
 
 
 ## A caster or receiver more.
