@@ -269,7 +269,7 @@ if [ "$has_godot" = yes ] && is_wanted godot; then
         run_part "godot add-on" python3 tests/godot/test_addon.py
         run_part "godot masks" python3 tests/godot/test_masks.py
         run_part "godot editor" python3 tests/godot/test_editor.py
-        run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 300)"
+        run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 400)"
     fi
 fi
 if [ "$is_full" = yes ]; then
