@@ -4,7 +4,7 @@
 Godot renders demo_project/godot's study scenes with shadows of edge_count and with its own, of the qualities Soft Low and Soft
 Ultra; what is compared is the image with the shadow over that without. `gnomon visibility --technique reference` traces the same
 scenes, which Godot exported. Errors are root mean squares over the penumbra's pixels (doc/benchmarks.md), times are what
-a moving light adds to a frame without shadows, medians.
+a moving light adds to a frame without shadows, medians. The room is measured with all its lights, and in whole frames.
 """
 
 import argparse
@@ -89,7 +89,7 @@ def find_outlines(scene, options):
     os.makedirs(folder, exist_ok=True)
     arguments = ["visibility", scene, "--technique", "pcss", "--out", os.path.join(WORK, "surfaces.exr")]
     run_gnomon(arguments + ["--size", "%dx%d" % (options.size, options.size), "--surfaces", folder])
-    depth, height = godot_images.load_rows(os.path.join(folder, "depth.f32"), options.size)  # near / z, linear on planes
+    depth, _height = godot_images.load_rows(os.path.join(folder, "depth.f32"), options.size)  # near / z, linear on planes
     outlines = set()
     for step in (1, options.size):
         for i in range(step, len(depth) - step):
@@ -116,13 +116,17 @@ def add_room_light(light, dark, off, image, options):
     return [i for i in mask.find_penumbra() if alone[i] - dark[i] >= LEAST_SHARE * off[i]], mask.receiver
 
 
+def divide_luminance(rgb, off):
+    """What share of the unshadowed image's luminance an image has in each pixel; 1 where that is black."""
+    return array.array("f", (a / b if b > 0.0 else 1.0 for a, b in zip(godot_images.get_luminance(rgb), off)))
+
+
 def measure_room(options):
     """The reference is the sum of the images with one light each, times the share of it that each pixel sees."""
     with open(os.path.join(WORK, "room.json"), encoding="utf-8") as file:
         room = json.load(file)
     dark = load_room_image("dark", options)
-    unshadowed = load_room_image("off", options)
-    off = godot_images.get_luminance(unshadowed)
+    off = godot_images.get_luminance(load_room_image("off", options))
     image = array.array("f", dark)
     penumbra = set()
     receivers = array.array("f", bytes(4 * len(off)))
@@ -133,8 +137,7 @@ def measure_room(options):
     penumbra -= find_outlines(os.path.join(WORK, "room.gltf"), options)
     reference = Mask(options.size, len(off) // options.size)
     reference.receiver = receivers
-    share = lambda rgb: array.array("f", (a / b if b > 0.0 else 1.0 for a, b in zip(godot_images.get_luminance(rgb), off)))
-    reference.visibility = share(image)
+    reference.visibility = divide_luminance(image, off)
     stem = os.path.join(WORK, "room_")
     shown = array.array("f", (v if r >= 0.5 else -1.0 for v, r in zip(reference.visibility, receivers)))
     godot_images.save_exr(stem + "reference.exr", shown, options.size, reference.height)
@@ -142,7 +145,7 @@ def measure_room(options):
     room["rmse"] = {}
     for mode in MODES:
         rgb = load_room_image(mode, options)
-        values = share(rgb)
+        values = divide_luminance(rgb, off)
         room["rmse"][mode] = compute_rmse(reference, values, penumbra)
         godot_images.save_color_png(stem + mode + ".png", rgb, options.size)
         show_error("room", reference, values, mode, options)

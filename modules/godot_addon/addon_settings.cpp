@@ -1,13 +1,13 @@
 #include "modules/godot_addon/addon_settings.h"
 
 #include "modules/core/log.h"
+#include "modules/core/text.h"
 #include "modules/godot_addon/shadow_properties.h"
 
 #include "godot_addon/godot_addon_shared.h"
 
 #include <godot_api.gen.h>
 
-#include <algorithm>
 #include <set>
 
 namespace gnomon {
@@ -19,36 +19,53 @@ godot::Variant read_setting(const char *p_name, const godot::Variant &p_default)
 	return settings.has_setting(p_name) ? settings.get_setting_with_override(p_name) : p_default;
 }
 
-const double LEAST_RESOLUTION_SCALE = 0.25;
+PropertyInfo make_most_lights_setting() {
+	PropertyInfo info;
+	info.name = "rendering/gnomon/most_lights";
+	info.type = PropertyType::INT;
+	info.default_value = int64_t(16);
+	info.hint = text("1,", RECEIVER_ROW_COUNT - 1, ",1");
+	return info;
+}
 
-std::string read_default_technique() {
+PropertyInfo make_resolution_setting() {
+	PropertyInfo info;
+	info.name = "rendering/gnomon/mask_resolution_scale";
+	info.default_value = 1.0;
+	info.hint = "0.25,1,0.01";
+	return info;
+}
+
+/// The default where the project has none, and, with one warning, where its value is refused.
+template <typename Value>
+Value read_checked(const PropertyInfo &p_info, Value (*p_convert)(const godot::Variant &)) {
 	static std::set<std::string> refused;
-	const PropertyInfo &info = get_default_technique_setting();
-	const std::string wanted =
-			read_setting(info.name.c_str(), std::get<std::string>(info.default_value)).to_utf8();
-	const std::string refusal = check_property(info, wanted);
+	const Value standard = std::get<Value>(p_info.default_value);
+	const Value wanted = p_convert(read_setting(p_info.name.c_str(), standard));
+	const std::string refusal = check_property(p_info, wanted);
 	if (refusal.empty()) {
 		return wanted;
 	}
-	if (refused.insert(wanted).second) {
-		log_warning("Project setting ", info.name, " ", refusal, ". ",
-				format_property(info.default_value), " is used.");
+	if (refused.insert(p_info.name + refusal).second) {
+		log_warning("Project setting ", p_info.name, " ", refusal, ". ",
+				format_property(p_info.default_value), " is used.");
 	}
-	return std::get<std::string>(info.default_value);
+	return standard;
 }
 
 } // namespace
 
 AddonSettings read_addon_settings() {
+	static const PropertyInfo most_lights = make_most_lights_setting();
+	static const PropertyInfo resolution = make_resolution_setting();
 	AddonSettings settings;
 	settings.is_enabled = read_setting("rendering/gnomon/enabled", settings.is_enabled).to_bool();
-	const int64_t most =
-			read_setting("rendering/gnomon/most_lights", int64_t(settings.most_lights)).to_int();
-	settings.most_lights = size_t(std::clamp<int64_t>(most, 1, RECEIVER_ROW_COUNT - 1));
-	settings.default_technique = read_default_technique();
-	settings.mask_resolution_scale = static_cast<float>(
-			std::clamp(read_setting("rendering/gnomon/mask_resolution_scale", 1.0).to_float(),
-					LEAST_RESOLUTION_SCALE, 1.0));
+	settings.most_lights = size_t(read_checked<int64_t>(
+			most_lights, [](const godot::Variant &p_value) { return p_value.to_int(); }));
+	settings.default_technique = read_checked<std::string>(get_default_technique_setting(),
+			[](const godot::Variant &p_value) { return p_value.to_utf8(); });
+	settings.mask_resolution_scale = static_cast<float>(read_checked<double>(
+			resolution, [](const godot::Variant &p_value) { return p_value.to_float(); }));
 	return settings;
 }
 

@@ -5,8 +5,8 @@
 
 namespace gnomon {
 
-/// What the project's settings below rendering/gnomon say; defaults where it has none. A game
-/// may change them while it runs.
+/// What the project's settings below rendering/gnomon say; defaults where it has none, and,
+/// with one warning, where a value is refused. A game may change them while it runs.
 struct AddonSettings {
 	bool is_enabled = true;			 // false: all lights are Godot's
 	size_t most_lights = 16;		 // with masks, of each world

@@ -58,7 +58,7 @@ RGTexture ScaledMasks::create_target(RGTexture p_result) {
 }
 
 void ScaledMasks::write(RGTexture p_result) {
-	if (size_px == full_size_px || count == 0) {
+	if (size_px == full_size_px) {
 		return;
 	}
 	shader::ScalePush push = {};

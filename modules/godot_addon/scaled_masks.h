@@ -9,7 +9,8 @@ namespace gnomon {
 /// around it that are of its surface.
 class ScaledMasks {
 public:
-	/// p_depth: the view's, near / z. p_scale: 0 to 1, of each side; 1: they are the view's own.
+	/// p_depth: the view's, near / z. p_scale: above 0 to 1, of each side; 1: they are the view's
+	/// own. p_count: of masks, at least 1.
 	ScaledMasks(RenderGraph &r_graph, RenderingDevice &p_device, RGTexture p_depth, float p_scale,
 			uint32_t p_count);
 	glm::uvec2 get_size_px() const { return size_px; }

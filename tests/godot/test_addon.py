@@ -15,6 +15,7 @@ import godot_project
 EXPECTED = (
     ("technique is no such technique, must be", 1),
     ("rendering/gnomon/default_technique is nothing, must be", 1),
+    ("rendering/gnomon/mask_resolution_scale is ", 2),
     ("penumbra_outer_width is -5, must be", 1),
     ("penumbra_outer_width is nan, must be", 1),
     ("has an orthogonal projection", 1),

@@ -36,6 +36,10 @@ func test_masks_of_fewer_pixels_shadow_the_same_image() -> void:
 	check((await read(scene)).get_size() == (full.get_size() + Vector2i.ONE) / 2, "the mask has half the size")
 	ProjectSettings.set_setting(SCALE, null)
 	check((await _draw()).get_data() == full.get_data(), "the full masks are back")
+	for refused: float in [0.1, NAN]:
+		ProjectSettings.set_setting(SCALE, refused)
+		check((await _draw()).get_data() == full.get_data(), "%f is refused" % refused)
+	ProjectSettings.set_setting(SCALE, null)
 	get_viewport().use_hdr_2d = false
 	var shadowed := count_different(full, lit, 0.1)
 	check(shadowed > 1000, "there is a shadow")
