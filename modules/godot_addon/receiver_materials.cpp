@@ -9,6 +9,9 @@ namespace {
 
 const char VIEWER_GROUP[] = "_native_shader_source_visualizer";
 
+// A shader is made before the frame after that in which its material changes.
+const int MOST_SILENT_FRAMES = 60;
+
 // The look of a surface without a material, measured.
 const char BARE_SHADER[] = "shader_type spatial;\n"
 						   "void fragment() {\n"
@@ -157,12 +160,19 @@ ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_su
 
 void ReceiverMaterials::take_answers() {
 	if (answers.size() == asked.size()) { // else one of them has no shader yet
+		silent_frames = 0;
 		for (size_t index = 0; index < asked.size(); ++index) {
 			const auto known = materials.find(asked[index]);
 			if (known != materials.end()) {
 				known->second.original = answers[index];
 			}
 		}
+	} else if (++silent_frames == MOST_SILENT_FRAMES) {
+		log_warning("This Godot told the shaders of ", answers.size(), " of ", asked.size(),
+				" materials in ", MOST_SILENT_FRAMES,
+				" frames, must tell all: such materials stay in "
+				"Godot's light and shadow. Use Godot 4.6, or ShaderMaterials that include "
+				"gnomon.gdshaderinc.");
 	}
 	answers.clear();
 	asked.clear();

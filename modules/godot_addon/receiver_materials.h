@@ -63,6 +63,7 @@ private:
 	std::map<godot::RID, Copy> copies;	 // by original
 	std::vector<uint64_t> asked;		 // materials, in the order of the answers
 	std::vector<godot::RID> answers;
+	int silent_frames = 0; // in a row, in which not all answered
 	godot::RID bare_shader;
 	godot::RID bare_material;
 	std::set<uint64_t> bare_meshes; // ids
