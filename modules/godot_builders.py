@@ -11,7 +11,7 @@ from SCons.Script import Action
 
 HOW_TO_GET_ONE = (
     "ERROR: no Godot was found. Set $GODOT to a Godot 4.5 or later, or have `godot` in PATH.\n"
-    "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot/."
+    "demo_project/run_godot_demo.sh sets one up on Debian 12, below build/godot_program/."
 )
 ADDON_LIBRARY = "#demo_project/godot/addons/gnomon/bin/libgnomon.linux.x86_64.so"
 
@@ -32,7 +32,7 @@ def _dump(target, source, env):
 
 
 def add_bindings(env):
-    """Generates headers, in build/godot/api; the folder is put into CPPPATH by add_api_path. Objects that include them depend on env["GODOT_HEADERS"]."""
+    """Generates headers, in get_api_folder(). Objects that include them depend on env["GODOT_HEADERS"]."""
     sys.path.insert(0, env.Dir("#modules/rendering_device_godot").abspath)
     import godot_api
 
@@ -61,8 +61,8 @@ def add_bindings(env):
     env["GODOT_HEADERS"] = described[1:] + generated
 
 
-def add_api_path(env):
-    env.Append(CCFLAGS=[("-isystem", env.Dir("#" + env["BUILD_FOLDER"].lstrip("#") + "/api").path)])
+def get_api_folder(env):
+    return env.Dir("#" + env["BUILD_FOLDER"].lstrip("#") + "/api").path
 
 
 ZIP_FOLDER = "addons/gnomon"

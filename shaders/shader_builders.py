@@ -100,7 +100,7 @@ def add_test_shaders(env, modules):
                 target = "%s/tests/shaders/%s.spv" % (build_folder, name)
                 spirv += env.Spirv(target, "%s/%s/%s" % (build_folder, source, name))
     generated = env.EmbeddedShaders(
-        build_folder + "/tests/test_shaders.gen.cpp", spirv, SHADER_FUNCTION="get_test_shaders", SHADER_FOLDER="tests"
+        "%s/tests/test_shaders.%s.gen.cpp" % (build_folder, env["HOST"]), spirv, SHADER_FUNCTION="get_test_shaders", SHADER_FOLDER="tests"
     )
     env.Depends(generated, env.Value([str(item) for item in spirv]))
     return generated

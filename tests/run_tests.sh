@@ -62,11 +62,18 @@ while [ $# -gt 0 ]; do
     shift
 done
 
+# is_wanted PART: those of Godot are asked for together.
 is_wanted() {
-    local name
+    local wanted=$1 name
+    case $wanted in
+        godot_*)
+            [ "$has_godot" = yes ] || return 1
+            wanted=godot
+            ;;
+    esac
     [ ${#only[@]} -eq 0 ] && return 0
     for name in "${only[@]}"; do
-        [ "$name" = "$1" ] && return 0
+        [ "$name" = "$wanted" ] && return 0
     done
     return 1
 }
@@ -96,38 +103,35 @@ export PYTHONDONTWRITEBYTECODE=1
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
-passed=0
-failed=0
-skipped=0
-part_lines=()
+# One file a part, in the order in which they end: "PASSED FAILED SKIPPED" and a line for people.
+results=$work/results
+mkdir "$results"
 
 # add_result PART PASSED FAILED SKIPPED
 add_result() {
-    passed=$((passed + $2))
-    failed=$((failed + $3))
-    skipped=$((skipped + $4))
-    part_lines+=("$(printf '%-16s %5d passed %4d failed %4d skipped  %4d s' "$1" "$2" "$3" "$4" $((SECONDS - part_begin)))")
+    printf '%d %d %d %-16s %5d passed %4d failed %4d skipped  %4d s\n' "$2" "$3" "$4" "$1" "$2" "$3" "$4" \
+        $((SECONDS - part_begin)) >>"$results/$lane"
 }
 
-# keep_failures PART: the log's lines on failures, to be shown at the end: the beginning of a long output is soon lost.
+# keep_failures PART LOG: the log's lines on failures, to be shown at the end: the beginning of a long output is soon lost.
 keep_failures() {
     {
         echo "-- $1:"
-        grep -E '^ *FAILED|^(FAIL|ERROR): |: ERROR: |^ *TEST CASE: |AddressSanitizer|runtime error' "$work/log" | tail -n 40
+        grep -E '^ *FAILED|^(FAIL|ERROR): |: ERROR: |^ *TEST CASE: |AddressSanitizer|runtime error' "$2" | tail -n 40
     } >>"$work/failures"
 }
 
 # run_part PART COMMAND...: adds up the command's own summary line. No such line, or a bad exit
 # code without a failed test, counts as one failure, so that a crash is never silent.
 run_part() {
-    local part=$1 status summary counts
+    local part=$1 log=$work/log.$lane status summary counts
     shift
     part_begin=$SECONDS
     echo "== $part: $*"
-    "$@" 2>&1 | tee "$work/log"
+    "$@" 2>&1 | tee "$log"
     status=${PIPESTATUS[0]}
-    summary=$(grep -E '^[0-9]+ passed, [0-9]+ failed, [0-9]+ skipped$' "$work/log" | tail -n 1)
-    [ "$status" -eq 0 ] || keep_failures "$part"
+    summary=$(grep -E '^[0-9]+ passed, [0-9]+ failed, [0-9]+ skipped$' "$log" | tail -n 1)
+    [ "$status" -eq 0 ] || keep_failures "$part" "$log"
     read -r -a counts <<<"$(tr -dc '0-9 ' <<<"$summary")"
     if [ ${#counts[@]} -ne 3 ]; then
         echo "FAILED: $part ended with $status and without a summary line"
@@ -155,12 +159,45 @@ run_check() {
     fi
 }
 
+# run_lanes "PART..."...: the parts of a lane one after another, the lanes side by side: most parts leave a core idle now
+# and then. What the lanes after the first print is shown when they end.
+lane=0
+run_lanes() {
+    local part parts first number=0
+    [ "$jobs" -gt 1 ] || set -- "$*" # one core: one lane
+    first=$1
+    shift
+    for parts in "$@"; do
+        number=$((number + 1))
+        (
+            lane=$number
+            for part in $parts; do
+                ! is_wanted "$part" || "part_$part"
+            done
+        ) >"$work/output.$number" 2>&1 &
+    done
+    for part in $first; do
+        ! is_wanted "$part" || "part_$part"
+    done
+    wait
+    while [ "$number" -gt 0 ]; do
+        cat "$work/output.$number"
+        number=$((number - 1))
+    done
+}
+
 finish() {
+    local counts rest
     echo
     [ -f "$work/failures" ] && cat "$work/failures"
-    printf '%s\n' "${part_lines[@]}"
-    echo "$passed passed, $failed failed, $skipped skipped"
-    [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
+    counts=(0 0 0)
+    while read -r passed failed skipped rest; do
+        echo "$rest"
+        counts=($((counts[0] + passed)) $((counts[1] + failed)) $((counts[2] + skipped)))
+    done < <(cat "$results"/*)
+    printf 'in all %d s\n' "$SECONDS"
+    echo "${counts[0]} passed, ${counts[1]} failed, ${counts[2]} skipped"
+    [ "${counts[1]}" -eq 0 ] && [ "${counts[0]}" -gt 0 ]
     exit
 }
 
@@ -198,48 +235,43 @@ run_sanitized() {
     run_part "$part" "bin/gnomon_tests.$suffix" '--test-case-exclude=*[GPU]*' "$@"
 }
 
-if is_wanted layers; then
+part_layers() {
     run_part layers python3 tests/layers/test_layers.py
     run_part "layers canary" python3 tests/layers/test_layers.py --self-test
-fi
-if is_wanted scenes; then
+}
+part_scenes() {
     run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
         tests/demo/test_package_meshes.py tests/demo/test_page.py
-fi
-# Every later part runs what this one builds.
-if is_wanted build; then
-    run_check build scons -Q -j"$jobs" || finish
-fi
-if is_wanted docs; then
+}
+part_docs() {
     run_part docs python3 tests/run_unittest.py tests/docs/test_docs.py
-fi
-if is_wanted engine; then
+}
+part_engine() {
     run_part "engine slices" python3 tests/run_unittest.py tests/canaries/test_engine_slices.py
     run_part engine python3 tests/run_engine.py bin/gnomon_tests --processes "$jobs"
-fi
-if is_wanted embed; then
+}
+part_embed() {
     run_part embed python3 tests/run_unittest.py tests/embed/test_embed.py
-fi
-if is_wanted command_line; then
+}
+part_command_line() {
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
         tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py \
         tests/command_line/test_device_failures.py tests/command_line/test_kills.py
-fi
-# Not without being asked for: the package is large.
-if [ ${#only[@]} -gt 0 ] && is_wanted blender; then
+}
+part_blender() {
     run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
-fi
-if is_wanted demo; then
+}
+part_demo() {
     # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo" \
         --skip 'kitbash,rigging,grass,package_*'
-fi
-if is_wanted stability; then
+}
+part_stability() {
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py tests/stability/test_untuned_meshes.py
-fi
-if is_wanted removal; then
+}
+part_removal() {
     if [ "$is_full" = yes ]; then
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs" --all
         run_part "smallest game" python3 tests/removal/test_minimal.py --jobs "$jobs"
@@ -247,68 +279,98 @@ if is_wanted removal; then
         run_part removal python3 tests/removal/test_removal.py --jobs "$jobs"
         run_part "smallest game" python3 tests/removal/test_minimal.py --plan
     fi
-fi
-if is_wanted template; then
+}
+part_template() {
     run_part template python3 tests/run_unittest.py tests/template/test_add_a_technique.py
-fi
-if is_wanted sanitized; then
+}
+part_sanitized() {
     run_sanitized sanitized address,undefined
-fi
-if is_wanted fuzz_replay; then
+}
+part_fuzz_replay() {
     if run_check "fuzz_replay build" build_without_device address,undefined fuzz_targets; then
         run_part "fuzz_replay canary" python3 tests/canaries/test_replay.py release_address_undefined
         run_part fuzz_replay python3 tests/fuzz/replay_corpus.py release_address_undefined
     fi
+}
+part_godot_set_up() {
+    run_check "godot set-up" install_godot "$root"
+}
+part_godot_build() {
+    # Quick now, and what it exports is needed here.
+    install_godot "$root" && run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes
+}
+part_godot_device() {
+    run_part "godot device" python3 tests/godot/test_godot.py
+}
+part_godot_addon() {
+    run_part "godot add-on" python3 tests/godot/test_addon.py
+}
+part_godot_masks() {
+    run_part "godot masks" python3 tests/godot/test_masks.py
+}
+part_godot_editor() {
+    run_part "godot editor" python3 tests/godot/test_editor.py
+}
+part_godot_soak() {
+    run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 200)"
+}
+part_sanitized_all() {
+    run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
+        run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
+}
+part_threads() {
+    run_sanitized threads thread
+}
+part_fuzz() {
+    run_check "fuzz build" scons -Q -j"$jobs" compiledb=no fuzz=yes &&
+        run_part fuzz python3 tests/fuzz/run_fuzz.py --jobs "$jobs"
+}
+part_tables() {
+    run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
+}
+part_large_meshes() {
+    run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py
+}
+part_soak() {
+    run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
+}
+part_extremes() {
+    STABILITY_EXTENT=full run_part extremes python3 tests/run_unittest.py tests/stability/test_stability.py \
+        tests/stability/test_untuned_meshes.py
+}
+part_kills() {
+    GNOMON_KILL_COUNT=200 run_part "kills, engine" bin/gnomon_tests '--test-case=*killed at a random time*'
+    GNOMON_KILL_COUNT=200 run_part kills python3 tests/run_unittest.py tests/command_line/test_kills.py \
+        tests/command_line/test_device_failures.py
+}
+part_editor_repeats() {
+    # Windows, mice and other processes: what passes once may fail the next time.
+    local repeat
+    for repeat in 1 2 3 4 5 6 7 8 9 10; do
+        run_part "editor, time $repeat" python3 tests/run_unittest.py tests/command_line/test_editor.py \
+            tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
+            tests/command_line/test_editor_materials.py
+    done
+}
+
+# shellcheck source=demo_project/install_godot.sh
+. demo_project/install_godot.sh
+run_lanes "layers scenes"
+# All that follows runs what this one builds. Builds use all cores, and no test may see half of one.
+if is_wanted build; then
+    part_begin=$SECONDS
+    run_check build scons -Q -j"$jobs" || finish
 fi
-if [ "$has_godot" = yes ] && is_wanted godot; then
-    # shellcheck source=demo_project/install_godot.sh
-    . demo_project/install_godot.sh
-    if run_check "godot program" install_godot "$root" &&
-        run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes; then
-        run_part "godot device" python3 tests/godot/test_godot.py
-        run_part "godot add-on" python3 tests/godot/test_addon.py
-        run_part "godot masks" python3 tests/godot/test_masks.py
-        run_part "godot editor" python3 tests/godot/test_editor.py
-        run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 400)"
-    fi
+run_lanes "docs engine" "godot_set_up embed command_line demo stability template removal"
+# Not without being asked for: the package is large.
+if [ ${#only[@]} -gt 0 ]; then
+    run_lanes blender
+fi
+run_lanes "sanitized fuzz_replay"
+if is_wanted godot_build && part_godot_build; then
+    run_lanes "godot_device godot_masks" "godot_addon godot_editor godot_soak"
 fi
 if [ "$is_full" = yes ]; then
-    if is_wanted sanitized_all; then
-        run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
-            run_part "all sanitized" env ASAN_OPTIONS=detect_leaks=0 bin/gnomon_tests.release_address_undefined # Mesa leaks
-    fi
-    if is_wanted threads; then
-        run_sanitized threads thread
-    fi
-    if is_wanted tables; then
-        run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
-    fi
-    if is_wanted fuzz; then
-        run_check "fuzz build" scons -Q -j"$jobs" compiledb=no fuzz=yes &&
-            run_part fuzz python3 tests/fuzz/run_fuzz.py --jobs "$jobs"
-    fi
-    if is_wanted large_meshes; then
-        run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py
-    fi
-    if is_wanted soak; then
-        run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
-    fi
-    if is_wanted extremes; then
-        STABILITY_EXTENT=full run_part extremes python3 tests/run_unittest.py tests/stability/test_stability.py \
-            tests/stability/test_untuned_meshes.py
-    fi
-    if is_wanted kills; then
-        GNOMON_KILL_COUNT=200 run_part "kills, engine" bin/gnomon_tests '--test-case=*killed at a random time*'
-        GNOMON_KILL_COUNT=200 run_part kills python3 tests/run_unittest.py tests/command_line/test_kills.py \
-            tests/command_line/test_device_failures.py
-    fi
-    # Windows, mice and other processes: what passes once may fail the next time.
-    if is_wanted editor_repeats; then
-        for repeat in 1 2 3 4 5 6 7 8 9 10; do
-            run_part "editor, time $repeat" python3 tests/run_unittest.py tests/command_line/test_editor.py \
-                tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
-                tests/command_line/test_editor_materials.py
-        done
-    fi
+    run_lanes "sanitized_all threads tables fuzz large_meshes soak extremes kills editor_repeats"
 fi
 finish

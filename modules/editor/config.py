@@ -19,4 +19,8 @@ def get_doc():
 
 
 def configure(env):
-    env.Append(LIBS=["imgui", "stb", "glfw"], CCFLAGS=["-isystem/usr/include/imgui"])
+    env.Append(LIBS=["imgui", "stb", "glfw"])
+
+
+def get_include_folders(env):
+    return ["/usr/include/imgui"]

@@ -24,3 +24,9 @@ def is_program():
 
 def can_disable():
     return False
+
+
+def get_include_folders(env):
+    import godot_builders  # of a build alone
+
+    return [godot_builders.get_api_folder(env)]

@@ -26,9 +26,8 @@ def can_build(env):
 
 
 def configure(env):
-    flags = env.ParseFlags("!pkg-config OpenEXR --cflags --libs")
-    for folder in flags["CPPPATH"]:
-        # A system folder: warnings in headers of others are not ours to fix.
-        env.Append(CCFLAGS=[("-isystem", folder)])
-    flags["CPPPATH"] = []
-    env.MergeFlags(flags)
+    env.Append(LIBS=env.ParseFlags("!pkg-config OpenEXR --libs")["LIBS"])
+
+
+def get_include_folders(env):
+    return env.ParseFlags("!pkg-config OpenEXR --cflags")["CPPPATH"]

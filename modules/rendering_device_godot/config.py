@@ -12,3 +12,9 @@ def get_description():
 
 def get_hosts():
     return ("godot",)
+
+
+def get_include_folders(env):
+    import godot_builders  # of a build alone
+
+    return [godot_builders.get_api_folder(env)]

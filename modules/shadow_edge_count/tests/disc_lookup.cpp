@@ -1,3 +1,4 @@
+// build: optimised
 #include "modules/shadow_edge_count/tests/disc_lookup.h"
 
 #include <algorithm>

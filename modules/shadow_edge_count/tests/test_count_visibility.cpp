@@ -1,3 +1,4 @@
+// build: optimised
 #include "modules/shadow_edge_count/tests/count_scene.h"
 
 #include <doctest/doctest.h>
