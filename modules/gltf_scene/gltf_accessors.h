@@ -15,8 +15,9 @@ namespace gnomon {
 /// ones and the integer formats of KHR_mesh_quantization are included.
 class GltfAccessors {
 public:
-	/// Both must outlive it.
-	GltfAccessors(const GltfObject &p_root, GltfBuffers &p_buffers);
+	/// All must outlive it.
+	GltfAccessors(
+			const tinygltf::Model &p_model, GltfBuffers &p_buffers, const GltfMessages &p_messages);
 
 	/// A VEC3 of floats or of integers of 8 or 16 bits, normalized or not. Shared with the caller
 	/// as exporters like to let many primitives share one vertex array.
@@ -27,13 +28,15 @@ public:
 private:
 	struct Layout; // of one accessor or its sparse part, all bounds checked
 	enum class Content { VECTORS, INDICES };
-	Layout read_layout(const GltfObject &p_accessor, Content p_content);
+	Layout read_layout(size_t p_index, Content p_content);
+	/// Finds the elements in a view. p_path: where its index and the offset in it stand.
+	void find_bytes(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);
 	template <typename Convert>
-	void read_elements(
-			const GltfObject &p_accessor, const Layout &p_layout, const Convert &p_convert);
+	void read_elements(size_t p_index, const Layout &p_layout, const Convert &p_convert);
 
-	GltfObject root;
+	const tinygltf::Model &model;
 	GltfBuffers &buffers;
+	const GltfMessages &messages;
 	uint64_t decoded_count = 0;
 	struct CacheEntry {
 		size_t accessor_index = SIZE_MAX;

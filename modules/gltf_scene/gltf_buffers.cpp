@@ -3,8 +3,6 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 
-#include <tiny_gltf.h>
-
 #include <cctype>
 
 namespace gnomon {
@@ -142,11 +140,19 @@ std::span<const uint8_t> GltfBuffers::load_buffer(size_t p_index) {
 	return bytes.first(length_bytes);
 }
 
-std::span<const uint8_t> GltfBuffers::load_view(const GltfObject &p_view) {
-	const auto bytes = load_buffer(p_view.require_index("buffer", root.get_count("buffers")));
-	const uint64_t offset = p_view.find_integer("byteOffset", 0, bytes.size() - 1).value_or(0);
-	const uint64_t length = p_view.require_integer("byteLength", 1, bytes.size() - offset);
-	return bytes.subspan(offset, length);
+std::span<const uint8_t> GltfBuffers::load_view(const tinygltf::Model &p_model, size_t p_index) {
+	const tinygltf::BufferView &view = p_model.bufferViews[p_index];
+	const auto bytes = load_buffer(static_cast<size_t>(view.buffer));
+	const auto check = [&](const char *p_key, uint64_t p_value, uint64_t p_minimum,
+							   uint64_t p_maximum) {
+		if (p_value < p_minimum || p_value > p_maximum) {
+			root.get_messages().fail_value(text("bufferViews[", p_index, "].", p_key),
+					text(p_value), text("a whole number in ", p_minimum, "..", p_maximum));
+		}
+	};
+	check("byteOffset", view.byteOffset, 0, bytes.size() - 1);
+	check("byteLength", view.byteLength, 1, bytes.size() - view.byteOffset);
+	return bytes.subspan(view.byteOffset, view.byteLength);
 }
 
 std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_buffer, const std::string &p_uri) {

@@ -2,6 +2,8 @@
 
 #include "modules/gltf_scene/gltf_json.h"
 
+#include <tiny_gltf.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -37,8 +39,8 @@ public:
 
 	/// Exactly byteLength bytes, valid as long as this object; fewer there: fails.
 	std::span<const uint8_t> load_buffer(size_t p_index);
-	/// The bytes of a buffer view; outside its buffer: fails.
-	std::span<const uint8_t> load_view(const GltfObject &p_view);
+	/// The bytes of a buffer view of the document's model; outside its buffer: fails.
+	std::span<const uint8_t> load_view(const tinygltf::Model &p_model, size_t p_index);
 	/// That were read so far.
 	const std::vector<std::filesystem::path> &get_files() const { return files; }
 

@@ -4,6 +4,8 @@
 #include "modules/gltf_scene/gltf_container.h"
 #include "modules/scene/nodes.h"
 
+#include <tiny_gltf.h>
+
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +17,9 @@ namespace gnomon {
 
 inline constexpr char GLTF_PUNCTUAL[] = "KHR_lights_punctual";
 inline constexpr char GLTF_AREA[] = "EXT_lights_area";
+inline constexpr char GLTF_TRANSMISSION[] = "KHR_materials_transmission";
+inline constexpr char GLTF_VOLUME[] = "KHR_materials_volume";
+inline constexpr char GLTF_EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strength";
 
 /// A node as it was loaded. What still equals it is not written.
 struct GltfNodeState {
@@ -25,7 +30,7 @@ struct GltfNodeState {
 	bool is_planar_receiver = false;
 };
 
-/// A file as it was read, kept by its scene: saving patches a copy of it.
+/// A file as it was read, kept by its scene: saving changes a copy of it.
 class GltfDocument : public SceneDocument {
 public:
 	/// Meshes of one node, as pointers that name them.
@@ -33,7 +38,10 @@ public:
 
 	std::string file; // as the user named it
 	GltfPlace place;
-	GltfContainer container;
+	GltfContainer container; // as it was read
+	/// The same as tinygltf holds it: without animations, skins and the bytes of buffers and
+	/// images, refused values replaced by their defaults.
+	tinygltf::Model model;
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
 	std::vector<GltfNodeState> nodes; // by index in the file
@@ -61,5 +69,15 @@ public:
 		return key;
 	}
 };
+
+/// tinygltf's model of a document that check_gltf let pass. What tinygltf refuses all the same: an
+/// Error.
+tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages);
+
+/// The document that tinygltf writes of a changed model. p_read, p_before: the document as it was
+/// read, and tinygltf's model of it; all that the model does not hold, and all that did not change,
+/// stays in it as it stands, in its order. Both null for a new document.
+Json write_gltf_model(
+		const tinygltf::Model &p_model, const Json *p_read, const tinygltf::Model *p_before);
 
 } // namespace gnomon

@@ -56,6 +56,15 @@ std::string GltfMessages::describe(std::string_view p_path, std::string_view p_p
 	return to_one_line(text("\"", file, "\": ", p_path, " ", p_problem));
 }
 
+void GltfMessages::fail(std::string_view p_path, std::string_view p_problem) const {
+	throw Error(describe(p_path, p_problem));
+}
+
+void GltfMessages::fail_value(
+		std::string_view p_path, std::string_view p_value, std::string_view p_range) const {
+	fail(p_path, text("is ", p_value, ", must be ", p_range, ". ", NEXT_STEP));
+}
+
 std::string to_one_line(std::string_view p_text) {
 	std::string line;
 	for (const char character : p_text.substr(0, MAX_MESSAGE_LENGTH)) {
@@ -63,6 +72,11 @@ std::string to_one_line(std::string_view p_text) {
 		line += is_control ? ' ' : character;
 	}
 	return p_text.size() > MAX_MESSAGE_LENGTH ? line + "..." : line;
+}
+
+std::string make_name(std::string_view p_name, const std::string &p_otherwise) {
+	const std::string name = to_one_line(p_name);
+	return name.empty() ? p_otherwise : name;
 }
 
 std::string describe_json(const Json &p_value) {
@@ -84,12 +98,17 @@ std::string describe_json(const Json &p_value) {
 	return words;
 }
 
-GltfObject::GltfObject(const Json &p_json, std::string p_path, GltfMessages &p_messages) :
-		json(&p_json), path(std::move(p_path)), messages(&p_messages) {
+GltfObject::GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages) :
+		json(&r_json), path(std::move(p_path)), messages(&p_messages) {
 	if (!json->is_object()) {
 		throw Error(messages->describe(
 				path, text("is ", describe_json(*json), ", must be an object. ", NEXT_STEP)));
 	}
+}
+
+GltfObject::GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMessages &p_messages) :
+		GltfObject(*p_json, std::move(p_path), p_messages) {
+	storage = std::move(p_json);
 }
 
 std::string GltfObject::path_of(std::string_view p_key) const {
@@ -97,7 +116,7 @@ std::string GltfObject::path_of(std::string_view p_key) const {
 	return path + (needs_dot ? "." : "") + std::string(p_key);
 }
 
-const Json *GltfObject::find(std::string_view p_key) const {
+Json *GltfObject::find(std::string_view p_key) const {
 	for (auto item = json->begin(); item != json->end(); ++item) {
 		if (item.key() == p_key) {
 			return item->is_null() ? nullptr : &*item;
@@ -107,7 +126,7 @@ const Json *GltfObject::find(std::string_view p_key) const {
 }
 
 std::optional<GltfObject> GltfObject::find_object(std::string_view p_key) const {
-	const Json *value = find(p_key);
+	Json *value = find(p_key);
 	if (!value) {
 		return std::nullopt;
 	}
@@ -221,11 +240,6 @@ std::string GltfObject::get_text(std::string_view p_key) const {
 	return value && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-std::string GltfObject::get_name(const std::string &p_otherwise) const {
-	const std::string name = to_one_line(get_text("name"));
-	return name.empty() ? p_otherwise : name;
-}
-
 double GltfObject::read_number(std::string_view p_key, double p_default, double p_minimum,
 		double p_maximum, std::string_view p_unit) const {
 	const Json *value = find(p_key);
@@ -279,7 +293,7 @@ bool GltfObject::read_bool(std::string_view p_key, bool p_default) const {
 }
 
 void GltfObject::fail_at(std::string_view p_key, std::string_view p_problem) const {
-	throw Error(messages->describe(path_of(p_key), p_problem));
+	messages->fail(path_of(p_key), p_problem);
 }
 
 void GltfObject::fail_value(std::string_view p_key, std::string_view p_range) const {
@@ -297,45 +311,12 @@ void GltfObject::report_value(
 					p_default, " is used. Correct it in the file.")));
 }
 
-Json to_json_number(float p_value) {
+double to_shortest(float p_value) {
 	char digits[32];
 	const auto written = std::to_chars(digits, digits + sizeof(digits), p_value);
 	double number = 0;
 	std::from_chars(digits, written.ptr, number);
 	return number;
-}
-
-Json to_json(const glm::vec3 &p_vector) {
-	return Json::array(
-			{ to_json_number(p_vector.x), to_json_number(p_vector.y), to_json_number(p_vector.z) });
-}
-
-Json &require_object(Json &r_parent, const char *p_key) {
-	Json &object = r_parent[p_key];
-	if (!object.is_object()) {
-		object = Json::object();
-	}
-	return object;
-}
-
-Json &require_extras(Json &r_object) {
-	Json &extras = r_object["extras"];
-	if (!extras.is_object()) {
-		// Extras may be any value; what was there moves one level down.
-		Json before = std::move(extras);
-		extras = Json::object();
-		if (!before.is_null()) {
-			extras["extras"] = std::move(before);
-		}
-	}
-	return extras;
-}
-
-void declare_extension(Json &r_root, const std::string &p_name) {
-	Json &used = r_root["extensionsUsed"];
-	if (std::find(used.begin(), used.end(), p_name) == used.end()) {
-		used.push_back(p_name);
-	}
 }
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -41,21 +41,31 @@ struct GltfMessages {
 	void warn(const char *p_kind, std::string_view p_path, std::string_view p_problem);
 	/// `"desk.gltf": nodes[3].mesh is 7, must be 0..1. <next step>`, always one line.
 	std::string describe(std::string_view p_path, std::string_view p_problem) const;
+	/// Throws an Error with such a line.
+	[[noreturn]] void fail(std::string_view p_path, std::string_view p_problem) const;
+	/// "is <value>, must be <range>. Correct it or export the file again."
+	[[noreturn]] void fail_value(
+			std::string_view p_path, std::string_view p_value, std::string_view p_range) const;
 };
 
 /// The text without line breaks and other control characters, cut where it gets too long to read.
 std::string to_one_line(std::string_view p_text);
+/// A name as one line; the other where it is empty.
+std::string make_name(std::string_view p_name, const std::string &p_otherwise);
 /// A value for a message: numbers and short texts as they are, "an array", "an object".
 std::string describe_json(const Json &p_value);
 
 /// Parses a file's JSON. Text that is not JSON, or exceeds the limits above, is an Error.
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
-/// An object of a document and where it stands; every access is checked. The document must outlive
-/// it. "Fails" below: throws Error with file, path, value and range.
+/// An object of a document and where it stands; every access is checked. "Fails" below: throws
+/// Error with file, path, value and range.
 class GltfObject {
 public:
-	GltfObject(const Json &p_json, std::string p_path, GltfMessages &p_messages);
+	/// Both must outlive it.
+	GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages);
+	/// Keeps the value alive itself.
+	GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMessages &p_messages);
 
 	const Json &get_json() const { return *json; }
 	const std::string &get_path() const { return path; }
@@ -63,8 +73,13 @@ public:
 	/// "nodes[3].mesh"
 	std::string path_of(std::string_view p_key) const;
 
+	void set(std::string_view p_key, Json p_value) const {
+		(*json)[std::string(p_key)] = std::move(p_value);
+	}
+	void erase(std::string_view p_key) const { json->erase(std::string(p_key)); }
+
 	/// The value, or null when absent or JSON's null.
-	const Json *find(std::string_view p_key) const;
+	Json *find(std::string_view p_key) const;
 	/// Absent: nothing. Not an object: fails.
 	std::optional<GltfObject> find_object(std::string_view p_key) const;
 	GltfObject require_object(std::string_view p_key) const;
@@ -90,8 +105,6 @@ public:
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
 	/// Text; absent or not text: empty, as no text decides whether a file can be drawn.
 	std::string get_text(std::string_view p_key) const;
-	/// Its name as one line; the other where it has none.
-	std::string get_name(const std::string &p_otherwise) const;
 
 	/// A number in p_minimum..p_maximum; any other value is reported and the default returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
@@ -109,19 +122,13 @@ public:
 			std::string_view p_key, std::string_view p_range, std::string_view p_default) const;
 
 private:
-	const Json *json;
+	std::shared_ptr<Json> storage; // of json, where that is nobody else's
+	Json *json;
 	std::string path;
 	GltfMessages *messages;
 };
 
 /// The shortest decimal number that reads back as this float.
-Json to_json_number(float p_value);
-Json to_json(const glm::vec3 &p_vector);
-/// The value at a key, made an object if it was none.
-Json &require_object(Json &r_parent, const char *p_key);
-/// The object's `extras`, likewise; another value that was there moves one level down.
-Json &require_extras(Json &r_object);
-/// Names an extension in a document's `extensionsUsed`, once.
-void declare_extension(Json &r_root, const std::string &p_name);
+double to_shortest(float p_value);
 
 } // namespace gnomon

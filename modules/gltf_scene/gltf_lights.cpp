@@ -2,18 +2,20 @@
 
 #include "modules/core/error.h"
 #include "modules/core/property.h"
+#include "modules/gltf_scene/gltf_document.h"
+#include "modules/gltf_scene/gltf_values.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 
 namespace gnomon {
 
+using tinygltf::Value;
+
 namespace {
 
 const double DEGREES_PER_RADIAN = 57.295779513082321;
-const float DEFAULT_OUTER_CONE_RAD = 0.785398163f; // KHR_lights_punctual: pi / 4
-const float MAX_CONE_RAD = 1.57079637f;			   // the float nearest to pi / 2
+const float MAX_CONE_RAD = 1.57079637f; // the float nearest to pi / 2
 
 /// Other names under which files hold a property of Light3D, in the order in which they are tried.
 struct PropertyAlias {
@@ -140,34 +142,11 @@ bool read_area_size(const GltfObject &p_area, PropertyValues &r_properties) {
 	return true;
 }
 
-void read_cones(const GltfObject &p_light, Light3D &r_light) {
-	// Without the object that the specification wants, the defaults are meant.
-	const Json *json = p_light.find("spot");
-	if (!json) {
-		return;
-	}
-	if (!json->is_object()) {
-		p_light.report_value("spot", "an object", "the default");
-		return;
-	}
-	const GltfObject spot = *p_light.find_object("spot");
-	// Exporters round pi / 2 up as often as down.
-	const double FILE_MAX_CONE_RAD = MAX_CONE_RAD + 1e-6;
-	const double outer =
-			spot.read_number("outerConeAngle", DEFAULT_OUTER_CONE_RAD, 0, FILE_MAX_CONE_RAD, "rad");
-	const double inner = spot.read_number("innerConeAngle", 0, 0, FILE_MAX_CONE_RAD, "rad");
-	if (!(outer > 0)) {
-		spot.report_value("outerConeAngle", "above 0", text(DEFAULT_OUTER_CONE_RAD));
-		return;
-	}
-	r_light.outer_cone_rad = std::min(static_cast<float>(outer), MAX_CONE_RAD);
-	if (inner > outer) {
-		spot.report_value("innerConeAngle", text("at most outerConeAngle, ", outer), "0");
-		return;
-	}
+void read_cones(const tinygltf::SpotLight &p_spot, Light3D &r_light) {
+	r_light.outer_cone_rad = std::min(static_cast<float>(p_spot.outerConeAngle), MAX_CONE_RAD);
 	// A hard edge has both alike, although the specification wants the inner one smaller.
-	r_light.inner_cone_rad =
-			std::min(static_cast<float>(inner), std::nextafter(r_light.outer_cone_rad, 0.0f));
+	r_light.inner_cone_rad = std::min(static_cast<float>(p_spot.innerConeAngle),
+			std::nextafter(r_light.outer_cone_rad, 0.0f));
 }
 
 void check_finite(const Light3D &p_light, const char *p_what, double p_value) {
@@ -189,95 +168,88 @@ void check_light(const Light3D &p_light) {
 	}
 }
 
-void write_punctual(const Light3D &p_light, const LightSettings *p_before, Json &r_light) {
+void write_punctual(
+		const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light) {
 	if (!p_before || p_light.type != p_before->type) {
-		r_light["type"] = p_light.type == LightType::OMNI ? "point"
-				: p_light.type == LightType::SPOT		  ? "spot"
-														  : "directional";
+		r_light.type = p_light.type == LightType::OMNI ? "point"
+				: p_light.type == LightType::SPOT	   ? "spot"
+													   : "directional";
 	}
 	if (!p_before || p_light.color != p_before->color) {
-		r_light["color"] = to_json(p_light.color);
+		const glm::vec3 &color = p_light.color;
+		r_light.color = { to_shortest(color.x), to_shortest(color.y), to_shortest(color.z) };
 	}
 	if (!p_before || p_light.intensity != p_before->intensity) {
-		r_light["intensity"] = to_json_number(p_light.intensity);
+		r_light.intensity = to_shortest(p_light.intensity);
 	}
 	if (!p_before || p_light.range_m != p_before->range_m) {
-		r_light.erase("range");
-		if (p_light.range_m > 0) {
-			r_light["range"] = to_json_number(p_light.range_m);
-		}
+		r_light.range = p_light.range_m > 0 ? to_shortest(p_light.range_m) : 0.0;
 	}
 	const bool has_same_cones = p_before && p_light.type == p_before->type &&
 			p_light.inner_cone_rad == p_before->inner_cone_rad &&
 			p_light.outer_cone_rad == p_before->outer_cone_rad;
 	if (p_light.type == LightType::SPOT && !has_same_cones) {
-		Json &spot = require_object(r_light, "spot");
-		spot["innerConeAngle"] = to_json_number(p_light.inner_cone_rad);
-		spot["outerConeAngle"] = to_json_number(p_light.outer_cone_rad);
+		r_light.spot.innerConeAngle = to_shortest(p_light.inner_cone_rad);
+		r_light.spot.outerConeAngle = to_shortest(p_light.outer_cone_rad);
 	}
 }
 
-void erase_property(Json &r_object, const std::string &p_name) {
-	const auto extras = r_object.find("extras");
-	if (extras == r_object.end() || !extras->is_object()) {
+void erase_property(Value &r_extras, const std::string &p_name) {
+	if (!r_extras.IsObject()) {
 		return;
 	}
-	extras->erase(p_name);
+	Value::Object &members = r_extras.Get<Value::Object>();
+	members.erase(p_name);
 	for (const PropertyAlias &alias : ALIASES) {
 		if (alias.property == p_name) {
-			extras->erase(std::string(alias.alias));
+			members.erase(std::string(alias.alias));
 		}
 	}
 }
 
-void set_property(Json &r_light, const std::string &p_name, const PropertyValue &p_value) {
-	Json &extras = require_extras(r_light);
-	extras[p_name] = property_to_json<Json>(p_value);
+void set_property(Value &r_extras, const std::string &p_name, const PropertyValue &p_value) {
+	Value::Object &members = require_extras(r_extras);
+	members[p_name] = to_value(property_to_json<Json>(p_value));
 	// Programs that know only the other name must not read the old value.
 	for (const PropertyAlias &alias : ALIASES) {
 		const double *number = std::get_if<double>(&p_value);
-		if (alias.property == p_name && number && extras.contains(alias.alias)) {
-			extras[std::string(alias.alias)] = *number / alias.factor;
+		const auto other = members.find(std::string(alias.alias));
+		if (alias.property == p_name && number && other != members.end()) {
+			other->second = Value(*number / alias.factor);
 		}
 	}
 }
 
 } // namespace
 
-bool read_light(
-		const GltfLightPlaces &p_places, const GltfLoadOptions &p_options, Light3D &r_light) {
-	const GltfObject &light = p_places.light;
-	const std::string type = light.get_text("type");
-	if (type != "point" && type != "spot" && type != "directional") {
-		light.report_value("type", "\"point\", \"spot\" or \"directional\"", "no light");
+bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
+		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light) {
+	const tinygltf::Light &light = p_model.lights[p_places.light_index];
+	if (light.type.empty()) {
 		return false;
 	}
-	r_light.type = type == "point" ? LightType::OMNI
-			: type == "spot"	   ? LightType::SPOT
-								   : LightType::DIRECTIONAL;
-	light.read_color("color", FLT_MAX, std::span<float, 3>(&r_light.color[0], 3));
-	r_light.intensity = static_cast<float>(light.read_number("intensity", 1, 0, FLT_MAX));
-	if (const Json *range = light.find("range")) {
-		const float range_m = range->is_number() ? range->get<float>() : NAN;
-		if (range_m > 0 && std::isfinite(range_m)) {
-			r_light.range_m = range_m;
-		} else {
-			light.report_value("range", "a finite number above 0 m", "no limit");
-		}
+	r_light.type = light.type == "point" ? LightType::OMNI
+			: light.type == "spot"		 ? LightType::SPOT
+										 : LightType::DIRECTIONAL;
+	if (!light.color.empty()) {
+		r_light.color = glm::vec3(light.color[0], light.color[1], light.color[2]);
 	}
+	r_light.intensity = static_cast<float>(light.intensity);
+	r_light.range_m = static_cast<float>(light.range);
 	if (r_light.type == LightType::SPOT) {
-		read_cones(light, r_light);
+		read_cones(light.spot, r_light);
 	}
 	r_light.file_path = text("lights[", p_places.light_index, "]");
 
 	std::vector<GltfObject> all_extras;
-	if (const auto extras = light.find_extras()) {
-		all_extras.push_back(*extras);
-	}
-	for (const GltfObject &node : p_places.nodes) {
-		if (const auto extras = node.find_extras()) {
+	const auto add_extras = [&](const Value &p_extras, const std::string &p_path) {
+		if (const auto extras = find_object(p_extras, p_path + ".extras", r_messages)) {
 			all_extras.push_back(*extras);
 		}
+	};
+	add_extras(light.extras, text("extensions.", GLTF_PUNCTUAL, ".", r_light.file_path));
+	for (const size_t node : p_places.nodes) {
+		add_extras(p_model.nodes[node].extras, text("nodes[", node, "]"));
 	}
 	const bool has_area_size = p_places.area && read_area_size(*p_places.area, r_light.properties);
 	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
@@ -289,29 +261,30 @@ bool read_light(
 	return true;
 }
 
-void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
-		const std::vector<Json *> &p_nodes, Json *r_area) {
+void write_light(const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light,
+		const std::vector<tinygltf::Node *> &p_nodes, Value *r_area) {
 	check_light(p_light);
 	write_punctual(p_light, p_before, r_light);
 	const PropertyValues nothing;
 	const PropertyValues &before = p_before ? p_before->properties : nothing;
 	for (const auto &[name, value] : before) {
 		if (!p_light.properties.contains(name)) {
-			erase_property(r_light, name);
-			for (Json *node : p_nodes) {
-				erase_property(*node, name);
+			erase_property(r_light.extras, name);
+			for (tinygltf::Node *node : p_nodes) {
+				erase_property(node->extras, name);
 			}
 		}
 	}
 	for (const auto &[name, value] : p_light.properties) {
 		const auto found = before.find(name);
 		if (found == before.end() || found->second != value) {
-			set_property(r_light, name, value);
+			set_property(r_light.extras, name, value);
 		}
 	}
 	if (r_area) {
 		const PropertyList &list = Light3D::get_property_list();
-		(*r_area)["size"] = 2 * get_float(list, p_light.properties, "light_size");
+		require_object(*r_area)["size"] =
+				Value(2 * get_float(list, p_light.properties, "light_size"));
 	}
 }
 

@@ -3,6 +3,8 @@
 #include "modules/gltf_scene/gltf_json.h"
 #include "modules/gltf_scene/gltf_scene.h"
 
+#include <tiny_gltf.h>
+
 #include <optional>
 #include <vector>
 
@@ -10,23 +12,22 @@ namespace gnomon {
 
 /// Where one light's values stand: the first place that has a value wins (DESIGN, scene files).
 struct GltfLightPlaces {
-	size_t light_index = 0;
-	GltfObject light;				// an element of KHR_lights_punctual's lights
+	size_t light_index = 0;			// of KHR_lights_punctual's lights
 	std::optional<GltfObject> area; // an element of EXT_lights_area's lights
 	/// The node, and above it the object that Blender puts between a light and its parent.
-	std::vector<GltfObject> nodes;
+	std::vector<size_t> nodes;
 };
 
-/// Fills all of the light but its name and transform. False when it is of an unknown type, which is
-/// reported. A refused value is reported and its default stays.
-bool read_light(
-		const GltfLightPlaces &p_places, const GltfLoadOptions &p_options, Light3D &r_light);
+/// Fills all of the light but its name and transform. False when it is of an unknown type. A
+/// refused property is reported and its default stays.
+bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
+		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light);
 
 /// Writes what differs from p_before (all, when null) into a definition of KHR_lights_punctual. A
 /// property that was unset vanishes from p_nodes' extras too, else it would come back from there.
 /// r_area: a disc of EXT_lights_area that gets the light's size, as it outranks the extras; or
 /// null.
-void write_light(const Light3D &p_light, const LightSettings *p_before, Json &r_light,
-		const std::vector<Json *> &p_nodes, Json *r_area);
+void write_light(const Light3D &p_light, const LightSettings *p_before, tinygltf::Light &r_light,
+		const std::vector<tinygltf::Node *> &p_nodes, tinygltf::Value *r_area);
 
 } // namespace gnomon

@@ -2,59 +2,69 @@
 
 #include "modules/core/error.h"
 #include "modules/core/limits.h"
+#include "modules/gltf_scene/gltf_document.h"
+#include "modules/gltf_scene/gltf_values.h"
 
 #include <algorithm>
 
 namespace gnomon {
 
+using tinygltf::Value;
+
 namespace {
 
-const double MAX_EMISSIVE_CD_M2 = 1e9; // the sun's disc
-const char TRANSMISSION[] = "KHR_materials_transmission";
-const char VOLUME[] = "KHR_materials_volume";
-const char STRENGTH[] = "KHR_materials_emissive_strength";
-
-std::span<float, 3> to_span(glm::vec3 &r_color) {
-	return std::span<float, 3>(&r_color[0], 3);
+glm::vec3 to_color(const std::vector<double> &p_numbers) {
+	return glm::vec3(p_numbers[0], p_numbers[1], p_numbers[2]);
 }
 
-void read_surface(const GltfObject &p_material, Material &r_material) {
-	const Json *alpha_mode = p_material.find("alphaMode");
-	if (alpha_mode != nullptr && *alpha_mode != "OPAQUE") {
-		p_material.get_messages().warn("alpha", p_material.get_path(),
+std::vector<double> to_numbers(const glm::vec3 &p_color) {
+	return { to_shortest(p_color.x), to_shortest(p_color.y), to_shortest(p_color.z) };
+}
+
+Value to_value(float p_number) {
+	return Value(to_shortest(p_number));
+}
+
+Value to_value(const glm::vec3 &p_color) {
+	return Value(Value::Array{ to_value(p_color.x), to_value(p_color.y), to_value(p_color.z) });
+}
+
+void read_surface(const tinygltf::Material &p_written, const std::string &p_path,
+		GltfMessages &r_messages, Material &r_material) {
+	if (p_written.alphaMode != "OPAQUE") {
+		r_messages.warn("alpha", p_path,
 				"has an alphaMode, which is not read: it is opaque. Light goes through with "
 				"KHR_materials_transmission.");
 	}
-	r_material.base_color = glm::vec3(1.0f);
-	r_material.metallic = 1.0f;
-	if (const auto surface = p_material.find_object("pbrMetallicRoughness")) {
-		surface->read_color("baseColorFactor", 1.0, to_span(r_material.base_color));
-		r_material.metallic = static_cast<float>(surface->read_number("metallicFactor", 1, 0, 1));
-		r_material.roughness = static_cast<float>(surface->read_number("roughnessFactor", 1, 0, 1));
-		if (surface->find("baseColorTexture")) {
-			p_material.get_messages().warn(
-					"texture", p_material.get_path(), "has a texture; textures are not read yet.");
-		}
+	const tinygltf::PbrMetallicRoughness &surface = p_written.pbrMetallicRoughness;
+	r_material.base_color = to_color(surface.baseColorFactor);
+	r_material.metallic = static_cast<float>(surface.metallicFactor);
+	r_material.roughness = static_cast<float>(surface.roughnessFactor);
+	if (surface.baseColorTexture.index >= 0) {
+		r_messages.warn("texture", p_path, "has a texture; textures are not read yet.");
 	}
-	p_material.read_color("emissiveFactor", 1.0, to_span(r_material.emissive));
-	if (const auto strength = p_material.find_extension(STRENGTH)) {
-		r_material.emissive *= static_cast<float>(
-				strength->read_number("emissiveStrength", 1, 0, MAX_EMISSIVE_CD_M2));
+	r_material.emissive = to_color(p_written.emissiveFactor);
+	if (const Value *strength = find_extension(p_written.extensions, GLTF_EMISSIVE_STRENGTH)) {
+		r_material.emissive *= static_cast<float>(get_number(*strength, "emissiveStrength", 1));
 	}
-	r_material.is_double_sided = p_material.read_bool("doubleSided", false);
+	r_material.is_double_sided = p_written.doubleSided;
 }
 
-void read_transmission(const GltfObject &p_material, Material &r_material) {
-	if (const auto extension = p_material.find_extension(TRANSMISSION)) {
+void read_transmission(const tinygltf::Material &p_written, Material &r_material) {
+	if (const Value *transmission = find_extension(p_written.extensions, GLTF_TRANSMISSION)) {
 		r_material.transmission =
-				static_cast<float>(extension->read_number("transmissionFactor", 0, 0, 1));
+				static_cast<float>(get_number(*transmission, "transmissionFactor", 0));
 	}
-	if (const auto volume = p_material.find_extension(VOLUME)) {
-		r_material.thickness_m =
-				static_cast<float>(volume->read_number("thicknessFactor", 0, 0, MAX_LENGTH_M, "m"));
-		volume->read_color("attenuationColor", 1.0, to_span(r_material.attenuation_color));
-		r_material.attenuation_distance_m = static_cast<float>(
-				volume->read_number("attenuationDistance", 0, 0, MAX_LENGTH_M, "m"));
+	if (const Value *volume = find_extension(p_written.extensions, GLTF_VOLUME)) {
+		r_material.thickness_m = static_cast<float>(get_number(*volume, "thicknessFactor", 0));
+		if (volume->Has("attenuationColor")) {
+			for (int channel = 0; channel < 3; ++channel) {
+				r_material.attenuation_color[channel] = static_cast<float>(
+						volume->Get("attenuationColor").Get(channel).GetNumberAsDouble());
+			}
+		}
+		r_material.attenuation_distance_m =
+				static_cast<float>(get_number(*volume, "attenuationDistance", 0));
 	}
 }
 
@@ -63,130 +73,124 @@ float derive_scatter_distance(const Material &p_material) {
 	return p_material.scatter > 0 ? p_material.attenuation_distance_m : 0.0f;
 }
 
-void read_extras(const GltfObject &p_material, Material &r_material) {
-	const std::optional<GltfObject> values = p_material.find_extras();
-	if (!values) {
-		return;
-	}
-	r_material.scatter = static_cast<float>(values->read_number("scatter", 0, 0, 1));
-	r_material.scatter_distance_m = static_cast<float>(values->read_number(
+void read_extras(const GltfObject &p_extras, Material &r_material) {
+	r_material.scatter = static_cast<float>(p_extras.read_number("scatter", 0, 0, 1));
+	r_material.scatter_distance_m = static_cast<float>(p_extras.read_number(
 			"scatter_distance", derive_scatter_distance(r_material), 0, MAX_LENGTH_M, "m"));
-	if (values->find("shading_model")) {
-		const std::string name = values->get_text("shading_model");
+	if (p_extras.find("shading_model")) {
+		const std::string name = p_extras.get_text("shading_model");
 		if (name == get_shading_model_name(ShadingModel::PHONG)) {
 			r_material.shading_model = ShadingModel::PHONG;
 		} else if (name != get_shading_model_name(ShadingModel::METALLIC_ROUGHNESS)) {
-			values->report_value("shading_model", "metallic_roughness or phong",
+			p_extras.report_value("shading_model", "metallic_roughness or phong",
 					get_shading_model_name(ShadingModel::METALLIC_ROUGHNESS));
 		}
 	}
 }
 
 /// Writes a number where it differs from what the file has. A default is not written anew.
-void write_number(float p_value, float p_before, const char *p_key, Json &r_object) {
+void write_number(float p_value, float p_before, const char *p_key, Value::Object &r_object) {
 	if (p_value != p_before) {
-		r_object[p_key] = to_json_number(p_value);
+		r_object[p_key] = to_value(p_value);
 	}
 }
 
 void write_surface(const Material &p_material, const Material &p_before, bool p_is_new,
-		Json &r_root, Json &r_material) {
-	if (p_is_new || p_material.base_color != p_before.base_color ||
-			p_material.metallic != p_before.metallic ||
-			p_material.roughness != p_before.roughness) {
-		Json &surface = require_object(r_material, "pbrMetallicRoughness");
-		if (p_is_new || p_material.base_color != p_before.base_color) {
-			Json color = to_json(p_material.base_color);
-			const Json &old = surface.value("baseColorFactor", Json());
-			color.push_back(old.is_array() && old.size() == 4 ? old[3] : Json(1.0));
-			surface["baseColorFactor"] = std::move(color);
-		}
-		if (p_is_new || p_material.metallic != p_before.metallic) {
-			surface["metallicFactor"] = to_json_number(p_material.metallic);
-		}
-		if (p_is_new || p_material.roughness != p_before.roughness) {
-			surface["roughnessFactor"] = to_json_number(p_material.roughness);
-		}
+		tinygltf::Model &r_model, tinygltf::Material &r_written) {
+	tinygltf::PbrMetallicRoughness &surface = r_written.pbrMetallicRoughness;
+	if (p_is_new || p_material.base_color != p_before.base_color) {
+		const double alpha = surface.baseColorFactor[3];
+		surface.baseColorFactor = to_numbers(p_material.base_color);
+		surface.baseColorFactor.push_back(alpha);
+	}
+	if (p_is_new || p_material.metallic != p_before.metallic) {
+		surface.metallicFactor = to_shortest(p_material.metallic);
+	}
+	if (p_is_new || p_material.roughness != p_before.roughness) {
+		surface.roughnessFactor = to_shortest(p_material.roughness);
 	}
 	if (p_material.emissive != p_before.emissive) {
 		const glm::vec3 &emissive = p_material.emissive;
 		const float strength = std::max({ 1.0f, emissive.x, emissive.y, emissive.z });
-		r_material["emissiveFactor"] = to_json(emissive / strength);
-		Json &extensions = require_object(r_material, "extensions");
-		extensions.erase(STRENGTH);
+		r_written.emissiveFactor = to_numbers(emissive / strength);
+		r_written.extensions.erase(GLTF_EMISSIVE_STRENGTH);
 		if (strength > 1.0f) { // the factor alone ends at 1
-			extensions[STRENGTH]["emissiveStrength"] = to_json_number(strength);
-			declare_extension(r_root, STRENGTH);
-		} else if (extensions.empty()) {
-			r_material.erase("extensions");
+			require_object(r_written.extensions[GLTF_EMISSIVE_STRENGTH])["emissiveStrength"] =
+					to_value(strength);
+			declare_extension(r_model, GLTF_EMISSIVE_STRENGTH);
 		}
 	}
 	if (p_material.is_double_sided != p_before.is_double_sided) {
-		r_material["doubleSided"] = p_material.is_double_sided;
+		r_written.doubleSided = p_material.is_double_sided;
 	}
 }
 
-void write_transmission(
-		const Material &p_material, const Material &p_before, Json &r_root, Json &r_material) {
+void write_transmission(const Material &p_material, const Material &p_before,
+		tinygltf::Model &r_model, tinygltf::Material &r_written) {
 	if (p_material.transmission != p_before.transmission) {
-		require_object(require_object(r_material, "extensions"),
-				TRANSMISSION)["transmissionFactor"] = to_json_number(p_material.transmission);
-		declare_extension(r_root, TRANSMISSION);
+		require_object(r_written.extensions[GLTF_TRANSMISSION])["transmissionFactor"] =
+				to_value(p_material.transmission);
+		declare_extension(r_model, GLTF_TRANSMISSION);
 	}
 	if (p_material.thickness_m == p_before.thickness_m &&
 			p_material.attenuation_color == p_before.attenuation_color &&
 			p_material.attenuation_distance_m == p_before.attenuation_distance_m) {
 		return;
 	}
-	Json &volume = require_object(require_object(r_material, "extensions"), VOLUME);
+	Value::Object &volume = require_object(r_written.extensions[GLTF_VOLUME]);
 	write_number(p_material.thickness_m, p_before.thickness_m, "thicknessFactor", volume);
 	if (p_material.attenuation_color != p_before.attenuation_color) {
-		volume["attenuationColor"] = to_json(p_material.attenuation_color);
+		volume["attenuationColor"] = to_value(p_material.attenuation_color);
 	}
 	if (p_material.attenuation_distance_m != p_before.attenuation_distance_m) {
 		volume.erase("attenuationDistance"); // absent: infinite
 		if (p_material.attenuation_distance_m > 0) {
-			volume["attenuationDistance"] = to_json_number(p_material.attenuation_distance_m);
+			volume["attenuationDistance"] = to_value(p_material.attenuation_distance_m);
 		}
 	}
-	declare_extension(r_root, VOLUME);
+	declare_extension(r_model, GLTF_VOLUME);
 }
 
 } // namespace
 
-Material read_material(const GltfObject &p_material, int p_index) {
+Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfMessages &r_messages) {
+	const tinygltf::Material &written = p_model.materials[p_index];
+	const std::string path = text("materials[", p_index, "]");
 	Material material;
-	material.name = p_material.get_text("name");
-	material.file_index = p_index;
-	read_surface(p_material, material);
-	read_transmission(p_material, material);
-	read_extras(p_material, material);
+	material.name = written.name;
+	material.file_index = static_cast<int>(p_index);
+	read_surface(written, path, r_messages, material);
+	read_transmission(written, material);
+	if (const auto extras = find_object(written.extras, path + ".extras", r_messages)) {
+		read_extras(*extras, material);
+	}
 	return material;
 }
 
-void write_material(
-		const Material &p_material, const Material *p_before, Json &r_root, Json &r_material) {
+void write_material(const Material &p_material, const Material *p_before, tinygltf::Model &r_model,
+		tinygltf::Material &r_written) {
 	const Material fresh;
 	const Material &before = p_before ? *p_before : fresh;
 	if (!p_before && !p_material.name.empty()) {
-		r_material["name"] = p_material.name;
+		r_written.name = p_material.name;
 	}
-	write_surface(p_material, before, p_before == nullptr, r_root, r_material);
-	write_transmission(p_material, before, r_root, r_material);
+	write_surface(p_material, before, p_before == nullptr, r_model, r_written);
+	write_transmission(p_material, before, r_model, r_written);
 	// Absent, it would be derived: also from what has just changed.
-	const bool tells_distance = r_material.value("extras", Json()).contains("scatter_distance");
+	const bool tells_distance = r_written.extras.Has("scatter_distance");
 	const bool must_tell_distance = tells_distance
 			? p_material.scatter_distance_m != before.scatter_distance_m
 			: p_material.scatter_distance_m != derive_scatter_distance(p_material);
 	if (p_material.scatter != before.scatter || must_tell_distance ||
 			p_material.shading_model != before.shading_model) {
-		Json &extras = require_extras(r_material);
+		Value::Object &extras = require_extras(r_written.extras);
 		write_number(p_material.scatter, before.scatter, "scatter", extras);
 		if (must_tell_distance) {
-			extras["scatter_distance"] = to_json_number(p_material.scatter_distance_m);
+			extras["scatter_distance"] = to_value(p_material.scatter_distance_m);
 		}
 		if (p_material.shading_model != before.shading_model) {
-			extras["shading_model"] = get_shading_model_name(p_material.shading_model);
+			extras["shading_model"] =
+					Value(std::string(get_shading_model_name(p_material.shading_model)));
 		}
 	}
 }

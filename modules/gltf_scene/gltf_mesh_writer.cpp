@@ -3,25 +3,31 @@
 #include "modules/core/files.h"
 #include "modules/gltf_scene/gltf_materials.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 
 namespace gnomon {
 
 namespace {
 
-size_t append_element(Json &r_json, const char *p_list, Json p_element) {
-	Json &list = r_json[p_list];
-	list.push_back(std::move(p_element));
-	return list.size() - 1;
+/// Index of the new element.
+template <typename T> int append_element(std::vector<T> &r_list, T p_element) {
+	r_list.push_back(std::move(p_element));
+	return static_cast<int>(r_list.size() - 1);
+}
+
+tinygltf::Accessor make_accessor(int p_type, int p_component_type, size_t p_count) {
+	tinygltf::Accessor accessor;
+	accessor.type = p_type;
+	accessor.componentType = p_component_type;
+	accessor.count = p_count;
+	return accessor;
 }
 
 } // namespace
 
-GltfMeshWriter::GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_first_byte,
+GltfMeshWriter::GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
 		const GltfDocument *p_document, std::set<const Material *> p_used) :
-		json(r_json),
+		model(r_model),
 		document(p_document), buffer_index(p_buffer_index), first_byte(p_first_byte),
 		used(std::move(p_used)) {
 	if (p_document == nullptr) {
@@ -36,7 +42,8 @@ GltfMeshWriter::GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_fir
 
 size_t GltfMeshWriter::append_mesh(
 		const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces) {
-	Json mesh = { { "name", p_name }, { "primitives", Json::array() } };
+	tinygltf::Mesh mesh;
+	mesh.name = p_name;
 	for (const MeshInstance3D::Surface &surface : p_surfaces) {
 		if (!surface.mesh || surface.mesh->indices.empty()) {
 			continue;
@@ -46,44 +53,51 @@ size_t GltfMeshWriter::append_mesh(
 			found = accessors.emplace(surface.mesh.get(), append_vertices(*surface.mesh)).first;
 		}
 		const Accessors &made = found->second;
-		Json primitive = { { "attributes",
-								   { { "POSITION", made.positions }, { "NORMAL", made.normals } } },
-			{ "indices", made.indices } };
+		tinygltf::Primitive primitive;
+		primitive.mode = TINYGLTF_MODE_TRIANGLES;
+		primitive.attributes = { { "POSITION", made.positions }, { "NORMAL", made.normals } };
+		primitive.indices = made.indices;
 		if (surface.material) {
-			primitive["material"] = place_material(*surface.material);
+			primitive.material = static_cast<int>(place_material(*surface.material));
 		}
-		mesh["primitives"].push_back(std::move(primitive));
+		mesh.primitives.push_back(std::move(primitive));
 	}
-	return append_element(json, "meshes", std::move(mesh));
+	return static_cast<size_t>(append_element(model.meshes, std::move(mesh)));
 }
 
 GltfMeshWriter::Accessors GltfMeshWriter::append_vertices(const Mesh &p_mesh) {
-	const Json vectors = { { "componentType", TINYGLTF_COMPONENT_TYPE_FLOAT }, { "type", "VEC3" } };
-	Json positions = vectors;
+	const size_t vertex_count = p_mesh.positions_node.size();
+	const tinygltf::Accessor vectors =
+			make_accessor(TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, vertex_count);
+	tinygltf::Accessor positions = vectors;
 	// The specification wants them for positions; p_mesh has at least one triangle.
-	positions["min"] = to_json(glm::vec3(p_mesh.bounds_node.minimum));
-	positions["max"] = to_json(glm::vec3(p_mesh.bounds_node.maximum));
+	const glm::dvec3 &low = p_mesh.bounds_node.minimum;
+	const glm::dvec3 &high = p_mesh.bounds_node.maximum;
+	positions.minValues = { low.x, low.y, low.z };
+	positions.maxValues = { high.x, high.y, high.z };
 	Accessors made;
 	made.positions = append_accessor(bytes_of(std::span(p_mesh.positions_node)),
-			p_mesh.positions_node.size(), std::move(positions), TINYGLTF_TARGET_ARRAY_BUFFER);
-	made.normals = append_accessor(bytes_of(std::span(p_mesh.normals_node)),
-			p_mesh.normals_node.size(), vectors, TINYGLTF_TARGET_ARRAY_BUFFER);
-	made.indices = append_accessor(bytes_of(std::span(p_mesh.indices)), p_mesh.indices.size(),
-			{ { "componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT }, { "type", "SCALAR" } },
+			std::move(positions), TINYGLTF_TARGET_ARRAY_BUFFER);
+	made.normals = append_accessor(
+			bytes_of(std::span(p_mesh.normals_node)), vectors, TINYGLTF_TARGET_ARRAY_BUFFER);
+	made.indices = append_accessor(bytes_of(std::span(p_mesh.indices)),
+			make_accessor(TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+					p_mesh.indices.size()),
 			TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
 	return made;
 }
 
-size_t GltfMeshWriter::append_accessor(
-		std::span<const uint8_t> p_data, size_t p_count, Json p_accessor, int p_target) {
+int GltfMeshWriter::append_accessor(
+		std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target) {
 	// Elements are multiples of four bytes, so that every view stays aligned as it must.
-	const size_t view = append_element(json, "bufferViews",
-			{ { "buffer", buffer_index }, { "byteOffset", first_byte + bytes.size() },
-					{ "byteLength", p_data.size() }, { "target", p_target } });
+	tinygltf::BufferView view;
+	view.buffer = static_cast<int>(buffer_index);
+	view.byteOffset = first_byte + bytes.size();
+	view.byteLength = p_data.size();
+	view.target = p_target;
 	bytes.insert(bytes.end(), p_data.begin(), p_data.end());
-	p_accessor["bufferView"] = view;
-	p_accessor["count"] = p_count;
-	return append_element(json, "accessors", std::move(p_accessor));
+	p_accessor.bufferView = append_element(model.bufferViews, std::move(view));
+	return append_element(model.accessors, std::move(p_accessor));
 }
 
 size_t GltfMeshWriter::place_material(const Material &p_material) {
@@ -92,19 +106,18 @@ size_t GltfMeshWriter::place_material(const Material &p_material) {
 	}
 	const size_t origin = static_cast<size_t>(p_material.file_index); // -1: beyond all
 	const Material *before = origin < loaded_materials.size() ? loaded_materials[origin] : nullptr;
-	Json made = before ? json["materials"][origin] : Json::object();
-	if (before && replaced.contains(origin)) {
-		made = replaced.at(origin); // as it was loaded
-	}
-	const Json loaded = made;
-	write_material(p_material, before, json, made);
+	const tinygltf::Material loaded = !before ? tinygltf::Material()
+			: replaced.contains(origin)		  ? replaced.at(origin)
+											  : model.materials[origin];
+	tinygltf::Material made = loaded;
+	write_material(p_material, before, model, made);
 	size_t index = origin;
 	if (before && !used.contains(before) && !document->shares_materials &&
-			(!replaced.contains(origin) || json["materials"][origin] == made)) {
+			(!replaced.contains(origin) || model.materials[origin] == made)) {
 		replaced.try_emplace(origin, loaded);
-		json["materials"][origin] = std::move(made);
+		model.materials[origin] = std::move(made);
 	} else {
-		index = append_element(json, "materials", std::move(made));
+		index = static_cast<size_t>(append_element(model.materials, std::move(made)));
 	}
 	material_indices[&p_material] = index;
 	return index;
@@ -133,24 +146,28 @@ std::optional<size_t> GltfMeshWriter::change_materials(
 	if (!index) {
 		return std::nullopt;
 	}
-	Json mesh = document->container.json["meshes"][*index];
+	const tinygltf::Mesh &loaded = document->model.meshes[*index];
+	tinygltf::Mesh mesh = loaded;
 	for (const MeshInstance3D::Surface &surface : p_surfaces) {
-		Json &primitive = mesh["primitives"][document->primitive_indices.at(surface.mesh.get())];
+		tinygltf::Primitive &primitive =
+				mesh.primitives[document->primitive_indices.at(surface.mesh.get())];
 		// The reader's default material has no index: a primitive without one keeps it.
 		if (surface.material &&
-				(surface.material->file_index >= 0 || primitive.contains("material") ||
+				(surface.material->file_index >= 0 || primitive.material >= 0 ||
 						!(*surface.material == Material()))) {
-			primitive["material"] = place_material(*surface.material);
+			primitive.material = static_cast<int>(place_material(*surface.material));
 		}
 	}
-	if (mesh == document->container.json["meshes"][*index]) {
+	if (mesh == loaded) {
 		return index;
 	}
-	const auto found = changed_meshes.find(mesh);
-	if (found != changed_meshes.end()) {
-		return found->second;
+	for (const size_t changed : changed_meshes) {
+		if (model.meshes[changed] == mesh) {
+			return changed;
+		}
 	}
-	return changed_meshes[mesh] = append_element(json, "meshes", mesh);
+	changed_meshes.push_back(static_cast<size_t>(append_element(model.meshes, std::move(mesh))));
+	return changed_meshes.back();
 }
 
 } // namespace gnomon

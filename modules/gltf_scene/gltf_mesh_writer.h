@@ -1,7 +1,6 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_document.h"
-#include "modules/gltf_scene/gltf_json.h"
 #include "modules/scene/nodes.h"
 
 #include <map>
@@ -12,13 +11,13 @@
 
 namespace gnomon {
 
-/// Writes new meshes and new or changed materials into a document's JSON, each once. Their bytes
+/// Writes new meshes and new or changed materials into a document's model, each once. Their bytes
 /// are collected for one buffer, which the caller stores.
 class GltfMeshWriter {
 public:
 	/// p_buffer_index, p_first_byte: where the bytes will stand. p_document may be null. p_used:
-	/// the materials of the scene that is written. r_json and p_document must outlive it.
-	GltfMeshWriter(Json &r_json, size_t p_buffer_index, size_t p_first_byte,
+	/// the materials of the scene that is written. r_model and p_document must outlive it.
+	GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
 			const GltfDocument *p_document, std::set<const Material *> p_used);
 	/// Index of the new mesh. p_surfaces is not empty.
 	size_t append_mesh(
@@ -31,13 +30,13 @@ public:
 
 private:
 	struct Accessors {
-		size_t positions = 0;
-		size_t normals = 0;
-		size_t indices = 0;
+		int positions = 0;
+		int normals = 0;
+		int indices = 0;
 	};
 	Accessors append_vertices(const Mesh &p_mesh);
-	size_t append_accessor(
-			std::span<const uint8_t> p_data, size_t p_count, Json p_accessor, int p_target);
+	int append_accessor(
+			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
 	/// Index of the material. A changed one takes the place of that it came from, where the scene
 	/// does not use that any more; else it is appended.
 	size_t place_material(const Material &p_material);
@@ -45,7 +44,7 @@ private:
 	std::optional<size_t> find_loaded_mesh(
 			const std::vector<MeshInstance3D::Surface> &p_surfaces) const;
 
-	Json &json;
+	tinygltf::Model &model;
 	const GltfDocument *document;
 	size_t buffer_index;
 	size_t first_byte;
@@ -54,8 +53,8 @@ private:
 	std::map<const Material *, size_t> material_indices;
 	std::vector<const Material *> loaded_materials; // by index in the file; null: not used there
 	std::set<const Material *> used;
-	std::map<size_t, Json> replaced; // definitions that took the place of loaded ones
-	std::map<Json, size_t> changed_meshes;
+	std::map<size_t, tinygltf::Material> replaced; // as they were loaded
+	std::vector<size_t> changed_meshes;
 };
 
 } // namespace gnomon

@@ -3,8 +3,6 @@
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_materials.h"
 
-#include <tiny_gltf.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +12,7 @@ namespace {
 
 /// Three indices per triangle, wound as glTF 2.0, 3.7.2.1 says; an incomplete last one is left out,
 /// and so are triangles that a strip only makes to jump.
-std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, uint64_t p_mode) {
+std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode) {
 	if (p_mode == TINYGLTF_MODE_TRIANGLES) {
 		p_indices.resize(p_indices.size() / 3 * 3);
 		return p_indices;
@@ -79,21 +77,24 @@ std::vector<glm::vec3> gather(
 
 } // namespace
 
-GltfMeshes::GltfMeshes(const GltfObject &p_root, GltfAccessors &p_accessors) :
-		root(p_root), accessors(p_accessors) {}
+GltfMeshes::GltfMeshes(
+		const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfMessages &r_messages) :
+		model(p_model),
+		accessors(p_accessors), messages(r_messages) {}
 
 const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index) {
 	if (const auto found = meshes.find(p_index); found != meshes.end()) {
 		return found->second;
 	}
-	const GltfObject mesh = root.get_element("meshes", p_index);
-	const size_t primitive_count = mesh.get_count("primitives");
-	const std::string name = mesh.get_name(text("Mesh ", p_index)); // cut: each primitive keeps it
+	const tinygltf::Mesh &mesh = model.meshes[p_index];
+	// Cut: each primitive keeps it.
+	const std::string name = make_name(mesh.name, text("Mesh ", p_index));
 	std::vector<MeshInstance3D::Surface> surfaces;
-	for (size_t index = 0; index < primitive_count; ++index) {
-		const GltfObject primitive = mesh.get_element("primitives", index);
+	for (size_t index = 0; index < mesh.primitives.size(); ++index) {
+		const tinygltf::Primitive &primitive = mesh.primitives[index];
 		const auto triangles =
-				load_primitive(primitive, primitive_count == 1 ? name : text(name, " ", index));
+				load_primitive(primitive, text("meshes[", p_index, "].primitives[", index, "]"),
+						mesh.primitives.size() == 1 ? name : text(name, " ", index));
 		if (triangles) {
 			surfaces.push_back({ triangles, load_material(primitive) });
 			primitive_indices[triangles.get()] = index;
@@ -102,8 +103,8 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 	return meshes.emplace(p_index, std::move(surfaces)).first->second;
 }
 
-void GltfMeshes::check_finite(const GltfObject &p_attributes, size_t p_accessor_index,
-		const std::vector<glm::vec3> &p_positions, const std::string &p_name) {
+void GltfMeshes::check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
+		const std::string &p_path, const std::string &p_name) {
 	if (!finite_accessors.insert(p_accessor_index).second) {
 		return;
 	}
@@ -111,7 +112,7 @@ void GltfMeshes::check_finite(const GltfObject &p_attributes, size_t p_accessor_
 		const glm::vec3 &position = p_positions[index];
 		if (!std::isfinite(position.x) || !std::isfinite(position.y) ||
 				!std::isfinite(position.z)) {
-			p_attributes.fail_at("POSITION",
+			messages.fail(p_path + ".attributes.POSITION",
 					text("of mesh \"", p_name, "\": vertex ", index,
 							" is not finite. Correct it or export the file again."));
 		}
@@ -119,47 +120,43 @@ void GltfMeshes::check_finite(const GltfObject &p_attributes, size_t p_accessor_
 }
 
 std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
-		const GltfObject &p_primitive, std::string p_name) {
-	GltfMessages &messages = p_primitive.get_messages();
-	const uint64_t mode =
-			p_primitive.find_integer("mode", TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN)
-					.value_or(TINYGLTF_MODE_TRIANGLES);
-	if (mode < TINYGLTF_MODE_TRIANGLES) {
-		messages.warn(
-				"mode", p_primitive.get_path(), "has points or lines; only triangles are drawn.");
+		const tinygltf::Primitive &p_primitive, const std::string &p_path, std::string p_name) {
+	if (p_primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+		messages.warn("mode", p_path, "has points or lines; only triangles are drawn.");
 		return nullptr;
 	}
-	if (p_primitive.get_count("targets") > 0) {
-		messages.warn("targets", p_primitive.get_path(), "has morph targets; they are not read.");
+	if (!p_primitive.targets.empty()) {
+		messages.warn("targets", p_path, "has morph targets; they are not read.");
 	}
-	const GltfObject attributes = p_primitive.require_object("attributes");
-	const size_t accessor_count = root.get_count("accessors");
-	const std::optional<size_t> positions_index = attributes.find_index("POSITION", accessor_count);
-	if (!positions_index) {
-		messages.warn("positions", p_primitive.get_path(), "has no POSITION; it is left out.");
+	const auto position_attribute = p_primitive.attributes.find("POSITION");
+	if (position_attribute == p_primitive.attributes.end()) {
+		messages.warn("positions", p_path, "has no POSITION; it is left out.");
 		return nullptr;
 	}
 	// Shared, not copied: a file of some kilobytes may have a thousand primitives of one array.
-	const auto all_positions = accessors.read_vectors(*positions_index);
-	check_finite(attributes, *positions_index, *all_positions, p_name);
+	const size_t positions_index = static_cast<size_t>(position_attribute->second);
+	const auto all_positions = accessors.read_vectors(positions_index);
+	check_finite(positions_index, *all_positions, p_path, p_name);
 	std::shared_ptr<const std::vector<glm::vec3>> all_normals;
-	if (const std::optional<size_t> index = attributes.find_index("NORMAL", accessor_count)) {
-		all_normals = accessors.read_vectors(*index);
+	if (const auto found = p_primitive.attributes.find("NORMAL");
+			found != p_primitive.attributes.end()) {
+		all_normals = accessors.read_vectors(static_cast<size_t>(found->second));
 		if (all_normals->size() != all_positions->size()) {
-			attributes.fail_at("NORMAL",
+			messages.fail(p_path + ".attributes.NORMAL",
 					text("has ", all_normals->size(), " elements, must be ", all_positions->size(),
 							", one per POSITION. Export the file again."));
 		}
 	}
 	std::vector<uint32_t> indices;
-	if (const std::optional<size_t> index = p_primitive.find_index("indices", accessor_count)) {
-		indices = accessors.read_indices(*index, all_positions->size());
+	if (p_primitive.indices >= 0) {
+		indices = accessors.read_indices(
+				static_cast<size_t>(p_primitive.indices), all_positions->size());
 	} else {
 		for (uint32_t vertex = 0; vertex < all_positions->size(); ++vertex) {
 			indices.push_back(vertex);
 		}
 	}
-	indices = make_triangles(std::move(indices), mode);
+	indices = make_triangles(std::move(indices), p_primitive.mode);
 	if (indices.empty()) {
 		return nullptr;
 	}
@@ -176,7 +173,7 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 	vertex_count += positions.size();
 	index_count += indices.size();
 	if (vertex_count > GLTF_MAX_VERTEX_COUNT || index_count > GLTF_MAX_INDEX_COUNT) {
-		p_primitive.fail_at("attributes",
+		messages.fail(p_path + ".attributes",
 				text("makes ", vertex_count, " vertices and ", index_count,
 						" indices in all, must be at most ", GLTF_MAX_VERTEX_COUNT, " and ",
 						GLTF_MAX_INDEX_COUNT, ". Split the scene."));
@@ -185,17 +182,15 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 			std::move(p_name), std::move(positions), std::move(normals), std::move(indices));
 }
 
-std::shared_ptr<const Material> GltfMeshes::load_material(const GltfObject &p_primitive) {
-	const std::optional<size_t> index =
-			p_primitive.find_index("material", root.get_count("materials"));
-	if (!index) {
+std::shared_ptr<const Material> GltfMeshes::load_material(const tinygltf::Primitive &p_primitive) {
+	if (p_primitive.material < 0) {
 		// glTF's own default is metal, which shows no shadow of a light; plain grey does.
 		return default_material;
 	}
-	std::shared_ptr<const Material> &material = materials[*index];
+	const size_t index = static_cast<size_t>(p_primitive.material);
+	std::shared_ptr<const Material> &material = materials[index];
 	if (!material) {
-		material = std::make_shared<const Material>(
-				read_material(root.get_element("materials", *index), int(*index)));
+		material = std::make_shared<const Material>(read_material(model, index, messages));
 	}
 	return material;
 }

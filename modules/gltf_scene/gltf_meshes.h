@@ -15,8 +15,9 @@ namespace gnomon {
 /// and lines have no shadow here and are left out with one warning.
 class GltfMeshes {
 public:
-	/// Both must outlive it.
-	GltfMeshes(const GltfObject &p_root, GltfAccessors &p_accessors);
+	/// All must outlive it.
+	GltfMeshes(
+			const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfMessages &r_messages);
 
 	/// One surface per primitive with triangles.
 	const std::vector<MeshInstance3D::Surface> &load_mesh(size_t p_index);
@@ -29,14 +30,17 @@ public:
 	}
 
 private:
-	std::shared_ptr<const Mesh> load_primitive(const GltfObject &p_primitive, std::string p_name);
+	/// p_path: where it stands.
+	std::shared_ptr<const Mesh> load_primitive(
+			const tinygltf::Primitive &p_primitive, const std::string &p_path, std::string p_name);
 	/// Fails on a position that is not finite. An accessor is looked through once.
-	void check_finite(const GltfObject &p_attributes, size_t p_accessor_index,
-			const std::vector<glm::vec3> &p_positions, const std::string &p_name);
-	std::shared_ptr<const Material> load_material(const GltfObject &p_primitive);
+	void check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
+			const std::string &p_path, const std::string &p_name);
+	std::shared_ptr<const Material> load_material(const tinygltf::Primitive &p_primitive);
 
-	GltfObject root;
+	const tinygltf::Model &model;
 	GltfAccessors &accessors;
+	GltfMessages &messages;
 	std::map<size_t, std::vector<MeshInstance3D::Surface>> meshes;
 	std::map<size_t, std::shared_ptr<const Material>> materials;
 	std::map<const Mesh *, size_t> primitive_indices;

@@ -1,8 +1,8 @@
 // What hangs on a node: its mesh, light and camera.
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_lights.h"
-#include "modules/gltf_scene/gltf_materials.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
+#include "modules/gltf_scene/gltf_values.h"
 
 #include <algorithm>
 
@@ -15,6 +15,19 @@ std::optional<PropertyValue> find_size(const PropertyValues &p_properties) {
 	return found == p_properties.end() ? std::nullopt : std::optional(found->second);
 }
 
+/// tinygltf's own comparison sees names and colours alone.
+bool is_same(const tinygltf::Light &p_first, const tinygltf::Light &p_second) {
+	return p_first == p_second && p_first.intensity == p_second.intensity &&
+			p_first.range == p_second.range &&
+			p_first.spot.innerConeAngle == p_second.spot.innerConeAngle &&
+			p_first.spot.outerConeAngle == p_second.spot.outerConeAngle &&
+			p_first.extensions == p_second.extensions && p_first.extras == p_second.extras;
+}
+
+bool is_same(const tinygltf::Camera &p_first, const tinygltf::Camera &p_second) {
+	return p_first == p_second;
+}
+
 } // namespace
 
 void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance) {
@@ -23,18 +36,17 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	const bool had_mesh = !p_entry.is_new && document->node_surfaces.contains(p_entry.index);
 	if (!had_mesh || document->node_surfaces.at(p_entry.index) != key) {
 		const std::optional<size_t> mesh_index = find_or_append_mesh(p_instance, key);
-		get_node(p_entry).erase("mesh");
-		if (mesh_index) {
-			get_node(p_entry)["mesh"] = *mesh_index;
-		}
+		get_node(p_entry).mesh = mesh_index ? static_cast<int>(*mesh_index) : -1;
 	}
 	const GltfNodeState fresh;
 	const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
 	if (p_instance.casts_shadow != before.casts_shadow) {
-		require_extras(get_node(p_entry))["casts_shadow"] = p_instance.casts_shadow;
+		require_extras(get_node(p_entry).extras)["casts_shadow"] =
+				tinygltf::Value(p_instance.casts_shadow);
 	}
 	if (p_instance.is_planar_receiver != before.is_planar_receiver) {
-		require_extras(get_node(p_entry))["shadow_planar_receiver"] = p_instance.is_planar_receiver;
+		require_extras(get_node(p_entry).extras)["shadow_planar_receiver"] =
+				tinygltf::Value(p_instance.is_planar_receiver);
 	}
 }
 
@@ -61,15 +73,16 @@ std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 
 /// Puts a changed definition in the place of the old one, or behind the others where another node
 /// has put a different one there. Returns its index.
-size_t GltfNodeWriter::place_definition(
-		Json &r_list, Written &r_written, std::optional<size_t> p_index, Json p_definition) {
+template <typename T>
+size_t GltfNodeWriter::place_definition(std::vector<T> &r_list, Written<T> &r_written,
+		std::optional<size_t> p_index, T p_definition) {
 	if (p_index) {
 		const auto [found, is_first] = r_written.try_emplace(*p_index, p_definition);
 		if (is_first) {
 			r_list[*p_index] = std::move(p_definition);
 			return *p_index;
 		}
-		if (found->second == p_definition) {
+		if (is_same(found->second, p_definition)) {
 			return *p_index;
 		}
 	}
@@ -78,51 +91,54 @@ size_t GltfNodeWriter::place_definition(
 }
 
 /// The area light of a node, as its own copy: other nodes may share the definition.
-Json *GltfNodeWriter::own_area_light(Json &r_node) {
-	const auto extensions = r_node.find("extensions");
-	if (extensions == r_node.end() || !extensions->contains(GLTF_AREA)) {
+tinygltf::Value *GltfNodeWriter::own_area_light(tinygltf::Node &r_node) {
+	using tinygltf::Value;
+	const auto reference = r_node.extensions.find(GLTF_AREA);
+	if (reference == r_node.extensions.end()) {
 		return nullptr;
 	}
-	Json &list = json["extensions"][GLTF_AREA]["lights"];
-	Json &index = (*extensions)[GLTF_AREA]["light"];
-	Json copy = list[index.get<size_t>()];
-	if (copy.value("type", "") != "disk") {
+	auto &lights_before =
+			require_object(model.extensions.at(GLTF_AREA))["lights"].Get<Value::Array>();
+	Value copy =
+			lights_before[static_cast<size_t>(reference->second.Get("light").GetNumberAsInt())];
+	if (!copy.Has("type") || !copy.Get("type").IsString() ||
+			copy.Get("type").Get<std::string>() != "disk") {
 		return nullptr;
 	}
-	list.push_back(std::move(copy));
-	index = list.size() - 1;
-	return &list.back();
+	require_object(reference->second)["light"] = Value(static_cast<int>(lights_before.size()));
+	return &lights_before.emplace_back(std::move(copy));
 }
 
 void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light) {
 	light_nodes.insert(p_entry.index);
 	const bool had_light = !p_entry.is_new && document->lights.contains(p_entry.index);
 	const LightSettings *before = had_light ? &document->lights.at(p_entry.index) : nullptr;
-	Json definition = Json::object();
+	tinygltf::Node &target = get_node(p_entry);
+	tinygltf::Light definition;
 	std::optional<size_t> old_index;
-	std::vector<Json *> places;
-	Json *area = nullptr;
+	std::vector<tinygltf::Node *> places;
+	tinygltf::Value *area = nullptr;
 	if (before) {
-		Json &target = get_node(p_entry);
-		old_index = target["extensions"][GLTF_PUNCTUAL]["light"].get<size_t>();
-		definition = document->container.json["extensions"][GLTF_PUNCTUAL]["lights"][*old_index];
+		old_index = static_cast<size_t>(
+				target.extensions.at(GLTF_PUNCTUAL).Get("light").GetNumberAsInt());
+		definition = document->model.lights[*old_index];
 		places.push_back(&target);
 		if (const auto owner = document->blender_owners.find(p_entry.index);
 				owner != document->blender_owners.end()) {
-			places.push_back(&json["nodes"][owner->second]);
+			places.push_back(&model.nodes[owner->second]);
 		}
 		if (find_size(before->properties) != find_size(p_light.properties)) {
 			area = own_area_light(target);
 		}
 	} else {
-		definition["name"] = p_light.name;
-		declare_extension(json, GLTF_PUNCTUAL);
+		definition.name = p_light.name;
+		declare_extension(model, GLTF_PUNCTUAL);
 	}
 	write_light(p_light, before, definition, places, area);
-	const size_t index = place_definition(
-			json["extensions"][GLTF_PUNCTUAL]["lights"], lights, old_index, std::move(definition));
+	const size_t index = place_definition(model.lights, lights, old_index, std::move(definition));
 	if (index != old_index) {
-		get_node(p_entry)["extensions"][GLTF_PUNCTUAL]["light"] = index;
+		require_object(target.extensions[GLTF_PUNCTUAL])["light"] =
+				tinygltf::Value(static_cast<int>(index));
 	}
 }
 
@@ -130,23 +146,21 @@ void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera
 	camera_nodes.insert(p_entry.index);
 	const bool had_camera = !p_entry.is_new && document->cameras.contains(p_entry.index);
 	const std::pair<float, float> values = { p_camera.vertical_fov_rad, p_camera.near_m };
-	Json definition = { { "type", "perspective" }, { "perspective", Json::object() } };
+	tinygltf::Camera definition;
+	definition.type = "perspective";
 	std::optional<size_t> old_index;
 	if (had_camera) {
-		old_index = get_node(p_entry)["camera"].get<size_t>();
-		definition = document->container.json["cameras"][*old_index];
+		old_index = static_cast<size_t>(get_node(p_entry).camera);
+		definition = document->model.cameras[*old_index];
 	}
 	if (!had_camera || document->cameras.at(p_entry.index).first != values.first) {
-		definition["perspective"]["yfov"] = to_json_number(values.first);
+		definition.perspective.yfov = to_shortest(values.first);
 	}
 	if (!had_camera || document->cameras.at(p_entry.index).second != values.second) {
-		definition["perspective"]["znear"] = to_json_number(values.second);
+		definition.perspective.znear = to_shortest(values.second);
 	}
-	const size_t index =
-			place_definition(json["cameras"], cameras, old_index, std::move(definition));
-	if (index != old_index) {
-		get_node(p_entry)["camera"] = index;
-	}
+	const size_t index = place_definition(model.cameras, cameras, old_index, std::move(definition));
+	get_node(p_entry).camera = static_cast<int>(index);
 }
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/log.h"
 #include "modules/gltf_scene/gltf_tree.h"
+#include "modules/gltf_scene/gltf_values.h"
 
 #include <cmath>
 #include <typeinfo>
@@ -59,8 +60,8 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 	entry.is_new = !has_place;
 	entry.index = wanted;
 	if (entry.is_new) {
-		json["nodes"].push_back(Json::object());
-		entry.index = json["nodes"].size() - 1;
+		model.nodes.emplace_back();
+		entry.index = model.nodes.size() - 1;
 		taken.insert(entry.index);
 	}
 	for (const std::unique_ptr<Node3D> &child : p_node.children) {
@@ -73,7 +74,7 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 
 void GltfNodeWriter::write_entry(const Entry &p_entry) {
 	const Node3D &node = *p_entry.node;
-	Json &target = get_node(p_entry);
+	tinygltf::Node &target = get_node(p_entry);
 	if (!p_entry.is_part) {
 		const GltfNodeState fresh;
 		const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
@@ -81,7 +82,7 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 		if (node.parent_from_node != before.parent_from_node) {
 			write_transform(node, before.parent_from_node, target);
 		}
-		write_children(p_entry, target);
+		target.children.assign(p_entry.children.begin(), p_entry.children.end());
 	}
 	if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&node)) {
 		write_mesh(p_entry, *instance);
@@ -95,48 +96,37 @@ void GltfNodeWriter::write_entry(const Entry &p_entry) {
 /// The light that Blender's exporter hung below its object is found by its name, so that this
 /// follows the object's; see find_blender_owner.
 void GltfNodeWriter::write_name(
-		const Entry &p_entry, const std::string &p_before, Json &r_node) const {
+		const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const {
 	if (p_entry.node->name != p_before) {
-		r_node["name"] = p_entry.node->name;
+		r_node.name = p_entry.node->name;
 	}
 	if (p_entry.is_new) {
 		return;
 	}
 	const auto owner = document->blender_owners.find(p_entry.index);
 	if (owner != document->blender_owners.end()) {
-		const std::string name =
-				json["nodes"][owner->second]["name"].get<std::string>() + BLENDER_ORIENTATION;
+		const std::string name = model.nodes[owner->second].name + BLENDER_ORIENTATION;
 		if (p_entry.node->name != p_before && p_entry.node->name != name) {
 			log_warning("Light \"", p_entry.node->name, "\" is saved as \"", name,
 					"\": its name follows its parent's. Rename that.");
 		}
-		r_node["name"] = name;
-	}
-}
-
-void GltfNodeWriter::write_children(const Entry &p_entry, Json &r_node) const {
-	const auto before = r_node.find("children");
-	const bool had_children = before != r_node.end() && !before->empty();
-	if (p_entry.children.empty() && had_children) {
-		r_node.erase("children");
-	} else if (!p_entry.children.empty() && (!had_children || *before != Json(p_entry.children))) {
-		r_node["children"] = p_entry.children;
+		r_node.name = name;
 	}
 }
 
 /// A mesh, light or camera that was loaded with a node and is gone, while the node is not.
 void GltfNodeWriter::drop_lost_parts() {
 	for (const size_t index : taken) {
-		Json &node = json["nodes"][index];
+		tinygltf::Node &node = model.nodes[index];
 		if (document->node_surfaces.contains(index) && !mesh_nodes.contains(index)) {
-			node.erase("mesh");
+			node.mesh = -1;
 		}
 		if (document->cameras.contains(index) && !camera_nodes.contains(index)) {
-			node.erase("camera");
+			node.camera = -1;
 		}
 		if (document->lights.contains(index) && !light_nodes.contains(index)) {
-			node["extensions"].erase(GLTF_PUNCTUAL);
-			node["extensions"].erase(GLTF_AREA);
+			node.extensions.erase(GLTF_PUNCTUAL);
+			node.extensions.erase(GLTF_AREA);
 		}
 	}
 }
@@ -145,20 +135,9 @@ void GltfNodeWriter::drop_lost_parts() {
 /// keep children that live on elsewhere.
 void GltfNodeWriter::drop_lost_children() {
 	for (size_t index = 0; index < document->nodes.size(); ++index) {
-		Json &node = json["nodes"][index];
-		if (taken.contains(index) || !document->nodes[index].is_loaded ||
-				!node.contains("children")) {
-			continue;
-		}
-		Json kept = Json::array();
-		for (const Json &child : node["children"]) {
-			if (!taken.contains(child.get<size_t>())) {
-				kept.push_back(child);
-			}
-		}
-		node["children"] = kept;
-		if (kept.empty()) {
-			node.erase("children");
+		if (!taken.contains(index) && document->nodes[index].is_loaded) {
+			std::erase_if(model.nodes[index].children,
+					[this](int p_child) { return taken.contains(static_cast<size_t>(p_child)); });
 		}
 	}
 }
@@ -167,30 +146,23 @@ void GltfNodeWriter::write_scene(const Scene &p_scene, const std::vector<size_t>
 	const double size_before_m = document ? document->scene_size_m : 0.0;
 	const bool has_scene = !document || document->scene_index;
 	const size_t scene_index = document ? document->scene_index.value_or(0) : 0;
-	Json all_roots = Json(p_roots);
 	if (!has_scene) {
 		// Without scenes every node without a parent is shown: as long as that is so, none is made.
 		const bool is_same = p_scene.scene_size_m == size_before_m &&
-				taken.size() == document->nodes.size() && json["nodes"].size() == taken.size();
+				taken.size() == document->nodes.size() && model.nodes.size() == taken.size();
 		if (is_same) {
 			return;
 		}
-		json["scenes"] = Json::array({ Json::object() });
-		json["scene"] = 0;
+		model.scenes.resize(1);
+		model.defaultScene = 0;
 	}
-	Json &scene = json["scenes"][scene_index];
-	const auto before = scene.find("nodes");
-	const bool had_roots = before != scene.end() && !before->empty();
-	if (p_roots.empty() && had_roots) {
-		scene.erase("nodes"); // an empty list is not allowed
-	} else if (!p_roots.empty() && (!had_roots || *before != all_roots)) {
-		scene["nodes"] = std::move(all_roots);
-	}
+	tinygltf::Scene &scene = model.scenes[scene_index];
+	scene.nodes.assign(p_roots.begin(), p_roots.end());
 	if (p_scene.scene_size_m != size_before_m) {
-		Json &extras = require_extras(scene);
+		tinygltf::Value::Object &extras = require_extras(scene.extras);
 		extras.erase("scene_size");
 		if (p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m)) {
-			extras["scene_size"] = p_scene.scene_size_m;
+			extras["scene_size"] = tinygltf::Value(p_scene.scene_size_m);
 		}
 	}
 }

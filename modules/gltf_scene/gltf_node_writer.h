@@ -11,13 +11,15 @@
 
 namespace gnomon {
 
-/// Writes a scene's nodes, lights, cameras and size into a document's JSON: what differs from the
+/// Writes a scene's nodes, lights, cameras and size into a document's model: what differs from the
 /// document that was loaded, or all where there is none.
 class GltfNodeWriter {
 public:
 	/// p_document may be null. All must outlive it.
-	GltfNodeWriter(const GltfDocument *p_document, Json &r_json, GltfMeshWriter &r_meshes) :
-			document(p_document), json(r_json), meshes(r_meshes) {
+	GltfNodeWriter(
+			const GltfDocument *p_document, tinygltf::Model &r_model, GltfMeshWriter &r_meshes) :
+			document(p_document),
+			model(r_model), meshes(r_meshes) {
 		if (document) {
 			mesh_indices = document->mesh_indices;
 		}
@@ -33,37 +35,38 @@ private:
 		bool is_part = false; // a light or camera of a node that is also something else
 		std::vector<size_t> children;
 	};
-	/// Definitions that nodes share: written once per value.
-	using Written = std::map<size_t, Json>;
+	/// By index in the file, definitions that nodes share: written once per value.
+	template <typename T> using Written = std::map<size_t, T>;
 
-	/// The node in the document. Fetched anew after every change elsewhere: a key that is added to
-	/// an ordered object moves all its values.
-	Json &get_node(const Entry &p_entry) { return json["nodes"][p_entry.index]; }
+	/// The node in the document.
+	tinygltf::Node &get_node(const Entry &p_entry) { return model.nodes[p_entry.index]; }
 	std::optional<size_t> assign(const Node3D &p_node, const Entry *p_parent);
 	bool is_part(const Node3D &p_node, const Entry *p_parent) const;
 	void write_entry(const Entry &p_entry);
-	void write_name(const Entry &p_entry, const std::string &p_before, Json &r_node) const;
-	void write_children(const Entry &p_entry, Json &r_node) const;
+	void write_name(
+			const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const;
 	void write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance);
 	std::optional<size_t> find_or_append_mesh(
 			const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key);
 	void write_light_of(const Entry &p_entry, const Light3D &p_light);
 	void write_camera(const Entry &p_entry, const Camera3D &p_camera);
-	Json *own_area_light(Json &r_node);
+	tinygltf::Value *own_area_light(tinygltf::Node &r_node);
 	void drop_lost_parts();
 	void drop_lost_children();
 	void write_scene(const Scene &p_scene, const std::vector<size_t> &p_roots);
-	static size_t place_definition(
-			Json &r_list, Written &r_written, std::optional<size_t> p_index, Json p_definition);
+	template <typename T>
+	static size_t place_definition(std::vector<T> &r_list, Written<T> &r_written,
+			std::optional<size_t> p_index, T p_definition);
 
 	const GltfDocument *document;
-	Json &json;
+	tinygltf::Model &model;
 	GltfMeshWriter &meshes;
 	std::map<GltfDocument::SurfaceKey, size_t> mesh_indices;
 	std::vector<std::unique_ptr<Entry>> entries; // parents before their children
 	std::set<size_t> taken;						 // nodes of the file that the scene still has
 	std::set<size_t> mesh_nodes, light_nodes, camera_nodes;
-	Written lights, cameras;
+	Written<tinygltf::Light> lights;
+	Written<tinygltf::Camera> cameras;
 };
 
 } // namespace gnomon

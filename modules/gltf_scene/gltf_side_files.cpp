@@ -75,7 +75,8 @@ void GltfSideFiles::save() const {
 void relocate_container(const GltfDocument &p_document, const fs::path &p_target, GltfForm p_form,
 		GltfContainer &r_container, GltfSideFiles &r_files) {
 	GltfMessages messages{ p_document.file, {} };
-	const GltfObject root(p_document.container.json, "", messages);
+	Json read = p_document.container.json;
+	const GltfObject root(read, "", messages);
 	const size_t buffer_count = root.get_count("buffers");
 	const auto &bin_chunk = p_document.container.bin_chunk;
 	const fs::path folder = fs::absolute(p_target).parent_path();

@@ -4,6 +4,7 @@
 #include "modules/scene/nodes.h"
 
 #include <glm/glm.hpp>
+#include <tiny_gltf.h>
 
 #include <cstdint>
 #include <optional>
@@ -19,16 +20,15 @@ struct GltfTree {
 	std::vector<size_t> roots;
 };
 
-/// Fails on an index that does not exist, a node with two parents, a cycle and too deep a nesting,
-/// also where no scene looks.
-GltfTree build_gltf_tree(const GltfObject &p_root);
+/// A node with two parents, a cycle or too deep a nesting, also where no scene looks: an Error.
+GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_messages);
 
-/// A node's matrix, or its translation, rotation and scale. Not finite: fails.
-glm::dmat4 read_transform(const GltfObject &p_node);
+/// A node's matrix, or its translation, rotation and scale.
+glm::dmat4 read_transform(const tinygltf::Node &p_node);
 
 /// Writes a node's changed transform. Translation, rotation and scale are kept apart where they can
 /// say it (animations and people need them), else it becomes a matrix. Not finite: an Error.
-void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, Json &r_json);
+void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_written);
 
 constexpr char BLENDER_ORIENTATION[] = "_Orientation";
 
@@ -36,6 +36,6 @@ constexpr char BLENDER_ORIENTATION[] = "_Orientation";
 /// glTF's lights look elsewhere than Blender's, and leave the object's properties on "Lamp". That
 /// node, if p_index is such a child.
 std::optional<size_t> find_blender_owner(
-		size_t p_index, const GltfTree &p_tree, const GltfObject &p_root);
+		size_t p_index, const GltfTree &p_tree, const tinygltf::Model &p_model);
 
 } // namespace gnomon

@@ -24,9 +24,15 @@ GltfForm choose_form(const fs::path &p_path) {
 	return extension == ".glb" ? GltfForm::BINARY : GltfForm::TEXT;
 }
 
-Json make_empty_document() {
-	return { { "asset", { { "version", "2.0" }, { "generator", "Gnomon" } } }, { "scene", 0 },
-		{ "scenes", Json::array({ Json::object() }) } };
+const char GENERATOR[] = "Gnomon";
+
+tinygltf::Model make_empty_model() {
+	tinygltf::Model model;
+	model.asset.version = "2.0";
+	model.asset.generator = GENERATOR;
+	model.scenes.resize(1);
+	model.defaultScene = 0;
+	return model;
 }
 
 /// Where new vertices go: behind those in the BIN chunk, or into a buffer of their own.
@@ -57,7 +63,7 @@ fs::path find_own_buffer(const fs::path &p_path) {
 	}
 	try {
 		const Json json = Json::parse(load_text_file(p_path, GLTF_MAX_FILE_BYTES));
-		if (json.at("asset").at("generator") != make_empty_document()["asset"]["generator"]) {
+		if (json.at("asset").at("generator") != GENERATOR) {
 			return {};
 		}
 		const Json &uri = json.at("buffers").at(0).at("uri");
@@ -116,24 +122,18 @@ void save_gltf(const Scene &p_scene, const fs::path &p_path) {
 	const GltfMessages messages{ p_path.string(), {} };
 	GltfSideFiles files(fs::absolute(p_path).parent_path());
 	GltfContainer container;
-	try {
-		if (document) {
-			container = document->container;
-			relocate_container(*document, p_path, form, container, files);
-		} else {
-			container.json = make_empty_document();
-		}
-		const NewBuffer buffer = choose_buffer(container, form);
-		GltfMeshWriter meshes(
-				container.json, buffer.index, buffer.first_byte, document, find_materials(p_scene));
-		GltfNodeWriter(document, container.json, meshes).write(p_scene);
-		store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
-	} catch (const Json::exception &error) {
-		// What reading had no need to look at may be of another kind than the format says.
-		fail(messages.describe("JSON",
-				text("cannot be changed as the file it came from is not valid: ", error.what(),
-						". Export that file again.")));
+	if (document) {
+		container = document->container;
+		relocate_container(*document, p_path, form, container, files);
 	}
+	const NewBuffer buffer = choose_buffer(container, form);
+	tinygltf::Model model = document ? document->model : make_empty_model();
+	GltfMeshWriter meshes(
+			model, buffer.index, buffer.first_byte, document, find_materials(p_scene));
+	GltfNodeWriter(document, model, meshes).write(p_scene);
+	container.json = write_gltf_model(
+			model, document ? &container.json : nullptr, document ? &document->model : nullptr);
+	store_bytes(buffer, meshes.get_bytes(), p_path, container, files);
 	const fs::path before = document ? fs::path() : find_own_buffer(p_path);
 	files.save();
 	if (form == GltfForm::BINARY) {

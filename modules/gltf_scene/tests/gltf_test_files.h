@@ -59,6 +59,11 @@ struct GltfTestLog {
 	}
 };
 
+/// With its keys in alphabetical order: elements that a save adds have them in the writer's.
+inline nlohmann::json sort(const Json &p_json) {
+	return nlohmann::json::parse(p_json.dump());
+}
+
 /// The message of the Error that loading ends with; empty when it does not.
 inline std::string get_load_error(
 		const GltfTestFolder &p_folder, const Json &p_json, const GltfLoadOptions &p_options = {}) {

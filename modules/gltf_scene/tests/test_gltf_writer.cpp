@@ -108,6 +108,36 @@ TEST_CASE("[GltfWriter] a scene saved unchanged is the same file, value for valu
 	CHECK(find_difference(*scene, *load_gltf(folder.path / "again.gltf")) == "");
 }
 
+TEST_CASE("[GltfWriter] what tinygltf does not hold stays where it is, in its order") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_desk(folder);
+	json["later"] = Json::parse(R"([1, null, {"z": [], "a": {}}])");
+	json["nodes"][1]["later"] = true;
+	json["nodes"][1]["skin"] = 0;
+	json["nodes"][1]["extras"] = Json::parse(
+			R"({"owner": "lighting", "none": null, "list": [], "seed": 9007199254740993, "mixed": [null, 1]})");
+	json["skins"] = Json::parse(R"([{"joints": [1]}])");
+	json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] =
+			Json::parse(R"({"bufferView": 0, "attributes": {"POSITION": 0}})");
+	json["images"].push_back(Json::parse(R"({"bufferView": 0, "mimeType": "image/png"})"));
+	json["images"].push_back(Json::parse(R"({"uri": "data:image/png;base64,AAAA"})"));
+	json["cameras"] = Json::parse(
+			R"([{"type": "perspective", "perspective": {"yfov": 9, "znear": 1, "later": 2}},
+		{"type": "later"}])");
+	json["materials"] = Json::parse(
+			R"([{"pbrMetallicRoughness": {"roughnessFactor": 7, "metallicFactor": "x"}}])");
+	json["meshes"][0]["primitives"][0]["material"] = 0;
+	const auto scene = folder.load(json);
+	get_light(*scene).parent_from_node[3] = glm::dvec4(0, 5, 0, 1);
+	get_light(*scene).properties["light_size"] = 0.5;
+	save_gltf(*scene, folder.path / "again.gltf");
+	json["nodes"][1]["translation"] = { 0, 5, 0 };
+	Json &extras = json["extensions"]["KHR_lights_punctual"]["lights"][0]["extras"];
+	extras["light_size"] = extras["shadow_soft_size"] = 0.5;
+	CHECK(folder.read_json("again.gltf") == json);
+}
+
 TEST_CASE("[GltfWriter] moving a light and setting its size changes that and nothing else") {
 	GltfTestFolder folder;
 	GltfTestLog log;

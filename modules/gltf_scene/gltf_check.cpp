@@ -1,0 +1,380 @@
+#include "modules/gltf_scene/gltf_check.h"
+
+#include "modules/core/error.h"
+#include "modules/core/limits.h"
+#include "modules/gltf_scene/gltf_document.h"
+
+#include <tiny_gltf.h>
+
+#include <cfloat>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const double MAX_NEAR_M = 1e9;
+const double MIN_NEAR_M = 1e-6;
+const double MAX_FOV_RAD = 3.14159;
+const double MIN_FOV_RAD = 1e-4;						 // narrower, and one pixel sees nothing
+const double DEFAULT_OUTER_CONE_RAD = 0.785398163397448; // KHR_lights_punctual: pi / 4
+const double MAX_CONE_RAD = 1.57079632679490 + 1e-6; // exporters round pi / 2 up as often as down
+const double MAX_EMISSIVE_CD_M2 = 1e9;				 // the sun's disc
+const double LAST_ROW_TOLERANCE = 1e-6;				 // exporters that compute in float
+const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's
+const uint64_t MAX_STRIDE_BYTES = 252;
+const char NEXT_STEP[] = "Correct it or export the file again.";
+
+/// Extensions that change nothing that is read here, or are read.
+bool is_known_extension(std::string_view p_name) {
+	return p_name == GLTF_PUNCTUAL || p_name == GLTF_AREA || p_name.starts_with("KHR_materials_") ||
+			p_name == "KHR_texture_transform" || p_name == "KHR_mesh_quantization";
+}
+
+/// Checks the elements of a list of the document, or of one of its objects.
+template <typename Check>
+void check_elements(const GltfObject &p_parent, std::string_view p_key, const Check &p_check) {
+	const size_t count = p_parent.get_count(p_key);
+	for (size_t index = 0; index < count; ++index) {
+		p_check(p_parent.get_element(p_key, index));
+	}
+}
+
+/// A whole number: it may be written with a fraction of zero, which tinygltf does not take.
+void check_integer(const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum,
+		uint64_t p_maximum) {
+	if (const auto number = p_object.find_integer(p_key, p_minimum, p_maximum)) {
+		p_object.set(p_key, *number);
+	}
+}
+
+void require_integer(const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum,
+		uint64_t p_maximum) {
+	p_object.set(p_key, p_object.require_integer(p_key, p_minimum, p_maximum));
+}
+
+void check_index(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
+	if (const auto index = p_object.find_index(p_key, p_count)) {
+		p_object.set(p_key, *index);
+	}
+}
+
+void require_index(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
+	p_object.set(p_key, p_object.require_index(p_key, p_count));
+}
+
+void check_indices(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
+	const size_t count = p_object.get_count(p_key);
+	Json indices = Json::array();
+	for (size_t place = 0; place < count; ++place) {
+		indices.push_back(p_object.require_index_at(p_key, place, p_count));
+	}
+	if (p_object.find(p_key)) {
+		p_object.set(p_key, std::move(indices));
+	}
+}
+
+/// Of a light, camera or material: reported, and the default takes its place.
+void check_number(const GltfObject &p_object, std::string_view p_key, double p_default,
+		double p_minimum, double p_maximum, std::string_view p_unit = "") {
+	if (p_object.find(p_key)) {
+		p_object.set(p_key, p_object.read_number(p_key, p_default, p_minimum, p_maximum, p_unit));
+	}
+}
+
+void check_color(const GltfObject &p_object, std::string_view p_key, double p_maximum) {
+	float color[3];
+	if (p_object.find(p_key) && !p_object.read_color(p_key, p_maximum, color)) {
+		p_object.erase(p_key);
+	}
+}
+
+void check_bool(const GltfObject &p_object, std::string_view p_key) {
+	if (p_object.find(p_key)) {
+		p_object.set(p_key, p_object.read_bool(p_key, false));
+	}
+}
+
+class GltfChecker {
+public:
+	explicit GltfChecker(const GltfObject &p_root) : root(p_root) {}
+	void check();
+
+private:
+	size_t count(const char *p_list) const { return root.get_count(p_list); }
+	void check_header() const;
+	void check_bytes() const;
+	void check_accessor(const GltfObject &p_accessor) const;
+	void check_mesh(const GltfObject &p_mesh) const;
+	void check_attributes(const GltfObject &p_attributes) const;
+	void check_material(const GltfObject &p_material) const;
+	void check_node(const GltfObject &p_node) const;
+	static void check_transform(const GltfObject &p_node);
+	static void check_camera(const GltfObject &p_camera);
+	static void check_light(const GltfObject &p_light);
+	static void check_cones(const GltfObject &p_light);
+
+	GltfObject root;
+};
+
+void GltfChecker::check() {
+	check_header();
+	check_bytes();
+	check_elements(
+			root, "accessors", [&](const GltfObject &p_accessor) { check_accessor(p_accessor); });
+	check_elements(root, "meshes", [&](const GltfObject &p_mesh) { check_mesh(p_mesh); });
+	check_elements(
+			root, "materials", [&](const GltfObject &p_material) { check_material(p_material); });
+	check_elements(root, "cameras", check_camera);
+	if (const auto punctual = root.find_extension(GLTF_PUNCTUAL)) {
+		check_elements(*punctual, "lights", check_light);
+	}
+	if (count("nodes") > GLTF_MAX_NODE_COUNT) {
+		root.fail_at("nodes",
+				text("has ", count("nodes"), " elements, must be at most ", GLTF_MAX_NODE_COUNT,
+						". Split the scene."));
+	}
+	check_elements(root, "nodes", [&](const GltfObject &p_node) { check_node(p_node); });
+	check_elements(root, "scenes",
+			[&](const GltfObject &p_scene) { check_indices(p_scene, "nodes", count("nodes")); });
+	if (count("scenes") > 0) {
+		check_index(root, "scene", count("scenes"));
+	}
+}
+
+void GltfChecker::check_header() const {
+	const GltfObject asset = root.require_object("asset");
+	const std::string version = asset.get_text("version");
+	if (!version.starts_with("2.")) {
+		asset.fail_value("version", "\"2.0\"");
+	}
+	if (asset.find("minVersion") && asset.get_text("minVersion") != "2.0") {
+		asset.fail_value("minVersion", "\"2.0\"");
+	}
+	const size_t required_count = root.get_count("extensionsRequired");
+	for (size_t index = 0; index < required_count; ++index) {
+		const Json &name = (*root.find("extensionsRequired"))[index];
+		if (!name.is_string() || !is_known_extension(name.get_ref<const std::string &>())) {
+			root.fail_at(text("extensionsRequired[", index, "]"),
+					text("is ", describe_json(name),
+							", which is not supported. Export the file without it."));
+		}
+	}
+	GltfMessages &messages = root.get_messages();
+	for (const char *unread : { "animations", "skins" }) {
+		if (count(unread) > 0) {
+			messages.warn(unread, unread, "are not read.");
+		}
+	}
+}
+
+/// Whether the bytes are there is known only once a buffer is loaded.
+void GltfChecker::check_bytes() const {
+	check_elements(root, "buffers", [](const GltfObject &p_buffer) {
+		require_integer(p_buffer, "byteLength", 1, GLTF_MAX_BUFFER_BYTES);
+		if (const Json *uri = p_buffer.find("uri"); uri && !uri->is_string()) {
+			p_buffer.fail_value("uri", "text");
+		}
+	});
+	check_elements(root, "bufferViews", [&](const GltfObject &p_view) {
+		require_index(p_view, "buffer", count("buffers"));
+		check_integer(p_view, "byteOffset", 0, GLTF_MAX_BUFFER_BYTES);
+		require_integer(p_view, "byteLength", 1, GLTF_MAX_BUFFER_BYTES);
+		const auto stride = p_view.find_integer("byteStride", 4, MAX_STRIDE_BYTES);
+		if (stride && *stride % 4 != 0) {
+			p_view.fail_value("byteStride", text("a multiple of 4 in 4..", MAX_STRIDE_BYTES));
+		}
+		check_integer(p_view, "byteStride", 4, MAX_STRIDE_BYTES);
+	});
+	check_elements(root, "images", [](const GltfObject &) {});
+}
+
+void GltfChecker::check_accessor(const GltfObject &p_accessor) const {
+	check_index(p_accessor, "bufferView", count("bufferViews"));
+	check_integer(p_accessor, "byteOffset", 0, MAX_OFFSET_BYTES);
+	require_integer(p_accessor, "count", 1, GLTF_MAX_INDEX_COUNT);
+	require_integer(p_accessor, "componentType", TINYGLTF_COMPONENT_TYPE_BYTE,
+			TINYGLTF_COMPONENT_TYPE_FLOAT);
+	const std::string type = p_accessor.get_text("type");
+	if (type != "SCALAR" && type != "VEC2" && type != "VEC3" && type != "VEC4" && type != "MAT2" &&
+			type != "MAT3" && type != "MAT4") {
+		p_accessor.fail_value("type", "\"SCALAR\", \"VEC2\"..\"VEC4\" or \"MAT2\"..\"MAT4\"");
+	}
+	check_bool(p_accessor, "normalized");
+	const auto sparse = p_accessor.find_object("sparse");
+	if (!sparse) {
+		p_accessor.erase("sparse");
+		return;
+	}
+	require_integer(
+			*sparse, "count", 1, p_accessor.require_integer("count", 1, GLTF_MAX_INDEX_COUNT));
+	for (const char *part : { "indices", "values" }) {
+		const GltfObject object = sparse->require_object(part);
+		require_index(object, "bufferView", count("bufferViews"));
+		check_integer(object, "byteOffset", 0, MAX_OFFSET_BYTES);
+	}
+	require_integer(sparse->require_object("indices"), "componentType",
+			TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_FLOAT);
+}
+
+void GltfChecker::check_attributes(const GltfObject &p_attributes) const {
+	for (auto item = p_attributes.get_json().begin(); item != p_attributes.get_json().end();
+			++item) {
+		require_index(p_attributes, item.key(), count("accessors"));
+	}
+}
+
+void GltfChecker::check_mesh(const GltfObject &p_mesh) const {
+	check_elements(p_mesh, "primitives", [&](const GltfObject &p_primitive) {
+		check_integer(p_primitive, "mode", TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
+		check_attributes(p_primitive.require_object("attributes"));
+		check_elements(p_primitive, "targets",
+				[&](const GltfObject &p_target) { check_attributes(p_target); });
+		check_index(p_primitive, "material", count("materials"));
+		check_index(p_primitive, "indices", count("accessors"));
+		if (const auto indices = p_primitive.find_index("indices", count("accessors"))) {
+			const GltfObject accessor = root.get_element("accessors", *indices);
+			if (!accessor.find("bufferView")) { // tinygltf's rule
+				accessor.fail_value("bufferView", "set, as indices are read from here");
+			}
+		}
+	});
+}
+
+void GltfChecker::check_material(const GltfObject &p_material) const {
+	if (const auto surface = p_material.find_object("pbrMetallicRoughness")) {
+		check_color(*surface, "baseColorFactor", 1.0);
+		if (Json *color = surface->find("baseColorFactor")) {
+			color->push_back(1.0); // tinygltf wants four
+			if ((*color)[3].is_number()) {
+				color->erase(4);
+			}
+		}
+		check_number(*surface, "metallicFactor", 1, 0, 1);
+		check_number(*surface, "roughnessFactor", 1, 0, 1);
+	}
+	check_color(p_material, "emissiveFactor", 1.0);
+	check_bool(p_material, "doubleSided");
+	if (const auto strength = p_material.find_extension(GLTF_EMISSIVE_STRENGTH)) {
+		check_number(*strength, "emissiveStrength", 1, 0, MAX_EMISSIVE_CD_M2);
+	}
+	if (const auto transmission = p_material.find_extension(GLTF_TRANSMISSION)) {
+		check_number(*transmission, "transmissionFactor", 0, 0, 1);
+	}
+	if (const auto volume = p_material.find_extension(GLTF_VOLUME)) {
+		check_number(*volume, "thicknessFactor", 0, 0, MAX_LENGTH_M, "m");
+		check_color(*volume, "attenuationColor", 1.0);
+		check_number(*volume, "attenuationDistance", 0, 0, MAX_LENGTH_M, "m");
+	}
+}
+
+void GltfChecker::check_transform(const GltfObject &p_node) {
+	double matrix[16];
+	if (p_node.find_numbers("matrix", matrix)) {
+		const double off = std::abs(matrix[3]) + std::abs(matrix[7]) + std::abs(matrix[11]) +
+				std::abs(matrix[15] - 1);
+		if (off > LAST_ROW_TOLERANCE) {
+			p_node.fail_value("matrix", "affine: its last row 0, 0, 0, 1");
+		}
+		return;
+	}
+	double vector[3];
+	p_node.find_numbers("translation", vector);
+	p_node.find_numbers("scale", vector);
+	double turn[4];
+	if (p_node.find_numbers("rotation", turn)) {
+		const double length =
+				std::hypot(std::hypot(turn[0], turn[1]), std::hypot(turn[2], turn[3]));
+		if (!(length > 1e-6) || !std::isfinite(length)) {
+			p_node.fail_value("rotation", "a unit quaternion");
+		}
+	}
+}
+
+void GltfChecker::check_node(const GltfObject &p_node) const {
+	check_index(p_node, "mesh", count("meshes"));
+	check_index(p_node, "camera", count("cameras"));
+	check_indices(p_node, "children", count("nodes"));
+	check_transform(p_node);
+	for (const char *name : { GLTF_PUNCTUAL, GLTF_AREA }) {
+		if (const auto reference = p_node.find_extension(name)) {
+			const auto lights = root.find_extension(name);
+			require_index(*reference, "light", lights ? lights->get_count("lights") : 0);
+			if (lights) {
+				lights->get_element(
+						"lights", reference->require_index("light", lights->get_count("lights")));
+			}
+		}
+	}
+}
+
+void GltfChecker::check_camera(const GltfObject &p_camera) {
+	const auto perspective = p_camera.find_object("perspective");
+	if (p_camera.get_text("type") != "perspective" || !perspective) {
+		p_camera.get_messages().warn(
+				"camera", p_camera.get_path(), "is not perspective; it is left out.");
+		// One that tinygltf takes whatever is there.
+		p_camera.set("type", "orthographic");
+		p_camera.set(
+				"orthographic", { { "xmag", 1 }, { "ymag", 1 }, { "zfar", 1 }, { "znear", 0 } });
+		return;
+	}
+	const Camera3D fresh;
+	perspective->set("yfov",
+			perspective->read_number(
+					"yfov", fresh.vertical_fov_rad, MIN_FOV_RAD, MAX_FOV_RAD, "rad"));
+	perspective->set(
+			"znear", perspective->read_number("znear", fresh.near_m, MIN_NEAR_M, MAX_NEAR_M, "m"));
+}
+
+void GltfChecker::check_cones(const GltfObject &p_light) {
+	if (const Json *json = p_light.find("spot"); json && !json->is_object()) {
+		p_light.report_value("spot", "an object", "the default");
+		p_light.erase("spot");
+	}
+	if (!p_light.find("spot")) { // the defaults are meant
+		p_light.set("spot", Json::object());
+	}
+	const GltfObject spot = *p_light.find_object("spot");
+	double outer =
+			spot.read_number("outerConeAngle", DEFAULT_OUTER_CONE_RAD, 0, MAX_CONE_RAD, "rad");
+	double inner = spot.read_number("innerConeAngle", 0, 0, MAX_CONE_RAD, "rad");
+	if (!(outer > 0)) {
+		spot.report_value("outerConeAngle", "above 0", text(DEFAULT_OUTER_CONE_RAD));
+		outer = DEFAULT_OUTER_CONE_RAD;
+		inner = 0;
+	} else if (inner > outer) {
+		spot.report_value("innerConeAngle", text("at most outerConeAngle, ", outer), "0");
+		inner = 0;
+	}
+	spot.set("outerConeAngle", outer);
+	spot.set("innerConeAngle", inner);
+}
+
+void GltfChecker::check_light(const GltfObject &p_light) {
+	const std::string type = p_light.get_text("type");
+	if (type != "point" && type != "spot" && type != "directional") {
+		p_light.report_value("type", "\"point\", \"spot\" or \"directional\"", "no light");
+		p_light.set("type", "");
+	}
+	check_color(p_light, "color", FLT_MAX);
+	check_number(p_light, "intensity", 1, 0, FLT_MAX);
+	if (const Json *range = p_light.find("range")) {
+		const double range_m = range->is_number() ? range->get<double>() : NAN;
+		if (!(range_m > 0 && range_m <= FLT_MAX)) {
+			p_light.report_value("range", "a finite number above 0 m", "no limit");
+			p_light.erase("range");
+		}
+	}
+	if (type == "spot") {
+		check_cones(p_light);
+	}
+}
+
+} // namespace
+
+void check_gltf(Json &r_json, GltfMessages &r_messages) {
+	GltfChecker(GltfObject(r_json, "", r_messages)).check();
+}
+
+} // namespace gnomon
