@@ -6,7 +6,7 @@
 BUILD_PACKAGES=(
     build-essential pkg-config python3 scons
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
-    libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libembree-dev
+    libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev libembree-dev
     libimgui-dev libstb-dev libopenexr-dev libcli11-dev doctest-dev libxxhash-dev
 )
 # Meshes of the bunny and of scenes/make_package_meshes.py, and what converts them.

@@ -361,14 +361,14 @@ if is_wanted build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
-run_lanes "docs engine" "godot_set_up embed command_line demo stability template removal"
+run_lanes "docs engine" "godot_set_up embed command_line template" "demo stability removal"
 # Not without being asked for: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender
 fi
 run_lanes "sanitized fuzz_replay"
 if is_wanted godot_build && part_godot_build; then
-    run_lanes "godot_device godot_masks" "godot_addon godot_editor godot_soak"
+    run_lanes "godot_device" "godot_addon godot_editor" "godot_masks godot_soak"
 fi
 if [ "$is_full" = yes ]; then
     run_lanes "sanitized_all threads tables fuzz large_meshes soak extremes kills editor_repeats"

@@ -15,6 +15,7 @@ namespace gnomon {
 struct CommonOptions {
 	std::string device; // index or part of the name; empty: the best
 	bool validation = false;
+	std::string stage = "auto"; // of commands that draw scenes: see stage_scene; auto, on or off
 };
 
 struct CommandInfo {

@@ -27,7 +27,13 @@ void add_edit_command(CLI::App &r_app, CommonOptions &r_common) {
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");
+	command->add_option("--stage", r_common.stage,
+				   "auto (default): a scene without camera or light gets what is missing, and a "
+				   "ground, none "
+				   "of which is saved; on: it gets all three; off: nothing")
+			->check(CLI::IsMember({ "auto", "on", "off" }));
 	command->callback([&r_common] {
+		options.stage = parse_stage_mode(r_common.stage, "--stage");
 		options.device = r_common.device;
 		options.validation = r_common.validation;
 		options.program = std::filesystem::read_symlink("/proc/self/exe");

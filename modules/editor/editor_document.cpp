@@ -50,7 +50,7 @@ std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, Node3D &r_root) {
 
 } // namespace
 
-EditorDocument::EditorDocument(const fs::path &p_path) {
+EditorDocument::EditorDocument(const fs::path &p_path, StageMode p_stage) : stage(p_stage) {
 	const ProjectScene place = find_project_scene(p_path);
 	project = place.project;
 	path = fs::absolute(place.scene_path);
@@ -79,6 +79,10 @@ void EditorDocument::open(const fs::path &p_file) {
 	options.project_folder = project.folder;
 	options.find_technique_property = &find_added_light_property;
 	std::unique_ptr<Scene> loaded = load_gltf(p_file, options);
+	const std::string staged = stage_scene(*loaded, stage);
+	if (!staged.empty()) {
+		log_info(staged, " Untick \"staged\" of what is to be saved with it.");
+	}
 	selected = nullptr;
 	history = UndoHistory();
 	scene = std::move(loaded);

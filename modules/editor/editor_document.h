@@ -3,6 +3,7 @@
 #include "modules/core/project.h"
 #include "modules/editor/undo_history.h"
 #include "modules/scene/nodes.h"
+#include "modules/scene/stage.h"
 
 #include <chrono>
 #include <filesystem>
@@ -20,8 +21,10 @@ public:
 	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // unless told otherwise
 
 	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
-	/// read opens empty and is said in the log, see get_failure.
-	explicit EditorDocument(const std::filesystem::path &p_path);
+	/// read opens empty and is said in the log, see get_failure. p_stage: see stage_scene; what is
+	/// added is no change.
+	explicit EditorDocument(
+			const std::filesystem::path &p_path, StageMode p_stage = StageMode::OFF);
 	/// What this document put aside is removed when nothing of it would be lost.
 	~EditorDocument();
 	EditorDocument(const EditorDocument &) = delete;
@@ -100,6 +103,7 @@ private:
 
 	Project project;
 	std::filesystem::path path;
+	StageMode stage;
 	std::unique_ptr<Scene> scene;
 	std::string failure;
 	UndoHistory history;

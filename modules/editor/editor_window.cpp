@@ -68,7 +68,7 @@ public:
 	Editor(const EditorOptions &p_options, const std::filesystem::path &p_path,
 			EditorSettings &r_settings) :
 			options(p_options),
-			settings(r_settings), document(p_path),
+			settings(r_settings), document(p_path, p_options.stage),
 			window("Gnomon", r_settings.window_size_px, "The editor needs one: set DISPLAY."),
 			device(create_rendering_device(make_device_options())),
 			swapchain(window.create_swapchain(*device)), renderer(*device), transients(*device),

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "modules/scene/stage.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +13,7 @@ struct EditorOptions {
 	std::filesystem::path path; // a project, or a scene; empty: what was open last
 	std::string device;
 	bool validation = false;
+	StageMode stage = StageMode::AUTO;
 	std::filesystem::path program; // this program's file: bin/gnomon beside doc and shaders
 	/// Where the shaders' sources are, to be compiled anew when they change; may not be there.
 	std::filesystem::path shaders;

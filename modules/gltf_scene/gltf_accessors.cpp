@@ -35,6 +35,14 @@ std::string describe_type(int p_type) {
 										  : text("\"VEC", count, "\"");
 }
 
+/// "\"VEC3\" or \"VEC4\""
+std::string describe_types(int p_fewest, int p_most) {
+	const auto describe = [](int p_count) {
+		return describe_type(p_count == 1 ? TINYGLTF_TYPE_SCALAR : p_count);
+	};
+	return p_fewest == p_most ? describe(p_most) : describe(p_fewest) + " or " + describe(p_most);
+}
+
 size_t get_component_bytes(int p_component_type) {
 	return static_cast<size_t>(
 			tinygltf::GetComponentSizeInBytes(static_cast<uint32_t>(p_component_type)));
@@ -87,6 +95,7 @@ struct GltfAccessors::Layout {
 	uint64_t count = 0;
 	int component_type = 0;
 	size_t component_bytes = 0;
+	int component_count = 0;
 	size_t element_bytes = 0;
 	size_t stride_bytes = 0;
 	bool is_normalized = false;
@@ -123,24 +132,28 @@ void GltfAccessors::find_bytes(
 	r_layout.bytes = view_bytes.subspan(p_offset, needed_bytes);
 }
 
-GltfAccessors::Layout GltfAccessors::read_layout(size_t p_index, Content p_content) {
+GltfAccessors::Layout GltfAccessors::read_layout(size_t p_index, int p_fewest, int p_most) {
 	const tinygltf::Accessor &accessor = model.accessors[p_index];
 	const std::string path = text("accessors[", p_index, "]");
-	const bool is_vectors = p_content == Content::VECTORS;
-	if (accessor.type != (is_vectors ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR)) {
-		messages.fail_value(path + ".type", describe_type(accessor.type),
-				is_vectors ? "\"VEC3\"" : "\"SCALAR\"");
+	const bool is_index = p_most == 1;
+	const int component_count = accessor.type == TINYGLTF_TYPE_SCALAR ? 1
+			: accessor.type <= TINYGLTF_TYPE_VEC4					  ? accessor.type
+																	  : 0;
+	if (component_count < p_fewest || component_count > p_most) {
+		messages.fail_value(
+				path + ".type", describe_type(accessor.type), describe_types(p_fewest, p_most));
 	}
-	if (!(is_vectors ? is_vector_type : is_index_type)(accessor.componentType)) {
+	if (!(is_index ? is_index_type : is_vector_type)(accessor.componentType)) {
 		messages.fail_value(path + ".componentType", text(accessor.componentType),
-				is_vectors ? "5120..5123 or 5126" : "5121, 5123 or 5125");
+				is_index ? "5121, 5123 or 5125" : "5120..5123 or 5126");
 	}
 	Layout layout;
 	layout.count = accessor.count;
 	layout.component_type = accessor.componentType;
 	layout.is_normalized = accessor.normalized;
 	layout.component_bytes = get_component_bytes(layout.component_type);
-	layout.element_bytes = layout.component_bytes * (is_vectors ? 3 : 1);
+	layout.component_count = component_count;
+	layout.element_bytes = layout.component_bytes * size_t(component_count);
 	decoded_count += layout.count;
 	if (decoded_count > MAX_DECODED_COUNT) {
 		messages.fail(path + ".count",
@@ -198,7 +211,7 @@ std::shared_ptr<const std::vector<glm::vec3>> GltfAccessors::read_vectors(size_t
 			return entry.vectors;
 		}
 	}
-	const Layout layout = read_layout(p_accessor_index, Content::VECTORS);
+	const Layout layout = read_layout(p_accessor_index, 3, 3);
 	if (layout.count > GLTF_MAX_VERTEX_COUNT) {
 		messages.fail_value(text("accessors[", p_accessor_index, "].count"), text(layout.count),
 				text("1..", GLTF_MAX_VERTEX_COUNT));
@@ -223,8 +236,25 @@ std::shared_ptr<const std::vector<glm::vec3>> GltfAccessors::read_vectors(size_t
 	return vectors;
 }
 
+std::vector<glm::vec4> GltfAccessors::read_attribute(
+		size_t p_accessor_index, int p_fewest, int p_most) {
+	const Layout layout = read_layout(p_accessor_index, p_fewest, p_most);
+	if (layout.count > GLTF_MAX_VERTEX_COUNT) {
+		messages.fail_value(text("accessors[", p_accessor_index, "].count"), text(layout.count),
+				text("1..", GLTF_MAX_VERTEX_COUNT));
+	}
+	std::vector<glm::vec4> values(layout.count, glm::vec4(0, 0, 0, 1));
+	read_elements(p_accessor_index, layout, [&](size_t p_index, const uint8_t *p_bytes) {
+		for (int axis = 0; p_bytes && axis < layout.component_count; ++axis) {
+			values[p_index][axis] = read_component(p_bytes + size_t(axis) * layout.component_bytes,
+					layout.component_type, layout.is_normalized);
+		}
+	});
+	return values;
+}
+
 std::vector<uint32_t> GltfAccessors::read_indices(size_t p_accessor_index, size_t p_vertex_count) {
-	const Layout layout = read_layout(p_accessor_index, Content::INDICES);
+	const Layout layout = read_layout(p_accessor_index, 1, 1);
 	std::vector<uint32_t> indices(layout.count, 0);
 	read_elements(p_accessor_index, layout, [&](size_t p_index, const uint8_t *p_bytes) {
 		indices[p_index] = p_bytes ? read_index(p_bytes, layout.component_type) : 0;

@@ -22,13 +22,16 @@ public:
 	/// A VEC3 of floats or of integers of 8 or 16 bits, normalized or not. Shared with the caller
 	/// as exporters like to let many primitives share one vertex array.
 	std::shared_ptr<const std::vector<glm::vec3>> read_vectors(size_t p_accessor_index);
+	/// Likewise of VEC2 to VEC4, not shared: what a mesh has beside positions and normals.
+	/// p_fewest, p_most: components that are allowed. Those that are not there are 0, 0, 0, 1.
+	std::vector<glm::vec4> read_attribute(size_t p_accessor_index, int p_fewest, int p_most);
 	/// A SCALAR of unsigned integers, each below p_vertex_count.
 	std::vector<uint32_t> read_indices(size_t p_accessor_index, size_t p_vertex_count);
 
 private:
 	struct Layout; // of one accessor or its sparse part, all bounds checked
-	enum class Content { VECTORS, INDICES };
-	Layout read_layout(size_t p_index, Content p_content);
+	/// p_fewest, p_most: components, of floats or small integers; 1 and 1: of indices.
+	Layout read_layout(size_t p_index, int p_fewest, int p_most);
 	/// Finds the elements in a view. p_path: where its index and the offset in it stand.
 	void find_bytes(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);
 	template <typename Convert>

@@ -155,14 +155,14 @@ std::span<const uint8_t> GltfBuffers::load_view(const tinygltf::Model &p_model, 
 	return bytes.subspan(view.byteOffset, view.byteLength);
 }
 
-std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_buffer, const std::string &p_uri) {
+std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_object, const std::string &p_uri) {
 	if (!is_data_uri(p_uri)) {
-		const fs::path path = resolve_uri(p_uri, place, p_buffer);
+		const fs::path path = resolve_uri(p_uri, place, p_object);
 		files.push_back(path);
 		try {
 			return load_file(path, GLTF_MAX_FILE_BYTES);
 		} catch (const Error &error) {
-			p_buffer.fail_at("uri", text("cannot be read: ", error.what()));
+			p_object.fail_at("uri", text("cannot be read: ", error.what()));
 		}
 	}
 	// tinygltf knows the encoding for a fixed set of media types only; the type means nothing here.
@@ -173,7 +173,7 @@ std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_buffer, const std
 			!std::string_view(p_uri).substr(0, comma).ends_with(";base64") ||
 			!tinygltf::DecodeDataURI(&bytes, media_type,
 					"data:application/octet-stream;base64," + p_uri.substr(comma + 1), 0, false)) {
-		p_buffer.fail_at("uri", "is no base64 data. Export the file again.");
+		p_object.fail_at("uri", "is no base64 data. Export the file again.");
 	}
 	return bytes;
 }

@@ -41,12 +41,14 @@ public:
 	std::span<const uint8_t> load_buffer(size_t p_index);
 	/// The bytes of a buffer view of the document's model; outside its buffer: fails.
 	std::span<const uint8_t> load_view(const tinygltf::Model &p_model, size_t p_index);
+	/// What a URI of a buffer or image holds, a relative path or base64 data; it cannot be read:
+	/// fails at p_object's "uri".
+	std::vector<uint8_t> load_uri(const GltfObject &p_object, const std::string &p_uri);
+	const GltfObject &get_root() const { return root; }
 	/// That were read so far.
 	const std::vector<std::filesystem::path> &get_files() const { return files; }
 
 private:
-	std::vector<uint8_t> load_uri(const GltfObject &p_buffer, const std::string &p_uri);
-
 	GltfObject root;
 	const GltfPlace &place;
 	const std::vector<uint8_t> *bin_chunk;

@@ -6,6 +6,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 
@@ -95,6 +96,31 @@ void check_bool(const GltfObject &p_object, std::string_view p_key) {
 	}
 }
 
+/// Of a texture: reported, and left out.
+void check_reference(const GltfObject &p_object, std::string_view p_key, size_t p_count,
+		std::string_view p_otherwise) {
+	const Json *value = p_object.find(p_key);
+	if (value && (!value->is_number_integer() || *value < 0 || *value >= p_count)) {
+		p_object.report_value(p_key,
+				p_count == 0 ? "absent, as there is nothing to refer to" : text("0..", p_count - 1),
+				p_otherwise);
+		p_object.erase(p_key);
+	}
+}
+
+void check_choice(
+		const GltfObject &p_object, std::string_view p_key, std::initializer_list<int> p_choices) {
+	const Json *value = p_object.find(p_key);
+	if (value && std::find(p_choices.begin(), p_choices.end(), *value) == p_choices.end()) {
+		std::string choices;
+		for (const int choice : p_choices) {
+			choices += (choices.empty() ? "" : ", ") + std::to_string(choice);
+		}
+		p_object.report_value(p_key, "one of " + choices, "the default");
+		p_object.erase(p_key);
+	}
+}
+
 class GltfChecker {
 public:
 	explicit GltfChecker(const GltfObject &p_root) : root(p_root) {}
@@ -107,6 +133,7 @@ private:
 	void check_accessor(const GltfObject &p_accessor) const;
 	void check_mesh(const GltfObject &p_mesh) const;
 	void check_attributes(const GltfObject &p_attributes) const;
+	void check_texture(const GltfObject &p_parent, const char *p_key) const;
 	void check_material(const GltfObject &p_material) const;
 	void check_node(const GltfObject &p_node) const;
 	static void check_transform(const GltfObject &p_node);
@@ -187,6 +214,26 @@ void GltfChecker::check_bytes() const {
 		check_integer(p_view, "byteStride", 4, MAX_STRIDE_BYTES);
 	});
 	check_elements(root, "images", [](const GltfObject &) {});
+	check_elements(root, "samplers", [](const GltfObject &p_sampler) {
+		for (const char *key : { "wrapS", "wrapT" }) {
+			check_choice(p_sampler, key,
+					{ TINYGLTF_TEXTURE_WRAP_REPEAT, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE,
+							TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT });
+		}
+		check_choice(p_sampler, "magFilter",
+				{ TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR });
+		check_choice(p_sampler, "minFilter",
+				{ TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR,
+						TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
+						TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST,
+						TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR,
+						TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR });
+	});
+	check_elements(root, "textures", [&](const GltfObject &p_texture) {
+		check_reference(
+				p_texture, "sampler", count("samplers"), "repetition and interpolation are used");
+		check_reference(p_texture, "source", count("images"), "no image is used");
+	});
 }
 
 void GltfChecker::check_accessor(const GltfObject &p_accessor) const {
@@ -241,20 +288,59 @@ void GltfChecker::check_mesh(const GltfObject &p_mesh) const {
 	});
 }
 
+void GltfChecker::check_texture(const GltfObject &p_parent, const char *p_key) const {
+	const Json *json = p_parent.find(p_key);
+	if (!json) {
+		return;
+	}
+	if (!json->is_object()) {
+		p_parent.report_value(p_key, "an object", "no texture");
+		p_parent.erase(p_key);
+		return;
+	}
+	const GltfObject info = *p_parent.find_object(p_key);
+	check_reference(info, "index", count("textures"), "no texture");
+	if (!info.find("index")) {
+		p_parent.erase(p_key);
+		return;
+	}
+	check_integer(info, "texCoord", 0, INT32_MAX);
+	check_number(info, "scale", 1, -FLT_MAX, FLT_MAX);
+	check_number(info, "strength", 1, 0, 1);
+}
+
 void GltfChecker::check_material(const GltfObject &p_material) const {
 	if (const auto surface = p_material.find_object("pbrMetallicRoughness")) {
 		check_color(*surface, "baseColorFactor", 1.0);
 		if (Json *color = surface->find("baseColorFactor")) {
-			color->push_back(1.0); // tinygltf wants four
-			if ((*color)[3].is_number()) {
-				color->erase(4);
+			const double alpha = color->size() == 4 && (*color)[3].is_number()
+					? (*color)[3].get<double>()
+					: color->size() == 3 ? 1.0
+										 : NAN;
+			if (!(alpha >= 0 && alpha <= 1)) {
+				surface->report_value("baseColorFactor", "four numbers in 0..1", "1 as alpha");
 			}
+			*color = { (*color)[0], (*color)[1], (*color)[2],
+				alpha >= 0 && alpha <= 1 ? alpha : 1.0 };
 		}
+		check_texture(*surface, "baseColorTexture");
+		check_texture(*surface, "metallicRoughnessTexture");
 		check_number(*surface, "metallicFactor", 1, 0, 1);
 		check_number(*surface, "roughnessFactor", 1, 0, 1);
 	}
 	check_color(p_material, "emissiveFactor", 1.0);
 	check_bool(p_material, "doubleSided");
+	for (const char *key : { "normalTexture", "occlusionTexture", "emissiveTexture" }) {
+		check_texture(p_material, key);
+	}
+	check_number(p_material, "alphaCutoff", 0.5, 0, FLT_MAX);
+	if (p_material.find("alphaMode")) {
+		const std::string mode = p_material.get_text("alphaMode");
+		if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+			p_material.report_value("alphaMode", "\"OPAQUE\", \"MASK\" or \"BLEND\"", "\"OPAQUE\"");
+			p_material.set("alphaMode", "OPAQUE");
+		}
+	}
 	if (const auto strength = p_material.find_extension(GLTF_EMISSIVE_STRENGTH)) {
 		check_number(*strength, "emissiveStrength", 1, 0, MAX_EMISSIVE_CD_M2);
 	}

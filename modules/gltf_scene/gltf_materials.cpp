@@ -30,24 +30,36 @@ Value to_value(const glm::vec3 &p_color) {
 }
 
 void read_surface(const tinygltf::Material &p_written, const std::string &p_path,
-		GltfMessages &r_messages, Material &r_material) {
-	if (p_written.alphaMode != "OPAQUE") {
-		r_messages.warn("alpha", p_path,
-				"has an alphaMode, which is not read: it is opaque. Light goes through with "
-				"KHR_materials_transmission.");
-	}
+		GltfTextures &r_textures, Material &r_material) {
 	const tinygltf::PbrMetallicRoughness &surface = p_written.pbrMetallicRoughness;
+	const std::string surface_path = p_path + ".pbrMetallicRoughness.";
 	r_material.base_color = to_color(surface.baseColorFactor);
+	r_material.alpha = static_cast<float>(surface.baseColorFactor[3]);
+	r_material.base_color_texture =
+			r_textures.read(surface.baseColorTexture, surface_path + "baseColorTexture");
 	r_material.metallic = static_cast<float>(surface.metallicFactor);
 	r_material.roughness = static_cast<float>(surface.roughnessFactor);
-	if (surface.baseColorTexture.index >= 0) {
-		r_messages.warn("texture", p_path, "has a texture; textures are not read yet.");
-	}
+	r_material.metallic_roughness_texture = r_textures.read(
+			surface.metallicRoughnessTexture, surface_path + "metallicRoughnessTexture");
+	r_material.normal_texture = r_textures.read(p_written.normalTexture, p_path + ".normalTexture");
+	r_material.normal_scale = static_cast<float>(p_written.normalTexture.scale);
+	r_material.occlusion_texture =
+			r_textures.read(p_written.occlusionTexture, p_path + ".occlusionTexture");
+	r_material.occlusion_strength = static_cast<float>(p_written.occlusionTexture.strength);
 	r_material.emissive = to_color(p_written.emissiveFactor);
+	r_material.emissive_texture =
+			r_textures.read(p_written.emissiveTexture, p_path + ".emissiveTexture");
 	if (const Value *strength = find_extension(p_written.extensions, GLTF_EMISSIVE_STRENGTH)) {
 		r_material.emissive *= static_cast<float>(get_number(*strength, "emissiveStrength", 1));
 	}
 	r_material.is_double_sided = p_written.doubleSided;
+	r_material.alpha_mode = p_written.alphaMode == "MASK" ? AlphaMode::MASK
+			: p_written.alphaMode == "BLEND"			  ? AlphaMode::BLEND
+														  : AlphaMode::OPAQUE;
+	// What is blended casts where it hides more than half.
+	r_material.alpha_cutoff = r_material.alpha_mode == AlphaMode::MASK
+			? static_cast<float>(p_written.alphaCutoff)
+			: 0.5f;
 }
 
 void read_transmission(const tinygltf::Material &p_written, Material &r_material) {
@@ -153,14 +165,21 @@ void write_transmission(const Material &p_material, const Material &p_before,
 
 } // namespace
 
-Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfMessages &r_messages) {
+Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
+		GltfMessages &r_messages) {
 	const tinygltf::Material &written = p_model.materials[p_index];
 	const std::string path = text("materials[", p_index, "]");
 	Material material;
 	material.name = written.name;
 	material.file_index = static_cast<int>(p_index);
-	read_surface(written, path, r_messages, material);
+	read_surface(written, path, r_textures, material);
 	read_transmission(written, material);
+	if (material.alpha_mode == AlphaMode::BLEND && material.is_cut_out()) {
+		r_messages.warn("blend", path,
+				"has alphaMode BLEND: it is drawn and casts like MASK, where alpha is at least "
+				"0.5. Light goes "
+				"through with KHR_materials_transmission.");
+	}
 	if (const auto extras = find_object(written.extras, path + ".extras", r_messages)) {
 		read_extras(*extras, material);
 	}

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_json.h"
+#include "modules/gltf_scene/gltf_textures.h"
 #include "modules/scene/material.h"
 
 #include <tiny_gltf.h>
@@ -10,7 +11,8 @@ namespace gnomon {
 /// A material's values. Refused values of its extras are reported and replaced by their defaults.
 /// Where a material with scatter has no scatter_distance, the attenuation distance of
 /// KHR_materials_volume takes its place: both say how far light comes before it meets something.
-Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfMessages &r_messages);
+Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
+		GltfMessages &r_messages);
 
 /// Writes what differs from p_before (all that is not a default, when null) into a material's
 /// definition. r_model: the document, which names the extensions it uses.

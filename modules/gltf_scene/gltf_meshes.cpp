@@ -65,9 +65,12 @@ std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint
 	return used;
 }
 
-std::vector<glm::vec3> gather(
-		const std::vector<glm::vec3> &p_vectors, const std::vector<uint32_t> &p_places) {
-	std::vector<glm::vec3> gathered;
+template <typename T>
+std::vector<T> gather(const std::vector<T> &p_vectors, const std::vector<uint32_t> &p_places) {
+	if (p_vectors.empty()) {
+		return {};
+	}
+	std::vector<T> gathered;
 	gathered.reserve(p_places.size());
 	for (const uint32_t place : p_places) {
 		gathered.push_back(p_vectors[place]);
@@ -77,10 +80,10 @@ std::vector<glm::vec3> gather(
 
 } // namespace
 
-GltfMeshes::GltfMeshes(
-		const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfMessages &r_messages) :
+GltfMeshes::GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors,
+		GltfTextures &p_textures, GltfMessages &r_messages) :
 		model(p_model),
-		accessors(p_accessors), messages(r_messages) {}
+		accessors(p_accessors), textures(p_textures), messages(r_messages) {}
 
 const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index) {
 	if (const auto found = meshes.find(p_index); found != meshes.end()) {
@@ -92,11 +95,12 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 	std::vector<MeshInstance3D::Surface> surfaces;
 	for (size_t index = 0; index < mesh.primitives.size(); ++index) {
 		const tinygltf::Primitive &primitive = mesh.primitives[index];
+		const auto material = load_material(primitive);
 		const auto triangles =
 				load_primitive(primitive, text("meshes[", p_index, "].primitives[", index, "]"),
-						mesh.primitives.size() == 1 ? name : text(name, " ", index));
+						*material, mesh.primitives.size() == 1 ? name : text(name, " ", index));
 		if (triangles) {
-			surfaces.push_back({ triangles, load_material(primitive) });
+			surfaces.push_back({ triangles, material });
 			primitive_indices[triangles.get()] = index;
 		}
 	}
@@ -119,8 +123,8 @@ void GltfMeshes::check_finite(size_t p_accessor_index, const std::vector<glm::ve
 	}
 }
 
-std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
-		const tinygltf::Primitive &p_primitive, const std::string &p_path, std::string p_name) {
+std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive &p_primitive,
+		const std::string &p_path, const Material &p_material, std::string p_name) {
 	if (p_primitive.mode < TINYGLTF_MODE_TRIANGLES) {
 		messages.warn("mode", p_path, "has points or lines; only triangles are drawn.");
 		return nullptr;
@@ -160,6 +164,8 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 	if (indices.empty()) {
 		return nullptr;
 	}
+	MeshAttributes attributes =
+			read_attributes(p_primitive, p_path, p_material, all_positions->size());
 	std::vector<glm::vec3> positions;
 	std::vector<glm::vec3> normals;
 	if (indices.size() >= all_positions->size()) {
@@ -169,6 +175,11 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 		const std::vector<uint32_t> used = find_used_vertices(all_positions->size(), indices);
 		positions = gather(*all_positions, used);
 		normals = all_normals ? gather(*all_normals, used) : normals;
+		for (std::vector<glm::vec2> &uvs : attributes.uvs) {
+			uvs = gather(uvs, used);
+		}
+		attributes.tangents = gather(attributes.tangents, used);
+		attributes.colors = gather(attributes.colors, used);
 	}
 	vertex_count += positions.size();
 	index_count += indices.size();
@@ -178,8 +189,52 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(
 						" indices in all, must be at most ", GLTF_MAX_VERTEX_COUNT, " and ",
 						GLTF_MAX_INDEX_COUNT, ". Split the scene."));
 	}
-	return make_mesh(
-			std::move(p_name), std::move(positions), std::move(normals), std::move(indices));
+	return make_mesh(std::move(p_name), std::move(positions), std::move(normals),
+			std::move(indices), std::move(attributes));
+}
+
+MeshAttributes GltfMeshes::read_attributes(const tinygltf::Primitive &p_primitive,
+		const std::string &p_path, const Material &p_material, size_t p_count) {
+	MeshAttributes attributes;
+	const auto read = [&](const std::string &p_name, int p_fewest, int p_most) {
+		std::vector<glm::vec4> values;
+		const auto found = p_primitive.attributes.find(p_name);
+		if (found != p_primitive.attributes.end()) {
+			values = accessors.read_attribute(static_cast<size_t>(found->second), p_fewest, p_most);
+			if (values.size() != p_count) {
+				messages.fail(text(p_path, ".attributes.", p_name),
+						text("has ", values.size(), " elements, must be ", p_count,
+								", one per POSITION. Export the file again."));
+			}
+			for (glm::vec4 &value : values) {
+				for (int axis = 0; axis < 4; ++axis) {
+					value[axis] = std::isfinite(value[axis]) ? value[axis] : 0.0f;
+				}
+			}
+		}
+		return values;
+	};
+	attributes.colors = read("COLOR_0", 3, 4);
+	for (const Texture *texture : p_material.list_textures()) {
+		std::vector<glm::vec2> &uvs = attributes.uvs[texture->uv_set];
+		if (!texture->image || !uvs.empty()) {
+			continue;
+		}
+		const std::string name = text("TEXCOORD_", texture->uv_set);
+		const std::vector<glm::vec4> values = read(name, 2, 2);
+		uvs.assign(values.begin(), values.end());
+		if (uvs.empty()) {
+			messages.report(messages.describe(p_path + ".attributes",
+					text("has no ", name,
+							", which its material's textures need: they show one texel. "
+							"Unwrap the mesh, or export the file again.")));
+			uvs.assign(p_count, glm::vec2(0.0f));
+		}
+	}
+	if (p_material.normal_texture.image) {
+		attributes.tangents = read("TANGENT", 4, 4);
+	}
+	return attributes;
 }
 
 std::shared_ptr<const Material> GltfMeshes::load_material(const tinygltf::Primitive &p_primitive) {
@@ -190,7 +245,8 @@ std::shared_ptr<const Material> GltfMeshes::load_material(const tinygltf::Primit
 	const size_t index = static_cast<size_t>(p_primitive.material);
 	std::shared_ptr<const Material> &material = materials[index];
 	if (!material) {
-		material = std::make_shared<const Material>(read_material(model, index, messages));
+		material =
+				std::make_shared<const Material>(read_material(model, index, textures, messages));
 	}
 	return material;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_accessors.h"
+#include "modules/gltf_scene/gltf_textures.h"
 #include "modules/scene/nodes.h"
 
 #include <map>
@@ -16,8 +17,8 @@ namespace gnomon {
 class GltfMeshes {
 public:
 	/// All must outlive it.
-	GltfMeshes(
-			const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfMessages &r_messages);
+	GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfTextures &p_textures,
+			GltfMessages &r_messages);
 
 	/// One surface per primitive with triangles.
 	const std::vector<MeshInstance3D::Surface> &load_mesh(size_t p_index);
@@ -31,15 +32,19 @@ public:
 
 private:
 	/// p_path: where it stands.
-	std::shared_ptr<const Mesh> load_primitive(
-			const tinygltf::Primitive &p_primitive, const std::string &p_path, std::string p_name);
+	std::shared_ptr<const Mesh> load_primitive(const tinygltf::Primitive &p_primitive,
+			const std::string &p_path, const Material &p_material, std::string p_name);
 	/// Fails on a position that is not finite. An accessor is looked through once.
 	void check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
 			const std::string &p_path, const std::string &p_name);
+	/// What the material shows of the vertices, which are p_count.
+	MeshAttributes read_attributes(const tinygltf::Primitive &p_primitive,
+			const std::string &p_path, const Material &p_material, size_t p_count);
 	std::shared_ptr<const Material> load_material(const tinygltf::Primitive &p_primitive);
 
 	const tinygltf::Model &model;
 	GltfAccessors &accessors;
+	GltfTextures &textures;
 	GltfMessages &messages;
 	std::map<size_t, std::vector<MeshInstance3D::Surface>> meshes;
 	std::map<size_t, std::shared_ptr<const Material>> materials;

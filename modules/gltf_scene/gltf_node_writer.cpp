@@ -5,10 +5,22 @@
 #include "modules/gltf_scene/gltf_tree.h"
 #include "modules/gltf_scene/gltf_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <typeinfo>
 
 namespace gnomon {
+
+namespace {
+
+/// All but what was added for the view alone, unless something hangs on it that is saved.
+bool is_saved(const Node3D &p_node) {
+	return !p_node.is_staged ||
+			std::any_of(p_node.children.begin(), p_node.children.end(),
+					[](const std::unique_ptr<Node3D> &p_child) { return is_saved(*p_child); });
+}
+
+} // namespace
 
 void GltfNodeWriter::write(const Scene &p_scene) {
 	std::vector<size_t> roots;
@@ -17,7 +29,9 @@ void GltfNodeWriter::write(const Scene &p_scene) {
 		roots.push_back(*assign(root, nullptr)); // says something, so it becomes a node
 	} else {
 		for (const std::unique_ptr<Node3D> &child : root.children) {
-			roots.push_back(*assign(*child, nullptr));
+			if (is_saved(*child)) {
+				roots.push_back(*assign(*child, nullptr));
+			}
 		}
 	}
 	for (const std::unique_ptr<Entry> &entry : entries) {
@@ -65,6 +79,9 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 		taken.insert(entry.index);
 	}
 	for (const std::unique_ptr<Node3D> &child : p_node.children) {
+		if (!is_saved(*child)) {
+			continue;
+		}
 		if (const std::optional<size_t> index = assign(*child, &entry)) {
 			entry.children.push_back(*index);
 		}

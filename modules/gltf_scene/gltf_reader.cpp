@@ -41,7 +41,8 @@ public:
 			model(r_document.model), options(p_options), messages(r_messages),
 			buffers(GltfObject(r_document.container.json, "", r_messages), r_document.place,
 					get_bin_chunk()),
-			accessors(model, buffers, messages), meshes(model, accessors, messages) {}
+			accessors(model, buffers, messages), textures(buffers.get_root(), model, buffers),
+			meshes(model, accessors, textures, messages) {}
 
 	void read(Scene &r_scene);
 
@@ -64,6 +65,7 @@ private:
 	GltfMessages &messages;
 	GltfBuffers buffers;
 	GltfAccessors accessors;
+	GltfTextures textures;
 	GltfMeshes meshes;
 	UniqueNames names;
 	uint64_t surface_count = 0; // of all nodes so far, as are the values of lights

@@ -119,12 +119,12 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 }
 
-std::vector<ReportScene> load_scenes(const NamedFiles &p_files) {
+std::vector<ReportScene> load_scenes(const NamedFiles &p_files, const CommonOptions &p_common) {
 	std::vector<ReportScene> scenes;
 	for (const auto &[name, path] : p_files) {
 		ReportScene scene = { name, nullptr, {} };
 		try {
-			scene.scene = load_scene(path);
+			scene.scene = load_scene(path, p_common);
 		} catch (const Error &error) {
 			log_error(error.what());
 			scene.failure = error.what();
@@ -139,9 +139,9 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	const std::optional<Report> old_report = load_old_report(p_arguments);
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);
-	const std::vector<ReportScene> scenes = load_scenes(selected.scenes);
+	const std::vector<ReportScene> scenes = load_scenes(selected.scenes, p_common);
 	if (options.has_sweep(PROJECT_SCENES_SWEEP)) {
-		options.stability_scenes = load_scenes(selected.stability_scenes);
+		options.stability_scenes = load_scenes(selected.stability_scenes, p_common);
 	}
 	if (std::none_of(scenes.begin(), scenes.end(),
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {
@@ -191,6 +191,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 			->delimiter(',')
 			->default_val(std::vector<std::string>{ "own" });
 	command->add_option("--size", arguments.size, "Of the picture; default 256x256");
+	add_stage_option(*command, r_common);
 	command->add_option("--samples", arguments.options.sample_count,
 				   "Of the truth, per pixel; default 1024")
 			->check(CLI::Range(1u, 65536u));

@@ -73,7 +73,7 @@ void run(const CommonOptions &p_common) {
 	if (!truth_path.empty()) {
 		options.truth = RunPartRegistry::find(MASKS_PART)->load_truth(truth_path);
 	}
-	const std::unique_ptr<Scene> scene = load_scene(options.scene);
+	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common);
 	for (const std::string &setting : options.settings) {
 		apply_setting(*scene, nullptr, setting);
 	}
@@ -107,6 +107,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");
 	command->add_option("--camera", options.camera, "Default: the first");
+	add_stage_option(*command, r_common);
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");

@@ -71,7 +71,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 			check_writable(path);
 		}
 	}
-	const std::unique_ptr<Scene> scene = load_scene(p_options.scene);
+	const std::unique_ptr<Scene> scene = load_scene(p_options.scene, p_common);
 	Light3D &light = choose_light(*scene, p_options.light);
 	const Camera3D &camera = choose_camera(*scene, p_options.camera);
 	for (const std::string &setting : p_options.settings) {
@@ -143,6 +143,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--out", options.out, "The EXR to write: channels Y and receiver")
 			->required();
 	command->add_option("--png", options.png, "Also writes the mask as a grey PNG");
+	add_stage_option(*command, r_common);
 	command->add_option("--light", options.light, "Default: the first that casts shadows");
 	command->add_option("--camera", options.camera, "Default: the first");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");

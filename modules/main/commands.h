@@ -35,8 +35,11 @@ glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
-/// project's disabled modules are switched off.
-std::unique_ptr<Scene> load_scene(const std::filesystem::path &p_path);
+/// project's disabled modules are switched off. It is staged as the command line says.
+std::unique_ptr<Scene> load_scene(
+		const std::filesystem::path &p_path, const CommonOptions &p_common);
+/// `--stage`, for a command that draws scenes.
+void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
 /// The camera of that name, or the first. None: an Error that says how to add one.
 Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name);
 /// The light of that name, or the first that casts shadows.

@@ -6,8 +6,10 @@
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
 #include "modules/scene/light_setting.h"
+#include "modules/scene/stage.h"
 #include "modules/shadows/light_properties.h"
 
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <charconv>
@@ -81,7 +83,16 @@ glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path 
 	return parse_size(DEFAULT_SIZE);
 }
 
-std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
+void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {
+	r_command
+			.add_option("--stage", r_common.stage,
+					"auto (default): a scene without camera or light gets what is missing, and a "
+					"ground; "
+					"on: it gets all three; off: nothing")
+			->check(CLI::IsMember({ "auto", "on", "off" }));
+}
+
+std::unique_ptr<Scene> load_scene(const fs::path &p_path, const CommonOptions &p_common) {
 	const ProjectScene place = find_project_scene(p_path);
 	disable_modules(place.project);
 	GltfLoadOptions options;
@@ -92,6 +103,10 @@ std::unique_ptr<Scene> load_scene(const fs::path &p_path) {
 		fail("Scene ", place.scene_path,
 				" has no mesh. Add one in the program that wrote the file.");
 	}
+	const std::string staged = stage_scene(*scene, parse_stage_mode(p_common.stage, "--stage"));
+	if (!staged.empty()) {
+		log_info(staged);
+	}
 	return scene;
 }
 
@@ -101,7 +116,8 @@ Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name) {
 	}
 	const std::vector<Camera3D *> cameras = p_scene.find_nodes<Camera3D>();
 	if (cameras.empty()) {
-		fail("Scene ", p_scene.path, " has no perspective camera. Add one, and export it too.");
+		fail("Scene ", p_scene.path,
+				" has no perspective camera. Add one, and export it too, or use ", "--stage auto.");
 	}
 	return *cameras.front();
 }
@@ -120,7 +136,7 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 			lights.empty() ? " has no light" : " has no light that casts shadows",
 			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one "
 			"with ",
-			"--light.");
+			"--light, or use --stage auto.");
 }
 
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {

@@ -7,76 +7,161 @@
 
 namespace gnomon {
 
-GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &p_meshes,
-		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,
-		uint32_t &r_drawn_count) {
-	// The corners of a face are found by the primitive's index.
-	const bool has_face_normals = p_device.get_features().geometry_shader;
+namespace {
+
+/// Pipelines of one G-buffer, made when first needed.
+class GBufferPipelines {
+public:
+	explicit GBufferPipelines(RenderingDevice &p_device) :
+			device(p_device), has_faces(p_device.get_features().geometry_shader) {}
+
+	/// Without vertex colours and textures.
+	PipelineRID get_plain(bool p_is_mirrored, bool p_is_double_sided) {
+		PipelineRID &r_pipeline = plain[p_is_mirrored][p_is_double_sided];
+		if (!r_pipeline) {
+			r_pipeline =
+					device.get_raster_pipeline(make_desc(p_is_mirrored, p_is_double_sided, ""));
+		}
+		return r_pipeline;
+	}
+	PipelineRID get_textured(bool p_is_mirrored, bool p_is_double_sided,
+			const std::array<VertexStream, 4> &p_streams) {
+		RasterPipelineDesc desc = make_desc(p_is_mirrored, p_is_double_sided, ".textured");
+		const uint32_t component_counts[] = { 2, 2, 4, 4 };
+		for (uint32_t stream = 0; stream < p_streams.size(); ++stream) {
+			desc.attributes.push_back(
+					{ 2 + stream, 2 + stream, Format::R32_SFLOAT, component_counts[stream], 0 });
+			desc.vertex_strides_bytes.push_back(p_streams[stream].is_constant
+							? 0
+							: component_counts[stream] * uint32_t(sizeof(float)));
+		}
+		return device.get_raster_pipeline(desc);
+	}
+
+private:
+	/// p_variant: of both shaders.
+	RasterPipelineDesc make_desc(
+			bool p_is_mirrored, bool p_is_double_sided, const std::string &p_variant) const {
+		RasterPipelineDesc desc;
+		desc.name = "G-buffer";
+		desc.vertex_shader = "renderer/gbuffer" + p_variant + ".vert";
+		desc.fragment_shader = (has_faces ? "renderer/gbuffer" : "renderer/gbuffer_without_faces") +
+				p_variant + ".frag";
+		desc.attributes = get_position_normal_attributes();
+		desc.vertex_strides_bytes = { sizeof(glm::vec3), sizeof(glm::vec3) };
+		desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::RGBA16_SFLOAT,
+			Format::RGBA16_SFLOAT };
+		if (has_faces) {
+			desc.color_formats.push_back(Format::R32_UINT);
+		}
+		desc.depth_compare = CompareOp::GREATER;
+		desc.winding = p_is_mirrored ? Winding::MIRRORED : Winding::NORMAL;
+		desc.cull_mode = p_is_double_sided ? CullMode::NONE : CullMode::BACK;
+		return desc;
+	}
+
+	RenderingDevice &device;
+	bool has_faces;
+	PipelineRID plain[2][2]; // mirrored, double-sided
+};
+
+struct GBufferDraw {
+	const GpuMesh *mesh;
+	shader::InstancePush push;
+	PipelineRID pipeline;
+	const GpuMaterial *material = nullptr; // null: push has all of it
+	std::array<VertexStream, 4> streams;
+};
+
+shader::InstancePush make_push(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
+	const Material &material = *p_instance.material;
+	shader::InstancePush push = {};
+	push.camera_relative_from_node = p_scene.get_camera_relative_from_node(p_instance);
+	// Below 0: Phong's, see brdf_inc.glsl.
+	const float roughness = material.shading_model == ShadingModel::PHONG
+			? -1.0f - material.roughness
+			: material.roughness;
+	push.base_color_roughness = glm::vec4(material.base_color, roughness);
+	push.emissive_metallic = glm::vec4(material.emissive, material.metallic);
+	push.scatter = material.scatter;
+	push.scatter_distance_m = material.scatter_distance_m;
+	push.is_mirrored = p_instance.is_mirrored() ? 1u : 0u;
+	return push;
+}
+
+void record_draw(
+		PassContext &p_context, const GBufferDraw &p_draw, RGBuffer p_frame, bool p_has_faces) {
+	CommandList &commands = p_context.commands;
+	std::vector<BufferRID> vertices = { p_draw.mesh->positions.get(), p_draw.mesh->normals.get() };
+	std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME, p_context.get(p_frame) } };
+	if (p_has_faces) { // the corners of a face are found by the primitive's index
+		bindings.emplace_back(GBUFFER_BINDING_POSITIONS, p_draw.mesh->positions.get());
+		bindings.emplace_back(GBUFFER_BINDING_INDICES, p_draw.mesh->indices.get());
+	}
+	if (p_draw.material) {
+		const uint32_t texture_bindings[] = { GBUFFER_BINDING_BASE_COLOR,
+			GBUFFER_BINDING_METALLIC_ROUGHNESS, GBUFFER_BINDING_NORMAL, GBUFFER_BINDING_OCCLUSION,
+			GBUFFER_BINDING_EMISSIVE };
+		bindings.emplace_back(GBUFFER_BINDING_MATERIAL, p_draw.material->constants.get());
+		for (size_t index = 0; index < std::size(texture_bindings); ++index) {
+			bindings.emplace_back(texture_bindings[index], p_draw.material->textures[index],
+					p_draw.material->samplers[index]);
+		}
+		for (const VertexStream &stream : p_draw.streams) {
+			vertices.push_back(stream.buffer);
+		}
+	}
+	commands.bind_pipeline(p_draw.pipeline);
+	commands.bind_resources(bindings);
+	commands.push_constants(p_draw.push);
+	commands.bind_vertex_buffers(vertices);
+	commands.bind_index_buffer(p_draw.mesh->indices.get());
+	commands.draw_indexed(p_draw.mesh->index_count);
+}
+
+} // namespace
+
+GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
+		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
+		RGBuffer p_frame, uint32_t &r_drawn_count) {
+	const bool has_faces = p_device.get_features().geometry_shader;
 	const auto create = [&](const char *p_name, Format p_format) {
 		const TextureUsage target = p_format == Format::D32_SFLOAT ? TextureUsage::DEPTH_ATTACHMENT
 																   : TextureUsage::COLOR_ATTACHMENT;
-		return r_graph.create_texture({ p_name, p_format, p_size_px, 1,
-				target | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
+		return r_graph.create_texture({ .name = p_name,
+				.format = p_format,
+				.size_px = p_size_px,
+				.usage = target | TextureUsage::SAMPLED | TextureUsage::COPY_SOURCE });
 	};
 	GBuffer gbuffer;
 	gbuffer.depth = create("camera depth", Format::D32_SFLOAT);
 	gbuffer.base_color = create("base colour", Format::RGBA8_SRGB);
-	if (has_face_normals) {
+	if (has_faces) {
 		gbuffer.geometric_normal = create("geometric normal", Format::R32_UINT);
 	}
 	gbuffer.shading_normal = create("shading normal", Format::R32_UINT);
 	gbuffer.material = create("material", Format::RGBA16_SFLOAT);
 	gbuffer.emissive = create("emissive", Format::RGBA16_SFLOAT);
 
-	RasterPipelineDesc desc;
-	desc.name = "G-buffer";
-	desc.vertex_shader = "renderer/gbuffer.vert";
-	desc.fragment_shader =
-			has_face_normals ? "renderer/gbuffer.frag" : "renderer/gbuffer_without_faces.frag";
-	desc.attributes = get_position_normal_attributes();
-	desc.vertex_strides_bytes = { sizeof(glm::vec3), sizeof(glm::vec3) };
-	desc.color_formats = { Format::RGBA8_SRGB, Format::R32_UINT, Format::RGBA16_SFLOAT,
-		Format::RGBA16_SFLOAT };
-	if (has_face_normals) {
-		desc.color_formats.push_back(Format::R32_UINT);
-	}
-	desc.depth_compare = CompareOp::GREATER;
-	PipelineRID pipelines[2][2]; // mirrored, double-sided; made when first needed
-	const auto get_pipeline = [&](bool p_is_mirrored, bool p_is_double_sided) {
-		PipelineRID &r_pipeline = pipelines[p_is_mirrored][p_is_double_sided];
-		if (!r_pipeline) {
-			desc.winding = p_is_mirrored ? Winding::MIRRORED : Winding::NORMAL;
-			desc.cull_mode = p_is_double_sided ? CullMode::NONE : CullMode::BACK;
-			r_pipeline = p_device.get_raster_pipeline(desc);
-		}
-		return r_pipeline;
-	};
-
-	struct Draw {
-		const GpuMesh *mesh;
-		shader::InstancePush push;
-		PipelineRID pipeline;
-	};
-	std::vector<Draw> draws;
+	GBufferPipelines pipelines(p_device);
+	std::vector<GBufferDraw> draws;
 	const LightView camera_view = make_camera_view(p_scene.camera, p_size_px);
 	for (const InstanceSnapshot &instance : p_scene.instances) {
 		if (!camera_view.may_see(instance)) {
 			continue;
 		}
-		const Material &material = *instance.material;
-		shader::InstancePush push = {};
-		push.camera_relative_from_node = p_scene.get_camera_relative_from_node(instance);
-		// Below 0: Phong's, see brdf_inc.glsl.
-		const float roughness = material.shading_model == ShadingModel::PHONG
-				? -1.0f - material.roughness
-				: material.roughness;
-		push.base_color_roughness = glm::vec4(material.base_color, roughness);
-		push.emissive_metallic = glm::vec4(material.emissive, material.metallic);
-		push.scatter = material.scatter;
-		push.scatter_distance_m = material.scatter_distance_m;
-		push.is_mirrored = instance.is_mirrored() ? 1u : 0u;
-		draws.push_back({ &p_meshes.get(instance.mesh), push,
-				get_pipeline(instance.is_mirrored(), material.is_double_sided) });
+		GBufferDraw &draw = draws.emplace_back();
+		draw.mesh = &r_meshes.get(instance.mesh);
+		draw.push = make_push(p_scene, instance);
+		const bool is_double_sided = instance.material->is_double_sided;
+		if (has_look(*instance.mesh, *instance.material)) {
+			draw.material = &r_materials.get(instance.material);
+			draw.streams = r_materials.get_streams(r_meshes, instance.mesh, *instance.material);
+			draw.pipeline =
+					pipelines.get_textured(instance.is_mirrored(), is_double_sided, draw.streams);
+		} else {
+			draw.pipeline = pipelines.get_plain(instance.is_mirrored(), is_double_sided);
+		}
 	}
 	r_drawn_count = static_cast<uint32_t>(draws.size());
 	PassBuilder pass = r_graph.add_pass("G-buffer");
@@ -85,28 +170,13 @@ GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshSt
 			.color(gbuffer.shading_normal)
 			.color(gbuffer.material)
 			.color(gbuffer.emissive);
-	if (has_face_normals) {
+	if (has_faces) {
 		pass.color(gbuffer.geometric_normal);
 	}
 	pass.depth(gbuffer.depth, LoadOp::CLEAR, 0.0f)
-			.execute([draws = std::move(draws), p_frame, has_face_normals](PassContext &p_context) {
-				CommandList &commands = p_context.commands;
-				for (const Draw &draw : draws) {
-					const BufferRID vertices[] = { draw.mesh->positions.get(),
-						draw.mesh->normals.get() };
-					std::vector<Binding> bindings = { { GBUFFER_BINDING_FRAME,
-							p_context.get(p_frame) } };
-					if (has_face_normals) {
-						bindings.emplace_back(
-								GBUFFER_BINDING_POSITIONS, draw.mesh->positions.get());
-						bindings.emplace_back(GBUFFER_BINDING_INDICES, draw.mesh->indices.get());
-					}
-					commands.bind_pipeline(draw.pipeline);
-					commands.bind_resources(bindings);
-					commands.push_constants(draw.push);
-					commands.bind_vertex_buffers(vertices);
-					commands.bind_index_buffer(draw.mesh->indices.get());
-					commands.draw_indexed(draw.mesh->index_count);
+			.execute([draws = std::move(draws), p_frame, has_faces](PassContext &p_context) {
+				for (const GBufferDraw &draw : draws) {
+					record_draw(p_context, draw, p_frame, has_faces);
 				}
 			});
 	return gbuffer;

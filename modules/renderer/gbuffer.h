@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/render_graph/render_graph.h"
+#include "modules/renderer/material_store.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/mesh_store.h"
 
@@ -9,7 +10,7 @@ namespace gnomon {
 /// What the camera sees, one texel per pixel.
 struct GBuffer {
 	RGTexture depth;			// D32_SFLOAT, reversed
-	RGTexture base_color;		// RGBA8_SRGB
+	RGTexture base_color;		// RGBA8_SRGB; alpha: how much ambient light arrives
 	RGTexture geometric_normal; // R32_UINT; empty without DeviceFeatures::geometry_shader
 	RGTexture shading_normal;	// R32_UINT
 	RGTexture material;			// RGBA16_SFLOAT: s, scatter_distance_m, roughness
@@ -18,8 +19,8 @@ struct GBuffer {
 };
 
 /// Draws the instances the camera may see. r_drawn_count: how many those are.
-GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &p_meshes,
-		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,
-		uint32_t &r_drawn_count);
+GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
+		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
+		RGBuffer p_frame, uint32_t &r_drawn_count);
 
 } // namespace gnomon

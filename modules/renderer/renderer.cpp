@@ -71,7 +71,7 @@ std::vector<PassTiming> RenderResult::find_light_passes(const std::string &p_lig
 }
 
 Renderer::Renderer(RenderingDevice &p_device) :
-		device(p_device), transients(p_device), shadows(p_device) {}
+		device(p_device), transients(p_device), shadows(p_device), materials(p_device) {}
 
 Renderer::~Renderer() = default;
 
@@ -210,8 +210,9 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	Frame frame(*this, p_request, result);
 	const CommandCounts counts_before = device.get_command_counts();
 	uint32_t drawn_count = 0;
-	const GBuffer &gbuffer = frame.image.gbuffer = add_gbuffer_pass(frame.graph, device,
-			shadows.get_meshes(), scene, p_request.size_px, frame.image.frame, drawn_count);
+	const GBuffer &gbuffer = frame.image.gbuffer =
+			add_gbuffer_pass(frame.graph, device, shadows.get_meshes(), materials, scene,
+					p_request.size_px, frame.image.frame, drawn_count);
 	result.plan.run("G-buffer");
 	if (drawn_count < scene.instances.size()) {
 		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
@@ -226,6 +227,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	}
 	frame.graph.execute(p_request.mode);
 	frame.shadows.end();
+	materials.collect_garbage();
 	result.plan.set_light("");
 	for (const std::string &pass : frame.graph.get_culled_passes()) {
 		result.plan.leave_out(pass, "nothing uses its result");

@@ -3,6 +3,7 @@
 #include "modules/render_graph/render_graph.h"
 #include "modules/render_graph/transient_pool.h"
 #include "modules/renderer/debug_view.h"
+#include "modules/renderer/material_store.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/frame_plan.h"
 #include "modules/shadows/mask.h"
@@ -102,6 +103,7 @@ private:
 	RenderingDevice &device;
 	TransientPool transients;
 	ShadowSystem shadows;
+	MaterialStore materials;
 };
 
 } // namespace gnomon

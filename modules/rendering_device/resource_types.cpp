@@ -78,8 +78,17 @@ std::string describe_usage(TextureUsage p_usage) {
 	return names;
 }
 
+glm::uvec2 compute_mip_size(glm::uvec2 p_size_px, uint32_t p_level) {
+	return glm::max(p_size_px >> p_level, glm::uvec2(1));
+}
+
 uint64_t compute_layer_bytes(const TextureDesc &p_desc) {
-	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * get_texel_size_bytes(p_desc.format);
+	uint64_t texel_count = 0;
+	for (uint32_t level = 0; level < p_desc.mip_count; ++level) {
+		const glm::uvec2 size_px = compute_mip_size(p_desc.size_px, level);
+		texel_count += uint64_t(size_px.x) * size_px.y;
+	}
+	return texel_count * get_texel_size_bytes(p_desc.format);
 }
 
 bool is_write(Access p_access) {

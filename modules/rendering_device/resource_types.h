@@ -94,9 +94,14 @@ struct TextureDesc {
 	/// Shaders declare it as a 2D array, also where it has one layer; a Binding of one of its
 	/// layers is a 2D texture.
 	bool is_array = false;
+	/// Levels of detail, each half of that before, at least one texel. Above 1 only of textures
+	/// with one layer that are made with data, of all levels one after another.
+	uint32_t mip_count = 1;
 	bool operator==(const TextureDesc &) const = default;
 };
-/// Of one layer, tightly packed.
+/// Of a level: half as large as that before, at least 1.
+glm::uvec2 compute_mip_size(glm::uvec2 p_size_px, uint32_t p_level);
+/// Of one layer with all its levels, tightly packed.
 uint64_t compute_layer_bytes(const TextureDesc &p_desc);
 
 struct BufferDesc {
@@ -109,10 +114,17 @@ struct BufferDesc {
 };
 
 enum class Filter { NEAREST, LINEAR };
-/// Beyond its edge a texture has the colour of the edge.
+/// What a texture has beyond its edge: the edge's colour, or itself again, as it is or mirrored.
+enum class AddressMode { CLAMP, REPEAT, MIRROR };
+/// Which levels of detail are read: the first alone, the nearest, or two of them, blended.
+enum class MipMode { NONE, NEAREST, LINEAR };
 struct SamplerDesc {
 	std::string name;
-	Filter filter = Filter::NEAREST;
+	Filter magnified = Filter::NEAREST;
+	Filter minified = Filter::NEAREST;
+	MipMode mip_mode = MipMode::NONE;
+	AddressMode address_u = AddressMode::CLAMP;
+	AddressMode address_v = AddressMode::CLAMP;
 };
 
 /// One resource at a binding of set 0. Which kind of descriptor it is, is read from the SPIR-V.

@@ -11,12 +11,12 @@ USED = {
     "Object": {"methods": "connect disconnect get_class notification notify_property_list_changed"},
     "RefCounted": {"methods": "init_ref reference unreference get_reference_count"},
     "RDTextureFormat": {
-        "methods": "set_format set_width set_height set_array_layers set_texture_type set_usage_bits"
+        "methods": "set_format set_width set_height set_array_layers set_mipmaps set_texture_type set_usage_bits"
     },
     "RDTextureView": {"methods": ""},
     "RDUniform": {"methods": "set_uniform_type set_binding add_id"},
     "RDShaderSPIRV": {"methods": "set_stage_bytecode"},
-    "RDSamplerState": {"methods": "set_mag_filter set_min_filter set_repeat_u set_repeat_v set_repeat_w"},
+    "RDSamplerState": {"methods": "set_mag_filter set_min_filter set_mip_filter set_max_lod set_repeat_u set_repeat_v set_repeat_w"},
     "RDVertexAttribute": {"methods": "set_binding set_location set_offset set_format set_stride"},
     "RDPipelineRasterizationState": {
         "methods": """set_enable_depth_clamp set_cull_mode set_front_face set_depth_bias_enabled

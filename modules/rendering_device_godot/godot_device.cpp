@@ -23,8 +23,7 @@ constexpr uint64_t LARGEST_BUFFER_BYTES = 0xffffffffu; // sizes are 32 bits wide
 constexpr size_t MOST_SPARE_UPLOADS = 64;			   // of one size and usage
 
 uint64_t compute_size_bytes(const TextureDesc &p_desc) {
-	return uint64_t(p_desc.size_px.x) * p_desc.size_px.y * p_desc.layer_count *
-			get_texel_size_bytes(p_desc.format);
+	return compute_layer_bytes(p_desc) * p_desc.layer_count;
 }
 
 } // namespace
@@ -197,6 +196,7 @@ TextureRID GodotDevice::create_texture_with_data(
 	format.set_width(p_desc.size_px.x);
 	format.set_height(p_desc.size_px.y);
 	format.set_array_layers(p_desc.layer_count);
+	format.set_mipmaps(p_desc.mip_count);
 	format.set_texture_type(p_desc.is_array ? RD::TEXTURE_TYPE_2D_ARRAY : RD::TEXTURE_TYPE_2D);
 	format.set_usage_bits(to_godot_usage(p_desc));
 	GNOMON_ASSERT(p_bytes.empty() || p_bytes.size() == compute_size_bytes(p_desc), "texture '",
@@ -243,14 +243,21 @@ godot::RID GodotDevice::get_layer(GodotTexture &r_texture, uint32_t p_layer) {
 
 SamplerRID GodotDevice::create_sampler(const SamplerDesc &p_desc) {
 	const auto state = Ref<godot::RDSamplerState>::create();
-	const int64_t filter = p_desc.filter == Filter::LINEAR ? RD::SAMPLER_FILTER_LINEAR
-														   : RD::SAMPLER_FILTER_NEAREST;
-	const int64_t repeat = RD::SAMPLER_REPEAT_MODE_CLAMP_TO_EDGE;
-	state.set_mag_filter(filter);
-	state.set_min_filter(filter);
-	state.set_repeat_u(repeat);
-	state.set_repeat_v(repeat);
-	state.set_repeat_w(repeat);
+	const auto get_filter = [](bool p_is_linear) {
+		return p_is_linear ? RD::SAMPLER_FILTER_LINEAR : RD::SAMPLER_FILTER_NEAREST;
+	};
+	const auto get_repeat_mode = [](AddressMode p_mode) {
+		return p_mode == AddressMode::REPEAT	? RD::SAMPLER_REPEAT_MODE_REPEAT
+				: p_mode == AddressMode::MIRROR ? RD::SAMPLER_REPEAT_MODE_MIRRORED_REPEAT
+												: RD::SAMPLER_REPEAT_MODE_CLAMP_TO_EDGE;
+	};
+	state.set_mag_filter(get_filter(p_desc.magnified == Filter::LINEAR));
+	state.set_min_filter(get_filter(p_desc.minified == Filter::LINEAR));
+	state.set_mip_filter(get_filter(p_desc.mip_mode == MipMode::LINEAR));
+	state.set_max_lod(p_desc.mip_mode == MipMode::NONE ? 0.25 : 1e20);
+	state.set_repeat_u(get_repeat_mode(p_desc.address_u));
+	state.set_repeat_v(get_repeat_mode(p_desc.address_v));
+	state.set_repeat_w(RD::SAMPLER_REPEAT_MODE_CLAMP_TO_EDGE);
 	return samplers.add({ p_desc, rd.sampler_create(state) });
 }
 

@@ -36,7 +36,7 @@ void VulkanCommandList::push_barrier(const Barrier &p_barrier,
 							.newLayout = texture.recorded_layout,
 							.image = texture.image,
 							.subresourceRange = { .aspectMask = get_aspect(format),
-									.levelCount = 1,
+									.levelCount = VK_REMAINING_MIP_LEVELS,
 									.layerCount = VK_REMAINING_ARRAY_LAYERS } }));
 		}
 	} else {

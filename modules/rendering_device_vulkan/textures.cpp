@@ -41,7 +41,7 @@ VkImageCreateInfo VulkanDevice::make_image_info(const TextureDesc &p_desc) {
 		.imageType = VK_IMAGE_TYPE_2D,
 		.format = get_vulkan_format(p_desc.format),
 		.extent = { p_desc.size_px.x, p_desc.size_px.y, 1 },
-		.mipLevels = 1,
+		.mipLevels = p_desc.mip_count,
 		.arrayLayers = p_desc.layer_count,
 		.samples = VK_SAMPLE_COUNT_1_BIT,
 		.tiling = VK_IMAGE_TILING_OPTIMAL,
@@ -81,7 +81,7 @@ VkImageView VulkanDevice::get_view(
 		.viewType = p_is_arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D,
 		.format = get_vulkan_format(desc.format),
 		.subresourceRange = { .aspectMask = aspect,
-				.levelCount = 1,
+				.levelCount = p_use == ViewUse::SHADER ? desc.mip_count : 1,
 				.baseArrayLayer = has_all_layers ? 0 : p_layer,
 				.layerCount = has_all_layers ? desc.layer_count : 1 } };
 	VkImageView view = VK_NULL_HANDLE;
@@ -158,16 +158,24 @@ void VulkanDevice::free(TextureRID p_texture) {
 
 SamplerRID VulkanDevice::create_sampler(const SamplerDesc &p_desc) {
 	fail_if_lost();
-	const bool is_linear = p_desc.filter == Filter::LINEAR;
-	const VkFilter filter = is_linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-	const VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+	const auto get_filter = [](Filter p_filter) {
+		return p_filter == Filter::LINEAR ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+	};
+	const auto get_address_mode = [](AddressMode p_mode) {
+		return p_mode == AddressMode::REPEAT	? VK_SAMPLER_ADDRESS_MODE_REPEAT
+				: p_mode == AddressMode::MIRROR ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
+												: VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+	};
 	const VkSamplerCreateInfo info = { .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-		.magFilter = filter,
-		.minFilter = filter,
-		.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST,
-		.addressModeU = address,
-		.addressModeV = address,
-		.addressModeW = address };
+		.magFilter = get_filter(p_desc.magnified),
+		.minFilter = get_filter(p_desc.minified),
+		.mipmapMode = p_desc.mip_mode == MipMode::LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+														 : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+		.addressModeU = get_address_mode(p_desc.address_u),
+		.addressModeV = get_address_mode(p_desc.address_v),
+		.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+		// Up to a quarter of a level nothing but the first is read; 0 would magnify alone.
+		.maxLod = p_desc.mip_mode == MipMode::NONE ? 0.25f : VK_LOD_CLAMP_NONE };
 	SamplerResource sampler{ p_desc, VK_NULL_HANDLE };
 	check(vkCreateSampler(device, &info, nullptr, &sampler.sampler), "vkCreateSampler");
 	set_name(VK_OBJECT_TYPE_SAMPLER, sampler.sampler, p_desc.name);

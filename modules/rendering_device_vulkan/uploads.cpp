@@ -18,7 +18,7 @@ VkImageMemoryBarrier2 make_upload_barrier(const TextureResource &p_texture) {
 		.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
 		.image = p_texture.image,
 		.subresourceRange = { .aspectMask = get_aspect(p_texture.desc.format),
-				.levelCount = 1,
+				.levelCount = p_texture.desc.mip_count,
 				.layerCount = p_texture.desc.layer_count } };
 }
 
@@ -90,12 +90,22 @@ VkCommandBufferSubmitInfo VulkanDevice::record_uploads(const SubmissionSlot &p_s
 	for (const PendingUpload &upload : pending_uploads) {
 		if (upload.texture) {
 			const TextureResource &texture = textures.get(upload.texture);
-			const VkBufferImageCopy region = { .imageSubresource = { .aspectMask = get_aspect(
-																			 texture.desc.format),
-													   .layerCount = upload.layer_count },
-				.imageExtent = { texture.desc.size_px.x, texture.desc.size_px.y, 1 } };
+			const TextureDesc &desc = texture.desc;
+			std::vector<VkBufferImageCopy> regions;
+			VkDeviceSize offset_bytes = 0;
+			for (uint32_t level = 0; level < desc.mip_count; ++level) {
+				const glm::uvec2 size_px = compute_mip_size(desc.size_px, level);
+				regions.push_back({ .bufferOffset = offset_bytes,
+						.imageSubresource = { .aspectMask = get_aspect(desc.format),
+								.mipLevel = level,
+								.layerCount = upload.layer_count },
+						.imageExtent = { size_px.x, size_px.y, 1 } });
+				offset_bytes +=
+						VkDeviceSize(size_px.x) * size_px.y * get_texel_size_bytes(desc.format);
+			}
 			vkCmdCopyBufferToImage(commands, upload.staging.buffer, texture.image,
-					VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+					VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, static_cast<uint32_t>(regions.size()),
+					regions.data());
 		} else {
 			const VkBufferCopy region = { .dstOffset = upload.buffer_offset_bytes,
 				.size = upload.size_bytes };

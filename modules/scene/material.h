@@ -1,7 +1,10 @@
 #pragma once
 
+#include "modules/scene/texture.h"
+
 #include <glm/glm.hpp>
 
+#include <array>
 #include <string>
 
 namespace gnomon {
@@ -10,10 +13,16 @@ namespace gnomon {
 /// 1975, whose lobe is as wide as the roughness tells; for pictures like those of older papers.
 enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 
-/// What a surface looks like. Colours are linear. Immutable once shared.
+/// MASK: a surface is there where its alpha is at least the cutoff, and nowhere else. BLEND is
+/// drawn and casts like MASK.
+enum class AlphaMode { OPAQUE, MASK, BLEND };
+
+/// What a surface looks like. Colours are linear. Immutable once shared. A texture multiplies the
+/// values above it; a mesh's vertex colours multiply base colour and alpha.
 struct Material {
 	std::string name;
 	glm::vec3 base_color = glm::vec3(0.8f);
+	float alpha = 1.0f;					  // 0..1
 	glm::vec3 emissive = glm::vec3(0.0f); // cd/m^2
 	float metallic = 0.0f;				  // 0..1
 	float roughness = 1.0f;				  // 0..1
@@ -30,6 +39,17 @@ struct Material {
 	glm::vec3 attenuation_color = glm::vec3(1.0f);
 	float attenuation_distance_m = 0.0f;
 	bool is_double_sided = false;
+	AlphaMode alpha_mode = AlphaMode::OPAQUE;
+	float alpha_cutoff = 0.5f;			// 0..1
+	Texture base_color_texture;			// sRGB; its alpha is that of the surface
+	Texture metallic_roughness_texture; // green: roughness, blue: metallic
+	/// A unit vector in tangent space, 0..1 for -1..1; x and y times the scale.
+	Texture normal_texture;
+	float normal_scale = 1.0f;
+	/// Red: how much of the ambient light arrives; 1 + strength (red - 1).
+	Texture occlusion_texture;
+	float occlusion_strength = 1.0f; // 0..1
+	Texture emissive_texture;		 // sRGB
 	/// Index in the file it came from, or -1. A changed copy keeps it, so that saving keeps what
 	/// the program does not understand.
 	int file_index = -1;
@@ -38,6 +58,12 @@ struct Material {
 	/// What a caster leaves of the light that meets it once, 0..1 for each colour; 0 = opaque.
 	/// p_scale: of its node, for the thickness. Beer and Lambert's law (KHR_materials_volume).
 	glm::vec3 compute_transmittance(float p_scale) const;
+	/// Whether parts of its surfaces are not there. What lets light through is whole.
+	bool is_cut_out() const { return alpha_mode != AlphaMode::OPAQUE && !(transmission > 0.0f); }
+	std::array<const Texture *, 5> list_textures() const {
+		return { &base_color_texture, &metallic_roughness_texture, &normal_texture,
+			&occlusion_texture, &emissive_texture };
+	}
 };
 
 /// "metallic_roughness", "phong".

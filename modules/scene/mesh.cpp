@@ -34,6 +34,15 @@ void check_mesh(const Mesh &p_mesh) {
 				" normals, must be 0 or ", vertex_count,
 				", one per position. Leave them out to have them computed.");
 	}
+	const MeshAttributes &attributes = p_mesh.attributes;
+	for (const size_t count : { attributes.uvs[0].size(), attributes.uvs[1].size(),
+				 attributes.tangents.size(), attributes.colors.size() }) {
+		if (count != 0 && count != vertex_count) {
+			fail("Mesh \"", p_mesh.name, "\" has ", count,
+					" vertex attributes of a kind, must be 0 or ", vertex_count,
+					", one per position. Export it again.");
+		}
+	}
 	for (size_t index = 0; index < vertex_count; ++index) {
 		if (!is_finite(p_mesh.positions_node[index])) {
 			fail("Mesh \"", p_mesh.name, "\": position ", index,
@@ -91,13 +100,15 @@ void repair_normals(Mesh &r_mesh) {
 } // namespace
 
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
-		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices) {
+		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
+		MeshAttributes p_attributes) {
 	static std::atomic<uint64_t> next_id = 1;
 	auto mesh = std::make_shared<Mesh>();
 	mesh->name = std::move(p_name);
 	mesh->positions_node = std::move(p_positions_node);
 	mesh->normals_node = std::move(p_normals_node);
 	mesh->indices = std::move(p_indices);
+	mesh->attributes = std::move(p_attributes);
 	check_mesh(*mesh);
 	repair_normals(*mesh);
 	for (const glm::vec3 &position : mesh->positions_node) {
@@ -110,6 +121,52 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 			compute_hash(bytes_of(std::span<const uint32_t>(mesh->indices)), mesh->content_hash);
 	mesh->id = next_id++;
 	return mesh;
+}
+
+std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_positions,
+		const std::vector<glm::vec3> &p_normals, const std::vector<uint32_t> &p_indices,
+		const std::vector<glm::vec2> &p_uvs) {
+	std::vector<glm::dvec3> along(p_positions.size(), glm::dvec3(0.0));
+	std::vector<double> sides(p_positions.size(), 0.0);
+	for (size_t first = 0; first + 2 < p_indices.size(); first += 3) {
+		const uint32_t *corners = &p_indices[first];
+		glm::dvec3 positions[3];
+		glm::dvec2 uvs[3];
+		for (int corner = 0; corner < 3; ++corner) {
+			positions[corner] = p_positions[corners[corner]];
+			uvs[corner] = p_uvs[corners[corner]];
+		}
+		const glm::dvec2 du(uvs[1].x - uvs[0].x, uvs[2].x - uvs[0].x);
+		const glm::dvec2 dv(uvs[1].y - uvs[0].y, uvs[2].y - uvs[0].y);
+		const double area = du.x * dv.y - du.y * dv.x;
+		const glm::dvec3 sum =
+				(positions[1] - positions[0]) * dv.y - (positions[2] - positions[0]) * dv.x;
+		const double length = glm::length(sum);
+		if (!(length > 0) || area == 0) {
+			continue; // no direction
+		}
+		const glm::dvec3 tangent = sum * ((area < 0 ? -1.0 : 1.0) / length);
+		for (int corner = 0; corner < 3; ++corner) {
+			const glm::dvec3 a = positions[(corner + 1) % 3] - positions[corner];
+			const glm::dvec3 b = positions[(corner + 2) % 3] - positions[corner];
+			const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+			along[corners[corner]] += tangent * angle;
+			// An image's y grows downwards.
+			sides[corners[corner]] += area < 0 ? angle : -angle;
+		}
+	}
+	std::vector<glm::vec4> tangents;
+	tangents.reserve(p_positions.size());
+	for (size_t index = 0; index < p_positions.size(); ++index) {
+		const glm::dvec3 normal = p_normals[index];
+		glm::dvec3 tangent = along[index] - normal * glm::dot(normal, along[index]);
+		if (!(glm::length(tangent) > SHORTEST_NORMAL)) { // any at right angles
+			tangent = glm::cross(
+					normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+		}
+		tangents.emplace_back(glm::normalize(tangent), sides[index] < 0 ? -1.0f : 1.0f);
+	}
+	return tangents;
 }
 
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source) {

@@ -39,12 +39,23 @@ struct Bounds {
 /// Of a box's corners after a transform; not for an empty one.
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source);
 
+/// What vertices may have beside position and normal. Each list is empty or has one element a
+/// vertex.
+struct MeshAttributes {
+	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
+	/// Where x of the first coordinates of a normal map grows on the surface; w: 1 or -1, whether y
+	/// grows along their cross product with the normal (normal first) or against it.
+	std::vector<glm::vec4> tangents;
+	std::vector<glm::vec4> colors; // linear, and alpha
+};
+
 /// Triangles of one material. Immutable once shared; identified by `id`.
 struct Mesh {
 	std::string name;
 	std::vector<glm::vec3> positions_node; // metres, in the node's space; finite
 	std::vector<glm::vec3> normals_node;   // unit, one per position
-	std::vector<uint32_t> indices;		   // three per triangle, each below the number of positions
+	MeshAttributes attributes;
+	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
 	Bounds bounds_node;
 	uint64_t id = 0;		   // unique in the process, see make_mesh
 	uint64_t content_hash = 0; // of positions, normals and indices
@@ -56,6 +67,14 @@ struct Mesh {
 /// normals by area-weighted face normals, computes the bounds and the hash, and gives the mesh its
 /// id.
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
-		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices);
+		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
+		MeshAttributes p_attributes = {});
+
+/// Tangents of a mesh for coordinates of a normal map, where it has none of its own: of each vertex
+/// the sum over its faces, weighted by their angles there, at right angles to its normal. Vertices
+/// whose faces disagree on the side are not split. p_uvs: one a vertex.
+std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_positions,
+		const std::vector<glm::vec3> &p_normals, const std::vector<uint32_t> &p_indices,
+		const std::vector<glm::vec2> &p_uvs);
 
 } // namespace gnomon

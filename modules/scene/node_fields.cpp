@@ -78,6 +78,10 @@ void write_position(Node3D &r_node, const PropertyValue &p_value) {
 	r_node.parent_from_node[3] = glm::dvec4(std::get<glm::dvec3>(p_value), 1.0);
 }
 
+bool is_staged(const Node3D &p_node) {
+	return p_node.is_staged;
+}
+
 std::vector<NodeField> make_node_fields() {
 	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), LENGTHS,
 					   "Place of the node in its parent.", "m", "Transform"),
@@ -89,7 +93,14 @@ std::vector<NodeField> make_node_fields() {
 		{ make_info("scale", PropertyType::VECTOR3, glm::dvec3(1.0), "-10000,10000,0.01",
 				  "Size along each axis. 0 along one makes it flat: it casts nothing.", "",
 				  "Transform"),
-				&read_part<&TransformParts::scale>, &write_part<&TransformParts::scale> } };
+				&read_part<&TransformParts::scale>, &write_part<&TransformParts::scale> },
+		{ make_info("staged", PropertyType::BOOL, false, "",
+				  "Added because the file has no such node, and not saved. Untick it to save the "
+				  "node with the "
+				  "scene.",
+				  "", "File"),
+				&read_flag<Node3D, &Node3D::is_staged>, &write_flag<Node3D, &Node3D::is_staged>,
+				&is_staged } };
 }
 
 std::vector<NodeField> make_mesh_fields() {
@@ -132,6 +143,7 @@ void Node3D::assign(const Node3D &p_other) {
 	name = p_other.name;
 	parent_from_node = p_other.parent_from_node;
 	file_index = p_other.file_index;
+	is_staged = p_other.is_staged;
 }
 
 const std::vector<NodeField> &MeshInstance3D::get_fields() const {

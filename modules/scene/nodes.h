@@ -39,6 +39,8 @@ public:
 	/// Index of this node in the file it came from, or -1. Saving uses it to keep what the program
 	/// does not understand.
 	int file_index = -1;
+	/// Added to a file that lacks a camera or a light (stage.h); not saved.
+	bool is_staged = false;
 
 	virtual ~Node3D() = default;
 	/// "Light3D", for the editor's tree.

@@ -175,7 +175,7 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 			{ FINS_CONSTANT_STARTS_DARK, has_inner_half ? 0u : 1u } };
 		if (!sampler) {
 			sampler = OwnedSampler(p_inputs.device,
-					p_inputs.device.create_sampler({ "penumbra color", Filter::LINEAR }));
+					p_inputs.device.create_sampler({ "penumbra color", Filter::LINEAR, Filter::LINEAR }));
 		}
 		bindings.push_back(PassBinding::read(RESOLVE_BINDING_LAYER_3, maps.get_layer_3()));
 		bindings.push_back(PassBinding::read(RESOLVE_BINDING_COLOR, targets.color, sampler.get()));

@@ -12,7 +12,8 @@ layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
 layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_texture;
 layout(set = 0, binding = RENDERER_BINDING_BASE_COLOR) uniform texture2D base_color_texture;
 layout(set = 0, binding = RENDERER_BINDING_EMISSIVE) uniform texture2D emissive_texture;
-layout(set = 0, binding = RENDERER_BINDING_RADIANCE, rgba16f) uniform writeonly image2D radiance_image;
+layout(set = 0, binding = RENDERER_BINDING_RADIANCE,
+		rgba16f) uniform writeonly image2D radiance_image;
 layout(push_constant) uniform Push {
 	ExposurePush push;
 };
@@ -24,7 +25,8 @@ void main() {
 	}
 	vec3 radiance = push.ambient.rgb * 0.6; // background
 	if (texelFetch(depth_texture, pixel, 0).r > 0.0) {
-		radiance = push.ambient.rgb * texelFetch(base_color_texture, pixel, 0).rgb +
+		const vec4 base_color = texelFetch(base_color_texture, pixel, 0);
+		radiance = push.ambient.rgb * base_color.rgb * base_color.a +
 				texelFetch(emissive_texture, pixel, 0).rgb;
 	}
 	imageStore(radiance_image, pixel, vec4(radiance * push.ambient.a, 1.0));

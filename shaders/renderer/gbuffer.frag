@@ -32,9 +32,10 @@ void main() {
 	const vec3 a = load_position(0u);
 	const vec3 geometric = face_normal_to_viewer(a, load_position(1u), load_position(2u));
 
-	out_base_color = vec4(instance.base_color_roughness.rgb, 1.0);
-	out_shading_normal = pack_normal(make_shading_normal(in_normal, geometric));
-	out_material = make_material(instance);
-	out_emissive = vec4(instance.emissive_metallic.rgb, 1.0);
+	const SurfaceTexels texels = make_texels(instance, make_shading_normal(in_normal, geometric));
+	out_base_color = texels.base_color;
+	out_shading_normal = pack_normal(texels.shading_normal);
+	out_material = texels.material;
+	out_emissive = vec4(texels.emissive, 1.0);
 	out_geometric_normal = pack_normal(geometric);
 }

@@ -13,14 +13,28 @@ layout(push_constant) uniform Push {
 layout(location = 0) in vec3 in_position_node;
 layout(location = 1) in vec3 in_normal_node;
 layout(location = 0) out vec3 out_normal;
+#ifdef VARIANT_TEXTURED
+layout(location = 2) in vec2 in_first_uv;
+layout(location = 3) in vec2 in_second_uv;
+layout(location = 4) in vec4 in_tangent_node;
+layout(location = 5) in vec4 in_color;
+layout(location = 1) out vec4 out_uvs;
+layout(location = 2) out vec4 out_tangent;
+layout(location = 3) out vec4 out_color;
+#endif
 
 void main() {
 	const mat4 m = instance.camera_relative_from_node;
 	// The cofactor matrix carries normals through any linear transform, mirrored ones included.
-	const mat3 cofactor = mat3(cross(m[1].xyz, m[2].xyz), cross(m[2].xyz, m[0].xyz),
-			cross(m[0].xyz, m[1].xyz));
+	const mat3 cofactor =
+			mat3(cross(m[1].xyz, m[2].xyz), cross(m[2].xyz, m[0].xyz), cross(m[0].xyz, m[1].xyz));
 	const vec3 normal = cofactor * in_normal_node * (instance.is_mirrored != 0u ? -1.0 : 1.0);
 	const float length2 = dot(normal, normal);
 	out_normal = length2 > 0.0 ? normal * inversesqrt(length2) : vec3(0.0);
+#ifdef VARIANT_TEXTURED
+	out_uvs = vec4(in_first_uv, in_second_uv);
+	out_tangent = vec4(mat3(m) * in_tangent_node.xyz, in_tangent_node.w);
+	out_color = in_color;
+#endif
 	gl_Position = frame.clip_from_camera_relative * (m * vec4(in_position_node, 1.0));
 }

@@ -10,10 +10,80 @@ vec3 make_shading_normal(vec3 p_interpolated, vec3 p_geometric) {
 	return dot(shading, p_geometric) < 0.0 ? -shading : shading;
 }
 
-/// See make_surface of brdf_inc.glsl.
-vec4 make_material(InstancePush p_instance) {
-	return vec4(p_instance.scatter, p_instance.scatter_distance_m,
-			p_instance.base_color_roughness.a, p_instance.emissive_metallic.a);
+/// What is written of a surface, see GBuffer.
+struct SurfaceTexels {
+	vec4 base_color; // a: how much ambient light arrives
+	vec3 shading_normal;
+	vec4 material; // see make_surface of brdf_inc.glsl
+	vec3 emissive;
+};
+
+#ifdef VARIANT_TEXTURED
+
+layout(set = 0, binding = GBUFFER_BINDING_MATERIAL) uniform Material {
+	MaterialConstants material;
+};
+layout(set = 0, binding = GBUFFER_BINDING_BASE_COLOR) uniform sampler2D base_color_texture;
+layout(set = 0,
+		binding = GBUFFER_BINDING_METALLIC_ROUGHNESS) uniform sampler2D metallic_roughness_texture;
+layout(set = 0, binding = GBUFFER_BINDING_NORMAL) uniform sampler2D normal_texture;
+layout(set = 0, binding = GBUFFER_BINDING_OCCLUSION) uniform sampler2D occlusion_texture;
+layout(set = 0, binding = GBUFFER_BINDING_EMISSIVE) uniform sampler2D emissive_texture;
+layout(location = 1) in vec4 in_uvs;
+layout(location = 2) in vec4 in_tangent;
+layout(location = 3) in vec4 in_color;
+
+vec2 place_texture(TexturePlace p_place) {
+	const vec3 uv = vec3(p_place.row_u.a > 0.5 ? in_uvs.zw : in_uvs.xy, 1.0);
+	return vec2(dot(p_place.row_u.xyz, uv), dot(p_place.row_v.xyz, uv));
 }
+
+/// p_normal: make_shading_normal's.
+vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
+	if (material.normal.row_v.a < 0.5) {
+		return p_normal;
+	}
+	vec3 map = texture(normal_texture, place_texture(material.normal)).xyz * 2.0 - 1.0;
+	map.xy *= material.normal_scale;
+	const vec3 tangent = in_tangent.xyz - p_normal * dot(p_normal, in_tangent.xyz);
+	const vec3 along = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
+	const vec3 across = cross(p_normal, along) * (in_tangent.w < 0.0 != p_is_mirrored ? -1.0 : 1.0);
+	const vec3 normal = along * map.x + across * map.y + p_normal * map.z;
+	const float length2 = dot(normal, normal);
+	return length2 > 0.0 ? normal * inversesqrt(length2) : p_normal;
+}
+
+/// Ends the fragment where the surface is not there.
+SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
+	const vec4 base_color = vec4(p_instance.base_color_roughness.rgb, material.alpha) * in_color *
+			texture(base_color_texture, place_texture(material.base_color));
+	const vec3 metallic_roughness =
+			texture(metallic_roughness_texture, place_texture(material.metallic_roughness)).rgb;
+	const float occlusion = texture(occlusion_texture, place_texture(material.occlusion)).r;
+	const vec3 emissive = texture(emissive_texture, place_texture(material.emissive)).rgb;
+	const vec3 normal = perturb_normal(p_normal, p_instance.is_mirrored != 0u);
+	if (base_color.a < material.alpha_cutoff) {
+		discard;
+	}
+	const float factor = p_instance.base_color_roughness.a;
+	const float roughness = factor < 0.0 ? -1.0 + (factor + 1.0) * metallic_roughness.g
+										 : factor * metallic_roughness.g;
+	return SurfaceTexels(
+			vec4(base_color.rgb, 1.0 + material.occlusion_strength * (occlusion - 1.0)), normal,
+			vec4(p_instance.scatter, p_instance.scatter_distance_m, roughness,
+					p_instance.emissive_metallic.a * metallic_roughness.b),
+			p_instance.emissive_metallic.rgb * emissive);
+}
+
+#else
+
+SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
+	return SurfaceTexels(vec4(p_instance.base_color_roughness.rgb, 1.0), p_normal,
+			vec4(p_instance.scatter, p_instance.scatter_distance_m,
+					p_instance.base_color_roughness.a, p_instance.emissive_metallic.a),
+			p_instance.emissive_metallic.rgb);
+}
+
+#endif
 
 #endif

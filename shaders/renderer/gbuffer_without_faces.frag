@@ -4,8 +4,8 @@
 #include "common/normal_inc.glsl"
 #include "renderer/gbuffer_inc.glsl"
 
-// gbuffer.frag for devices that tell no fragment its primitive: without the geometric normal, for which
-// derivatives would not do at grazing angles.
+// gbuffer.frag for devices that tell no fragment its primitive: without the geometric normal, for
+// which derivatives would not do at grazing angles.
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame {
 	FrameConstants frame;
 };
@@ -27,8 +27,9 @@ void main() {
 	const vec3 face = length2 > 0.0 ? across * inversesqrt(length2) : -normalize(position);
 	const vec3 shading = make_shading_normal(in_normal, dot(face, position) > 0.0 ? -face : face);
 
-	out_base_color = vec4(instance.base_color_roughness.rgb, 1.0);
-	out_shading_normal = pack_normal(shading);
-	out_material = make_material(instance);
-	out_emissive = vec4(instance.emissive_metallic.rgb, 1.0);
+	const SurfaceTexels texels = make_texels(instance, shading);
+	out_base_color = texels.base_color;
+	out_shading_normal = pack_normal(texels.shading_normal);
+	out_material = texels.material;
+	out_emissive = vec4(texels.emissive, 1.0);
 }

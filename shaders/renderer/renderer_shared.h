@@ -23,6 +23,13 @@
 #define GBUFFER_BINDING_FRAME 0
 #define GBUFFER_BINDING_POSITIONS 1
 #define GBUFFER_BINDING_INDICES 2
+// Of what has textures or vertex colours.
+#define GBUFFER_BINDING_MATERIAL 3
+#define GBUFFER_BINDING_BASE_COLOR 4
+#define GBUFFER_BINDING_METALLIC_ROUGHNESS 5
+#define GBUFFER_BINDING_NORMAL 6
+#define GBUFFER_BINDING_OCCLUSION 7
+#define GBUFFER_BINDING_EMISSIVE 8
 
 /// Push constants of gbuffer.vert and gbuffer.frag.
 struct SHARED_ALIGN InstancePush {
@@ -35,6 +42,27 @@ struct SHARED_ALIGN InstancePush {
 	uint padding;
 };
 SHARED_SIZE(InstancePush, 112);
+
+/// Where a texture lies on the surface. Of coordinates (x, y, 1) each row makes one of the image's.
+struct SHARED_ALIGN TexturePlace {
+	vec4 row_u; // a: 1: of the second coordinates
+	vec4 row_v; // a: 1: there is a texture
+};
+SHARED_SIZE(TexturePlace, 32);
+
+/// What a material says beside InstancePush.
+struct SHARED_ALIGN MaterialConstants {
+	TexturePlace base_color;
+	TexturePlace metallic_roughness;
+	TexturePlace normal;
+	TexturePlace occlusion;
+	TexturePlace emissive;
+	float alpha;
+	float alpha_cutoff; // alpha below is not there
+	float normal_scale;
+	float occlusion_strength;
+};
+SHARED_SIZE(MaterialConstants, 176);
 
 /// Push constants of ambient.comp and lighting.comp.
 struct SHARED_ALIGN ExposurePush {

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import sys
 import unittest
 
@@ -21,6 +22,45 @@ from command_line_case import (
 
 
 class GoodCommands(CommandLineTest):
+    def test_models_without_camera_and_light_are_staged(self):
+        with open(os.path.join(ROOT, CONTACT_BOX), encoding="utf-8") as file:
+            model = json.load(file)
+        for node in model["nodes"]:
+            node.pop("camera", None)
+            node.pop("extensions", None)
+        for key in ("cameras", "extensions", "extensionsUsed"):
+            model.pop(key, None)
+        path = self.path("model.gltf")
+        folder = os.path.dirname(os.path.join(ROOT, CONTACT_BOX))
+        for buffer in model["buffers"]:
+            name = buffer["uri"]
+            if not name.startswith("data:"):
+                shutil.copy(os.path.join(folder, name), self.path(name))
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(model, file)
+        before = os.stat(path).st_mtime_ns
+        line = "Staged: a camera, a spot light and a ground were added"
+        picture, mask = self.path("model.png"), self.path("model.exr")
+        result = run("run", path, "--headless", "--capture", picture, "--size", "64x64")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(line, result.stderr)
+        self.assertEqual(read_png_size(picture), (64, 64))
+        result = run("visibility", path, "--technique", self.get_fallback(), "--out", mask, *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(line, result.stderr)
+        result = run(
+            "report", path, "--size", "32x32", "--samples", "16", "--scaling", "none", "--techniques", self.get_fallback(),
+            "--out", self.path("report"),
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(self.path("report"), "report.json"), encoding="utf-8") as file:
+            self.assertTrue(json.load(file)["cells"])
+        self.assertEqual(os.stat(path).st_mtime_ns, before)
+        result = run("run", path, "--headless", "--stage", "off")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("has no perspective camera", result.stderr)
+        self.assertEqual(run("run", path, "--headless", "--stage", "maybe").returncode, 2)
+
     def test_masks_are_compared(self):
         reference = find_technique("is_reference")
         truth, mask, times = self.path("truth.exr"), self.path("mask.exr"), self.path("time.json")

@@ -184,8 +184,9 @@ TEST_CASE("[GltfReader] materials have the format's values, ours in extras, and 
 	CHECK(wax.is_double_sided);
 	CHECK(wax.scatter == 0.75f);
 	CHECK(wax.scatter_distance_m == 0.02f);
-	CHECK(log.warnings.size() == 1); // the texture
-	CHECK(log.errors.empty());
+	CHECK(log.warnings.empty());
+	CHECK(log.errors.size() == 1); // the image
+	CHECK(GltfTestLog::contains(log.errors, "images[0].uri cannot be read"));
 	json["materials"][0]["extras"] = { { "scatter", 2 }, { "scatter_distance", -1 } };
 	CHECK(get_instance(*folder.load(json)).surfaces[0].material->scatter == 0);
 	CHECK(GltfTestLog::contains(

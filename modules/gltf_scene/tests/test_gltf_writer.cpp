@@ -272,6 +272,24 @@ TEST_CASE("[GltfWriter] a generated scene is saved in full, in both forms") {
 	CHECK(json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"].dump() == "12.3");
 }
 
+TEST_CASE("[GltfWriter] what was staged is not saved, unless something that is saved hangs on it") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const Json json = make_desk(folder);
+	const auto scene = folder.load(json);
+	auto *stage = add<Node3D>(*scene->root, "Stage");
+	stage->is_staged = true;
+	auto *light = add<Light3D>(*stage, "Added");
+	light->is_staged = true;
+	save_gltf(*scene, folder.path / "again.gltf");
+	CHECK(folder.read_json("again.gltf") == json);
+	light->is_staged = false;
+	save_gltf(*scene, folder.path / "again.gltf");
+	const auto again = load_gltf(folder.path / "again.gltf");
+	REQUIRE(again->find_nodes<Light3D>().size() == 2);
+	CHECK(again->find_node<Light3D>("Added", "Light").parent->name == "Stage");
+}
+
 TEST_CASE("[GltfWriter] killed at any step of a save, the scene before or the new one is there") {
 	GltfTestFolder folder;
 	GltfTestLog log;

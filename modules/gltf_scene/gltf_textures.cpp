@@ -1,0 +1,148 @@
+#include "modules/gltf_scene/gltf_textures.h"
+
+#include "modules/core/error.h"
+#include "modules/gltf_scene/gltf_values.h"
+#include "modules/gltf_scene/image_decoder.h"
+
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+const char TRANSFORM[] = "KHR_texture_transform";
+/// Of all images of a file: 2 GiB, a third more with their levels of detail.
+const uint64_t MAX_ALL_TEXELS = uint64_t(1) << 29;
+
+TextureWrap to_wrap(int p_mode) {
+	return p_mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE	  ? TextureWrap::CLAMP
+			: p_mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::MIRROR
+															  : TextureWrap::REPEAT;
+}
+
+/// KHR_texture_transform: scaled, then turned, then moved. Turned counter-clockwise as it is seen,
+/// with y down.
+glm::mat3x2 read_transform(const GltfObject &p_transform) {
+	double offset[2] = { 0, 0 };
+	double scale[2] = { 1, 1 };
+	p_transform.find_numbers("offset", offset);
+	p_transform.find_numbers("scale", scale);
+	const double turn = p_transform.read_number("rotation", 0, -1e6, 1e6, "rad");
+	const double c = std::cos(turn);
+	const double s = std::sin(turn);
+	return glm::mat3x2(glm::dvec2(c, -s) * scale[0], glm::dvec2(s, c) * scale[1],
+			glm::dvec2(offset[0], offset[1]));
+}
+
+} // namespace
+
+GltfTextures::GltfTextures(
+		const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers) :
+		root(p_root),
+		model(p_model), buffers(p_buffers) {}
+
+Texture GltfTextures::read(size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions,
+		const std::string &p_path) {
+	Texture texture;
+	const tinygltf::Texture &written = model.textures[p_index];
+	GltfMessages &messages = root.get_messages();
+	if (written.source < 0) {
+		messages.report(messages.describe(text("textures[", p_index, "].source"),
+				"is missing, must name a PNG or JPEG image; the texture is left out."));
+		return texture;
+	}
+	texture.image = load_image(static_cast<size_t>(written.source));
+	if (!texture.image) {
+		return texture;
+	}
+	if (written.sampler >= 0) {
+		read_sampler(static_cast<size_t>(written.sampler), texture);
+	}
+	uint64_t uv_set = static_cast<uint64_t>(p_uv_set);
+	if (const tinygltf::Value *value = find_extension(p_extensions, TRANSFORM)) {
+		const GltfObject transform =
+				*find_object(*value, text(p_path, ".extensions.", TRANSFORM), messages);
+		texture.transform = read_transform(transform);
+		uv_set = transform.find_integer("texCoord", 0, INT32_MAX).value_or(uv_set);
+	}
+	if (uv_set > 1) {
+		messages.report(messages.describe(
+				p_path + ".texCoord", text("is ", uv_set, ", must be 0..1; 0 is used.")));
+		uv_set = 0;
+	}
+	texture.uv_set = static_cast<uint32_t>(uv_set);
+	return texture;
+}
+
+void GltfTextures::read_sampler(size_t p_index, Texture &r_texture) const {
+	const tinygltf::Sampler &sampler = model.samplers[p_index];
+	r_texture.wrap_u = to_wrap(sampler.wrapS);
+	r_texture.wrap_v = to_wrap(sampler.wrapT);
+	r_texture.is_magnified_nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+	switch (sampler.minFilter) {
+		case TINYGLTF_TEXTURE_FILTER_NEAREST:
+		case TINYGLTF_TEXTURE_FILTER_LINEAR:
+			r_texture.mip_filter = MipFilter::NONE;
+			break;
+		case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+		case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+			r_texture.mip_filter = MipFilter::NEAREST;
+			break;
+		default:
+			r_texture.mip_filter = MipFilter::LINEAR;
+	}
+	r_texture.is_minified_nearest = sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ||
+			sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
+			sampler.minFilter == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+}
+
+const std::shared_ptr<const Image> &GltfTextures::load_image(size_t p_index) {
+	const auto [found, is_new] = images.try_emplace(p_index);
+	if (is_new) {
+		const GltfObject image = root.get_element("images", p_index);
+		try {
+			found->second = decode(p_index, image);
+		} catch (const Error &error) {
+			root.get_messages().report(
+					text(error.what(), " What shows it is drawn without a texture."));
+		}
+	}
+	return found->second;
+}
+
+std::shared_ptr<const Image> GltfTextures::decode(size_t p_index, const GltfObject &p_image) {
+	GltfMessages &messages = root.get_messages();
+	std::vector<uint8_t> file;
+	std::span<const uint8_t> bytes;
+	const Json *uri = p_image.find("uri");
+	if (uri) {
+		if (!uri->is_string()) {
+			p_image.fail_value("uri", "text");
+		}
+		file = buffers.load_uri(p_image, uri->get_ref<const std::string &>());
+		bytes = file;
+	} else {
+		const size_t view = p_image.require_index("bufferView", model.bufferViews.size());
+		bytes = buffers.load_view(model, view);
+	}
+	std::string damage;
+	std::shared_ptr<const Image> image;
+	try {
+		image = decode_image(
+				bytes, make_name(p_image.get_text("name"), text("Image ", p_index)), damage);
+	} catch (const Error &error) {
+		messages.fail(p_image.get_path(), error.what());
+	}
+	if (!damage.empty()) {
+		messages.report(messages.describe(p_image.get_path(), damage));
+	}
+	texel_count += uint64_t(image->size_px.x) * image->size_px.y;
+	if (texel_count > MAX_ALL_TEXELS) {
+		p_image.fail_at(uri ? "uri" : "bufferView",
+				text("makes more than ", MAX_ALL_TEXELS,
+						" texels in all images. Make images smaller."));
+	}
+	return image;
+}
+
+} // namespace gnomon

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_buffers.h"
+#include "modules/scene/texture.h"
+
+#include <tiny_gltf.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace gnomon {
+
+/// Reads textures and their images, each once. An image that cannot be read is reported, and what
+/// shows it has no texture then.
+class GltfTextures {
+public:
+	/// p_root: the document as it was read, for the images' places. All must outlive it.
+	GltfTextures(const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers);
+
+	/// p_info: a TextureInfo of tinygltf, also that of a normal or occlusion map. p_path: where it
+	/// stands.
+	template <typename Info> Texture read(const Info &p_info, const std::string &p_path) {
+		return p_info.index < 0 ? Texture()
+								: read(static_cast<size_t>(p_info.index), p_info.texCoord,
+										  p_info.extensions, p_path);
+	}
+
+private:
+	Texture read(size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions,
+			const std::string &p_path);
+	const std::shared_ptr<const Image> &load_image(size_t p_index);
+	std::shared_ptr<const Image> decode(size_t p_index, const GltfObject &p_image);
+	void read_sampler(size_t p_index, Texture &r_texture) const;
+
+	GltfObject root;
+	const tinygltf::Model &model;
+	GltfBuffers &buffers;
+	std::map<size_t, std::shared_ptr<const Image>> images; // null: cannot be read
+	uint64_t texel_count = 0;							   // of all images so far
+};
+
+} // namespace gnomon

@@ -1,0 +1,162 @@
+#include "modules/gltf_scene/image_decoder.h"
+
+#include "modules/core/error.h"
+
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <csetjmp>
+#include <cstring>
+
+namespace gnomon {
+
+namespace {
+
+const uint8_t PNG_SIGNATURE[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
+const uint8_t JPEG_SIGNATURE[] = { 0xff, 0xd8, 0xff };
+const char NEXT_STEP[] = "Export the image again.";
+
+template <size_t COUNT>
+bool begins_with(std::span<const uint8_t> p_bytes, const uint8_t (&p_signature)[COUNT]) {
+	return p_bytes.size() >= COUNT && std::memcmp(p_bytes.data(), p_signature, COUNT) == 0;
+}
+
+void check_size(uint64_t p_width_px, uint64_t p_height_px) {
+	if (p_width_px == 0 || p_height_px == 0 || p_width_px > MAX_IMAGE_SIZE_PX ||
+			p_height_px > MAX_IMAGE_SIZE_PX || p_width_px * p_height_px > MAX_IMAGE_TEXELS) {
+		fail("has ", p_width_px, " x ", p_height_px, " pixels, must have 1..", MAX_IMAGE_SIZE_PX,
+				" on each side and at most ", MAX_IMAGE_TEXELS, " in all. Make it smaller.");
+	}
+}
+
+/// What libpng's callbacks need. It leaves a failed call by longjmp, which must not skip a
+/// destructor: all that owns memory lives outside of the functions that call libpng.
+struct PngReader {
+	std::span<const uint8_t> rest;
+	char problem[128] = "";
+	png_structp png = nullptr;
+	png_infop info = nullptr;
+
+	explicit PngReader(std::span<const uint8_t> p_bytes) : rest(p_bytes) {
+		png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+		info = png ? png_create_info_struct(png) : nullptr;
+		if (!info) {
+			png_destroy_read_struct(&png, nullptr, nullptr);
+			throw std::bad_alloc();
+		}
+		png_set_read_fn(png, this, read);
+	}
+	~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+	PngReader(const PngReader &) = delete;
+	PngReader &operator=(const PngReader &) = delete;
+
+	/// False: see problem.
+	bool read_header() {
+		if (setjmp(png_jmpbuf(png))) {
+			return false;
+		}
+		png_set_user_limits(png, MAX_IMAGE_SIZE_PX, MAX_IMAGE_SIZE_PX);
+		png_read_info(png, info);
+		return true;
+	}
+	bool read_rows(uint8_t *const *p_rows) {
+		if (setjmp(png_jmpbuf(png))) {
+			return false;
+		}
+		png_set_expand(png);
+		png_set_strip_16(png);
+		png_set_gray_to_rgb(png);
+		png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+		png_read_image(png, const_cast<png_bytepp>(p_rows));
+		return true;
+	}
+
+private:
+	static void read(png_structp p_png, png_bytep r_bytes, size_t p_count) {
+		PngReader &reader = *static_cast<PngReader *>(png_get_io_ptr(p_png));
+		if (p_count > reader.rest.size()) {
+			png_error(p_png, "it ends too early");
+		}
+		std::memcpy(r_bytes, reader.rest.data(), p_count);
+		reader.rest = reader.rest.subspan(p_count);
+	}
+	[[noreturn]] static void take_error(png_structp p_png, png_const_charp p_problem) {
+		PngReader &reader = *static_cast<PngReader *>(png_get_error_ptr(p_png));
+		std::strncpy(reader.problem, p_problem, sizeof(reader.problem) - 1);
+		png_longjmp(p_png, 1);
+	}
+	static void ignore_warning(png_structp, png_const_charp) {}
+};
+
+std::shared_ptr<const Image> decode_png(std::span<const uint8_t> p_bytes, std::string p_name) {
+	PngReader reader(p_bytes);
+	if (!reader.read_header()) {
+		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
+	}
+	const glm::uvec2 size_px(png_get_image_width(reader.png, reader.info),
+			png_get_image_height(reader.png, reader.info));
+	check_size(size_px.x, size_px.y);
+	std::vector<uint8_t> texels(size_t(size_px.x) * size_px.y * 4);
+	std::vector<uint8_t *> rows;
+	for (size_t y = 0; y < size_px.y; ++y) {
+		rows.push_back(texels.data() + y * size_px.x * 4);
+	}
+	if (!reader.read_rows(rows.data())) {
+		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
+	}
+	return make_image(std::move(p_name), size_px, std::move(texels));
+}
+
+std::shared_ptr<const Image> decode_jpeg(
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_damage) {
+	struct Decoder {
+		tjhandle handle = tjInitDecompress();
+		Decoder() {
+			if (!handle) {
+				throw std::bad_alloc();
+			}
+		}
+		~Decoder() { tjDestroy(handle); }
+	} decoder;
+	const auto refuse = [&] {
+		fail("is a JPEG image that cannot be read: ", tjGetErrorStr2(decoder.handle), ". ",
+				NEXT_STEP);
+	};
+	int width_px = 0, height_px = 0, subsampling = 0, color_space = 0;
+	if (tjDecompressHeader3(decoder.handle, p_bytes.data(), p_bytes.size(), &width_px, &height_px,
+				&subsampling, &color_space) != 0 ||
+			width_px == 0) {
+		refuse();
+	}
+	if (color_space == TJCS_CMYK || color_space == TJCS_YCCK) {
+		fail("is a JPEG image of printing colours (CMYK), must be of red, green and blue. ",
+				NEXT_STEP);
+	}
+	check_size(uint64_t(width_px), uint64_t(height_px));
+	const glm::uvec2 size_px(width_px, height_px);
+	std::vector<uint8_t> texels(size_t(size_px.x) * size_px.y * 4);
+	if (tjDecompress2(decoder.handle, p_bytes.data(), p_bytes.size(), texels.data(), width_px, 0,
+				height_px, TJPF_RGBA, TJFLAG_LIMITSCANS) != 0) {
+		if (tjGetErrorCode(decoder.handle) != TJERR_WARNING) {
+			refuse();
+		}
+		r_damage = text("is a damaged JPEG image, of which a part is shown: ",
+				tjGetErrorStr2(decoder.handle), ". ", NEXT_STEP);
+	}
+	return make_image(std::move(p_name), size_px, std::move(texels));
+}
+
+} // namespace
+
+std::shared_ptr<const Image> decode_image(
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_damage) {
+	if (begins_with(p_bytes, PNG_SIGNATURE)) {
+		return decode_png(p_bytes, std::move(p_name));
+	}
+	if (begins_with(p_bytes, JPEG_SIGNATURE)) {
+		return decode_jpeg(p_bytes, std::move(p_name), r_damage);
+	}
+	fail("is no PNG or JPEG image. Convert it to one of them.");
+}
+
+} // namespace gnomon

@@ -1,0 +1,379 @@
+#include "modules/core/png.h"
+#include "modules/gltf_scene/image_decoder.h"
+#include "modules/gltf_scene/tests/gltf_test_files.h"
+
+#include <doctest/doctest.h>
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+
+const std::vector<uint8_t> TEXELS = { 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30,
+	40 };
+
+std::vector<uint8_t> encode_small_png() {
+	return encode_png({ 2, 2 }, 4, TEXELS);
+}
+
+std::vector<uint8_t> encode_jpeg(
+		const std::vector<uint8_t> &p_rgb, int p_size_px, int p_format = TJPF_RGB) {
+	const tjhandle encoder = tjInitCompress();
+	unsigned char *bytes = nullptr;
+	unsigned long size = 0;
+	const int result = tjCompress2(encoder, p_rgb.data(), p_size_px, 0, p_size_px, p_format, &bytes,
+			&size, TJSAMP_444, 95, 0);
+	std::vector<uint8_t> file(bytes, bytes + (result == 0 ? size : 0));
+	tjFree(bytes);
+	tjDestroy(encoder);
+	return file;
+}
+
+/// A triangle whose material has the image as its base colour, in a file beside.
+Json make_textured(const GltfTestFolder &p_folder) {
+	Json json = make_triangle(p_folder);
+	GltfTestBuffer buffer;
+	buffer.add_accessor(buffer.add_view(std::vector<float>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }),
+			GLTF_TEST_FLOAT, "VEC3", 3);
+	buffer.add_accessor(
+			buffer.add_view(std::vector<uint16_t>{ 0, 1, 2 }), GLTF_TEST_USHORT, "SCALAR", 3);
+	buffer.add_accessor(
+			buffer.add_view(std::vector<float>{ 0, 0, 1, 0, 0, 1 }), GLTF_TEST_FLOAT, "VEC2", 3);
+	buffer.add_accessor(buffer.add_view(std::vector<uint16_t>{ 0, 0, 65535, 0, 0, 32768 }),
+			GLTF_TEST_USHORT, "VEC2", 3);
+	buffer.accessors[3]["normalized"] = true;
+	buffer.add_accessor(buffer.add_view(std::vector<float>{ 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1 }),
+			GLTF_TEST_FLOAT, "VEC4", 3);
+	buffer.add_accessor(
+			buffer.add_view(std::vector<uint8_t>{ 255, 0, 51, 0, 0, 255, 0, 0, 0, 0, 0, 0 }, 4),
+			5121, "VEC3", 3);
+	buffer.accessors[5]["normalized"] = true;
+	buffer.store(json, p_folder);
+	json["meshes"][0]["primitives"][0]["material"] = 0;
+	json["meshes"][0]["primitives"][0]["attributes"] = { { "POSITION", 0 }, { "TEXCOORD_0", 2 },
+		{ "TEXCOORD_1", 3 }, { "TANGENT", 4 }, { "COLOR_0", 5 } };
+	json["materials"] =
+			Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+	json["textures"] = Json::parse(R"([{"source": 0}])");
+	json["images"] = Json::parse(R"([{"uri": "wood%20a.png"}])");
+	p_folder.write("wood a.png", encode_small_png());
+	return json;
+}
+
+const MeshInstance3D::Surface &get_surface(const Scene &p_scene) {
+	return p_scene.find_nodes<MeshInstance3D>().at(0)->surfaces.at(0);
+}
+
+Texture load_base_color(const GltfTestFolder &p_folder, const Json &p_json) {
+	return get_surface(*p_folder.load(p_json)).material->base_color_texture;
+}
+
+std::string get_decode_error(const std::vector<uint8_t> &p_bytes) {
+	std::string damage;
+	try {
+		decode_image(p_bytes, "image", damage);
+	} catch (const Error &error) {
+		return error.what();
+	}
+	return damage;
+}
+
+std::vector<uint8_t> encode_wide_png(
+		int p_color_type, int p_depth, const std::vector<uint8_t> &p_row) {
+	struct File {
+		std::vector<uint8_t> bytes;
+	} file;
+	png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+	png_infop info = png_create_info_struct(png);
+	png_set_write_fn(
+			png, &file,
+			[](png_structp p_png, png_bytep p_bytes, size_t p_count) {
+				auto &target = static_cast<File *>(png_get_io_ptr(p_png))->bytes;
+				target.insert(target.end(), p_bytes, p_bytes + p_count);
+			},
+			nullptr);
+	png_set_IHDR(png, info, 2, 1, p_depth, p_color_type, PNG_INTERLACE_NONE,
+			PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+	png_color palette[] = { { 1, 2, 3 }, { 4, 5, 6 } };
+	png_byte alphas[] = { 7 };
+	if (p_color_type == PNG_COLOR_TYPE_PALETTE) {
+		png_set_PLTE(png, info, palette, 2);
+		png_set_tRNS(png, info, alphas, 1, nullptr);
+	}
+	png_set_gAMA(png, info, 1.0); // ignored, as glTF says
+	png_write_info(png, info);
+	png_write_row(png, p_row.data());
+	png_write_end(png, info);
+	png_destroy_write_struct(&png, &info);
+	return file.bytes;
+}
+
+} // namespace
+
+TEST_CASE("[GltfTextures] images come from files, data URIs and buffer views, each once") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	Json second = json["materials"][0];
+	json["materials"].push_back(second);
+	json["meshes"][0]["primitives"].push_back(json["meshes"][0]["primitives"][0]);
+	json["meshes"][0]["primitives"][1]["material"] = 1;
+	const auto scene = folder.load(json);
+	const auto &surfaces = scene->find_nodes<MeshInstance3D>().at(0)->surfaces;
+	const Texture &texture = surfaces.at(0).material->base_color_texture;
+	REQUIRE(texture.image);
+	CHECK(texture.image->size_px == glm::uvec2(2));
+	CHECK(texture.image->texels == TEXELS);
+	CHECK(texture.image == surfaces.at(1).material->base_color_texture.image);
+	CHECK(texture.wrap_u == TextureWrap::REPEAT);
+	CHECK(scene->side_files.size() == 2);
+
+	const std::vector<uint8_t> png = encode_small_png();
+	GltfTestBuffer buffer;
+	buffer.bytes = load_file(folder.path / "data.bin");
+	buffer.views = json["bufferViews"];
+	buffer.accessors = json["accessors"];
+	const size_t view = buffer.add_view(png);
+	buffer.store(json, folder);
+	json["images"][0] = { { "bufferView", view }, { "mimeType", "image/png" },
+		{ "name", "inside" } };
+	CHECK(load_base_color(folder, json).image->texels == TEXELS);
+	CHECK(load_base_color(folder, json).image->name == "inside");
+	json["images"][0] = { { "uri",
+			"data:image/"
+			"x-any;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+"
+			"M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==" } };
+	REQUIRE(load_base_color(folder, json).image);
+	CHECK(load_base_color(folder, json).image->size_px == glm::uvec2(1));
+	CHECK(log.errors.empty());
+}
+
+TEST_CASE("[GltfTextures] all kinds of PNG become eight bits of four channels, untouched") {
+	std::string damage;
+	const auto decode = [&](const std::vector<uint8_t> &p_bytes) {
+		return decode_image(p_bytes, "image", damage)->texels;
+	};
+	using Bytes = std::vector<uint8_t>;
+	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY, 8, { 9, 200 })) ==
+			Bytes{ 9, 9, 9, 255, 200, 200, 200, 255 });
+	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY, 1, { 0x40 })) ==
+			Bytes{ 0, 0, 0, 255, 255, 255, 255, 255 });
+	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_GRAY_ALPHA, 8, { 9, 3, 200, 4 })) ==
+			Bytes{ 9, 9, 9, 3, 200, 200, 200, 4 });
+	CHECK(decode(encode_wide_png(PNG_COLOR_TYPE_PALETTE, 8, { 0, 1 })) ==
+			Bytes{ 1, 2, 3, 7, 4, 5, 6, 255 });
+	CHECK(decode(encode_wide_png(
+				  PNG_COLOR_TYPE_RGB, 16, { 1, 99, 2, 99, 3, 99, 4, 0, 5, 0, 6, 0 })) ==
+			Bytes{ 1, 2, 3, 255, 4, 5, 6, 255 });
+	CHECK(damage.empty());
+}
+
+TEST_CASE("[GltfTextures] JPEG images are read, also damaged ones in part") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	std::vector<uint8_t> rgb;
+	for (int index = 0; index < 64 * 64; ++index) {
+		rgb.insert(rgb.end(), { uint8_t(index % 64 * 4), 100, uint8_t(index / 64 * 4) });
+	}
+	const std::vector<uint8_t> jpeg = encode_jpeg(rgb, 64);
+	REQUIRE(jpeg.size() > 500);
+	folder.write("wood a.png", jpeg); // the bytes decide, not the name
+	const Texture texture = load_base_color(folder, json);
+	REQUIRE(texture.image);
+	int greatest = 0;
+	for (size_t index = 0; index < 64 * 64; ++index) {
+		for (size_t channel = 0; channel < 3; ++channel) {
+			greatest = std::max(greatest,
+					std::abs(
+							texture.image->texels[index * 4 + channel] - rgb[index * 3 + channel]));
+		}
+		CHECK(texture.image->texels[index * 4 + 3] == 255);
+	}
+	CHECK(greatest <= 8);
+	CHECK(log.errors.empty());
+	folder.write("wood a.png", std::span(jpeg).first(jpeg.size() / 2));
+	CHECK(load_base_color(folder, json).image);
+	CHECK(GltfTestLog::contains(
+			log.errors, "images[0] is a damaged JPEG image, of which a part is shown"));
+	CHECK(get_decode_error(encode_jpeg(std::vector<uint8_t>(16 * 16 * 4, 0), 16, TJPF_CMYK))
+					.find("CMYK") != std::string::npos);
+}
+
+TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene loads without them") {
+	GltfTestFolder folder;
+	const Json json = make_textured(folder);
+	std::vector<uint8_t> huge = encode_small_png();
+	huge[16] = 0x7f; // its width, whose checksum is wrong now too
+	std::vector<uint8_t> cut = encode_small_png();
+	cut.resize(50);
+	const std::vector<std::pair<std::vector<uint8_t>, std::string>> bad = {
+		{ huge, "cannot be read" }, { cut, "PNG image that cannot be read: it ends too early" },
+		{ {}, "no PNG or JPEG image" },
+		{ { 'G', 'I', 'F', '8', '9', 'a', 0, 0 }, "no PNG or JPEG image" },
+		{ { 0xff, 0xd8, 0xff, 0xe0, 0 }, "JPEG image that cannot be read" }
+	};
+	for (const auto &[bytes, words] : bad) {
+		CAPTURE(words);
+		GltfTestLog log;
+		folder.write("wood a.png", bytes);
+		CHECK_FALSE(load_base_color(folder, json).image);
+		REQUIRE(log.errors.size() == 1);
+		CHECK(GltfTestLog::contains(log.errors, "scene.gltf\": images[0] is "));
+		CHECK(GltfTestLog::contains(log.errors, words));
+	}
+	const std::vector<std::pair<Json, std::string>> bad_images = {
+		{ { { "uri", "missing.png" } }, "images[0].uri cannot be read" },
+		{ { { "uri", "../secret.png" } }, "leads out of the project folder" },
+		{ { { "uri", 3 } }, "images[0].uri is 3" },
+		{ { { "uri", "data:image/png,abc" } }, "no base64" },
+		{ { { "bufferView", 99 } }, "images[0].bufferView is 99" },
+		{ Json::object(), "images[0].bufferView is missing" }
+	};
+	for (const auto &[image, words] : bad_images) {
+		CAPTURE(words);
+		GltfTestLog log;
+		Json changed = json;
+		changed["images"][0] = image;
+		CHECK_FALSE(load_base_color(folder, changed).image);
+		CHECK(GltfTestLog::contains(log.errors, words));
+	}
+}
+
+TEST_CASE("[GltfTextures] a size that no device takes is refused before memory is taken") {
+	// A real header with its checksum, and no rows.
+	std::vector<uint8_t> png = encode_png({ 1, 1 }, 4, std::vector<uint8_t>(4));
+	const auto set_size = [&](uint32_t p_width, uint32_t p_height) {
+		const uint32_t sizes[] = { p_width, p_height };
+		for (size_t index = 0; index < 8; ++index) {
+			png[16 + index] = static_cast<uint8_t>(sizes[index / 4] >> (24 - 8 * (index % 4)));
+		}
+		uint32_t crc = 0xffffffffu;
+		for (size_t index = 12; index < 29; ++index) {
+			crc ^= png[index];
+			for (int bit = 0; bit < 8; ++bit) {
+				crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+			}
+		}
+		for (size_t index = 0; index < 4; ++index) {
+			png[29 + index] = static_cast<uint8_t>(~crc >> (24 - 8 * index));
+		}
+	};
+	set_size(16384, 16384);
+	CHECK(get_decode_error(png).find("has 16384 x 16384 pixels, must have 1..16384") !=
+			std::string::npos);
+	set_size(20000, 2);
+	CHECK(get_decode_error(png).find("PNG image that cannot be read") != std::string::npos);
+}
+
+TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong ones are named") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	json["samplers"] = Json::parse(
+			R"([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728, "minFilter": 9984}])");
+	json["textures"][0]["sampler"] = 0;
+	Json &info = json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+	info["texCoord"] = 1;
+	info["extensions"]["KHR_texture_transform"] = { { "offset", { 0, 1 } },
+		{ "rotation", 1.5707963267948966 }, { "scale", { 0.5, 0.5 } } };
+	const auto scene = folder.load(json);
+	const Texture &texture = get_surface(*scene).material->base_color_texture;
+	CHECK(texture.wrap_u == TextureWrap::CLAMP);
+	CHECK(texture.wrap_v == TextureWrap::MIRROR);
+	CHECK(texture.is_magnified_nearest);
+	CHECK(texture.is_minified_nearest);
+	CHECK(texture.mip_filter == MipFilter::NEAREST);
+	CHECK(texture.uv_set == 1);
+	// The extension's own example: the lower left quarter, turned clockwise.
+	CHECK(glm::distance(texture.transform_uv({ 0, 0 }), glm::vec2(0, 1)) < 1e-6f);
+	CHECK(glm::distance(texture.transform_uv({ 1, 0 }), glm::vec2(0, 0.5f)) < 1e-6f);
+	CHECK(glm::distance(texture.transform_uv({ 0, 1 }), glm::vec2(0.5f, 1)) < 1e-6f);
+	const MeshAttributes &attributes = get_surface(*scene).mesh->attributes;
+	CHECK(attributes.uvs[0].empty()); // nothing shows them
+	REQUIRE(attributes.uvs[1].size() == 3);
+	CHECK(attributes.uvs[1][1].x == 1.0f);
+	CHECK(attributes.uvs[1][2].y == doctest::Approx(0.5).epsilon(1e-4));
+	CHECK(attributes.colors[0] == glm::vec4(1, 0, 0.2f, 1));
+	CHECK(attributes.tangents.empty()); // no normal map
+	CHECK(log.errors.empty());
+
+	info["texCoord"] = 2;
+	info.erase("extensions");
+	json["samplers"][0]["wrapS"] = 7;
+	json["samplers"][0]["magFilter"] = "x";
+	json["textures"].push_back({ { "source", 5 }, { "sampler", 9 } });
+	json["materials"][0]["normalTexture"] = { { "index", 1 } };
+	json["materials"][0]["emissiveTexture"] = { { "index", 44 } };
+	json["materials"][0]["occlusionTexture"] = "x";
+	json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+	const auto other = folder.load(json);
+	CHECK(get_surface(*other).material->base_color_texture.uv_set == 0);
+	CHECK(get_surface(*other).mesh->attributes.uvs[0] ==
+			std::vector<glm::vec2>(3, glm::vec2(0.0f)));
+	for (const char *words : { "baseColorTexture.texCoord is 2, must be 0..1",
+				 "samplers[0].wrapS is 7", "samplers[0].magFilter is \"x\"",
+				 "textures[1].source is 5, must be 0..0", "textures[1].sampler is 9",
+				 "textures[1].source is missing", "emissiveTexture.index is 44",
+				 "occlusionTexture is \"x\"", "has no TEXCOORD_0" }) {
+		CAPTURE(words);
+		CHECK(GltfTestLog::contains(log.errors, words));
+	}
+	// Saved, what was refused is still there.
+	save_gltf(*other, folder.path / "again.gltf");
+	CHECK(folder.read_json("again.gltf") == json);
+}
+
+TEST_CASE("[GltfTextures] alpha, cutoff and tangents are read") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	Json &material = json["materials"][0];
+	material["alphaMode"] = "MASK";
+	material["alphaCutoff"] = 0.25;
+	material["pbrMetallicRoughness"]["baseColorFactor"] = { 1, 1, 1, 0.5 };
+	material["normalTexture"] = { { "index", 0 }, { "scale", 2 } };
+	const auto scene = folder.load(json);
+	CHECK(get_surface(*scene).material->alpha_mode == AlphaMode::MASK);
+	CHECK(get_surface(*scene).material->alpha_cutoff == 0.25f);
+	CHECK(get_surface(*scene).material->alpha == 0.5f);
+	CHECK(get_surface(*scene).material->normal_scale == 2.0f);
+	CHECK(get_surface(*scene).mesh->attributes.tangents.at(2).w == -1.0f);
+	CHECK(log.warnings.empty());
+	material["alphaMode"] = "BLEND";
+	const auto blended = folder.load(json);
+	CHECK(get_surface(*blended).material->alpha_cutoff == 0.5f);
+	CHECK(GltfTestLog::contains(log.warnings, "materials[0] has alphaMode BLEND"));
+	material["alphaMode"] = "GLASS";
+	material["pbrMetallicRoughness"]["baseColorFactor"] = { 1, 1, 1, 7 };
+	const auto refused = folder.load(json);
+	CHECK(get_surface(*refused).material->alpha_mode == AlphaMode::OPAQUE);
+	CHECK(get_surface(*refused).material->alpha == 1.0f);
+	CHECK(GltfTestLog::contains(log.errors, "alphaMode is \"GLASS\", must be \"OPAQUE\""));
+	CHECK(GltfTestLog::contains(
+			log.errors, "baseColorFactor is an array of 4, must be four numbers"));
+}
+
+TEST_CASE("[GltfTextures] damaged images are refused or drawn, and never crash") {
+	std::vector<uint8_t> rgb(32 * 32 * 3, 77);
+	for (size_t index = 0; index < rgb.size(); ++index) {
+		rgb[index] = static_cast<uint8_t>(index * 7);
+	}
+	const std::vector<uint8_t> files[] = { encode_png({ 32, 32 }, 3, rgb), encode_jpeg(rgb, 32) };
+	std::mt19937 random(20100901);
+	for (const std::vector<uint8_t> &file : files) {
+		for (int round = 0; round < 500; ++round) {
+			std::vector<uint8_t> bytes = file;
+			for (int change = 0; change < 3; ++change) {
+				bytes[random() % bytes.size()] = static_cast<uint8_t>(random());
+			}
+			bytes.resize(round % 3 == 0 ? random() % bytes.size() : bytes.size());
+			get_decode_error(bytes);
+		}
+	}
+}

@@ -1,0 +1,439 @@
+// What each feature of textures and materials leaves in the G-buffer, against the same computed
+// here.
+#include "modules/render_graph/read_back.h"
+#include "modules/renderer/gbuffer.h"
+#include "modules/renderer/tests/render_fixture.h"
+#include "modules/shadows/camera_view.h"
+#include "modules/shadows/normal_packing.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/packing.hpp>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const uint32_t SIZE_PX = 64;
+
+double srgb_to_linear(double p_value) {
+	return p_value <= 0.04045 ? p_value / 12.92 : std::pow((p_value + 0.055) / 1.055, 2.4);
+}
+
+double linear_to_srgb(double p_value) {
+	return p_value <= 0.0031308 ? p_value * 12.92 : 1.055 * std::pow(p_value, 1 / 2.4) - 0.055;
+}
+
+/// A picture of noise that is the same every time.
+std::shared_ptr<const Image> make_noise(glm::uvec2 p_size_px, uint32_t p_seed = 1) {
+	std::vector<uint8_t> texels;
+	uint32_t state = p_seed * 747796405u + 2891336453u;
+	for (uint32_t index = 0; index < p_size_px.x * p_size_px.y * 4; ++index) {
+		state = state * 747796405u + 2891336453u;
+		texels.push_back(static_cast<uint8_t>(state >> 24));
+	}
+	return make_image("noise", p_size_px, std::move(texels));
+}
+
+int wrap(int p_texel, int p_count, TextureWrap p_wrap) {
+	if (p_wrap == TextureWrap::CLAMP) {
+		return std::clamp(p_texel, 0, p_count - 1);
+	}
+	const int period = p_wrap == TextureWrap::MIRROR ? 2 * p_count : p_count;
+	const int place = ((p_texel % period) + period) % period;
+	return place < p_count ? place : period - 1 - place;
+}
+
+/// What a sampler reads of the first level: 0..1, colours linear.
+glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
+	const Image &image = *p_texture.image;
+	p_uv = glm::dmat3x2(p_texture.transform) * glm::dvec3(p_uv, 1.0);
+	const glm::dvec2 place = p_uv * glm::dvec2(image.size_px);
+	const auto fetch = [&](int p_x, int p_y) {
+		const uint8_t *texel =
+				image.get_texel(uint32_t(wrap(p_x, int(image.size_px.x), p_texture.wrap_u)),
+						uint32_t(wrap(p_y, int(image.size_px.y), p_texture.wrap_v)));
+		glm::dvec4 value;
+		for (int channel = 0; channel < 4; ++channel) {
+			value[channel] = texel[channel] / 255.0;
+			if (p_is_srgb && channel < 3) {
+				value[channel] = srgb_to_linear(value[channel]);
+			}
+		}
+		return value;
+	};
+	if (p_texture.is_magnified_nearest) {
+		return fetch(int(std::floor(place.x)), int(std::floor(place.y)));
+	}
+	const glm::dvec2 low = glm::floor(place - 0.5);
+	const glm::dvec2 share = place - 0.5 - low;
+	const int x = int(low.x);
+	const int y = int(low.y);
+	return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), share.x),
+			glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), share.x), share.y);
+}
+
+struct Texels {
+	std::vector<uint8_t> base_color, normal, material, emissive, depth;
+
+	glm::dvec4 get_base_color(uint32_t p_pixel) const { // linear
+		glm::dvec4 color;
+		for (int channel = 0; channel < 4; ++channel) {
+			color[channel] = base_color[p_pixel * 4 + uint32_t(channel)] / 255.0;
+		}
+		return color;
+	}
+	glm::vec4 get_half(const std::vector<uint8_t> &p_texels, uint32_t p_pixel) const {
+		uint64_t packed;
+		std::memcpy(&packed, p_texels.data() + p_pixel * 8, sizeof(packed));
+		return glm::unpackHalf4x16(packed);
+	}
+	glm::vec3 get_normal(uint32_t p_pixel) const {
+		uint32_t packed;
+		std::memcpy(&packed, normal.data() + p_pixel * 4, sizeof(packed));
+		return unpack_normal(packed);
+	}
+	float get_depth(uint32_t p_pixel) const {
+		float value;
+		std::memcpy(&value, depth.data() + p_pixel * 4, sizeof(value));
+		return value;
+	}
+};
+
+/// A square that fills the picture of a camera, with coordinates from p_low at the top left to
+/// p_high at the bottom right.
+struct Square {
+	Material material;
+	MeshAttributes attributes;
+	glm::dvec2 low = glm::dvec2(0.0);
+	glm::dvec2 high = glm::dvec2(1.0);
+	glm::dmat4 world_from_node = glm::dmat4(1.0);
+
+	Square() {
+		material.base_color = glm::vec3(1.0f);
+		material.roughness = 1.0f;
+	}
+
+	glm::dvec2 get_uv(uint32_t p_pixel) const {
+		const glm::dvec2 share =
+				(glm::dvec2(p_pixel % SIZE_PX, p_pixel / SIZE_PX) + 0.5) / double(SIZE_PX);
+		return glm::mix(low, high, share);
+	}
+
+	Texels draw(RenderFixture &r_fixture) const {
+		Scene scene;
+		auto camera = std::make_unique<Camera3D>();
+		camera->vertical_fov_rad = float(2 * std::atan(0.5));
+		camera->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0, 2));
+		MeshAttributes all = attributes;
+		if (all.uvs[0].empty()) {
+			all.uvs[0] = { { low.x, low.y }, { low.x, high.y }, { high.x, high.y },
+				{ high.x, low.y } };
+		}
+		auto square = std::make_unique<MeshInstance3D>();
+		square->name = "Square";
+		square->parent_from_node = world_from_node;
+		square->surfaces.push_back(
+				{ make_mesh("square", { { -1, 1, 0 }, { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 } },
+						  std::vector<glm::vec3>(4, glm::vec3(0, 0, 1)), { 0, 1, 2, 0, 2, 3 }, all),
+						std::make_shared<Material>(material) });
+		scene.root->add_child(std::move(square));
+		const Camera3D &added = static_cast<Camera3D &>(*scene.root->add_child(std::move(camera)));
+		const auto snapshot = build_snapshot(scene, added);
+
+		RenderingDevice &device = *r_fixture.device;
+		MeshStore meshes(device);
+		MaterialStore materials(device);
+		TransientPool pool(device);
+		RenderGraph graph(device, pool);
+		const glm::uvec2 size_px(SIZE_PX);
+		const RGBuffer frame =
+				graph.upload_constants("frame", compute_frame_constants(*snapshot, size_px));
+		uint32_t drawn_count = 0;
+		const GBuffer gbuffer = add_gbuffer_pass(
+				graph, device, meshes, materials, *snapshot, size_px, frame, drawn_count);
+		CHECK(drawn_count == 1);
+		Texels texels;
+		add_readback(graph, gbuffer.base_color, texels.base_color, 0);
+		add_readback(graph, gbuffer.shading_normal, texels.normal, 0);
+		add_readback(graph, gbuffer.material, texels.material, 0);
+		add_readback(graph, gbuffer.emissive, texels.emissive, 0);
+		add_readback(graph, gbuffer.depth, texels.depth, 0);
+		graph.execute(RenderGraph::Mode::WAIT);
+		return texels;
+	}
+};
+
+/// Of all pixels: in steps of 1/255 of the sRGB-encoded value.
+template <typename Expect>
+double find_base_color_error(const Texels &p_texels, const Expect &p_expect) {
+	double greatest = 0;
+	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
+		const glm::dvec4 expected = p_expect(pixel);
+		const glm::dvec4 drawn = p_texels.get_base_color(pixel);
+		for (int channel = 0; channel < 3; ++channel) {
+			greatest = std::max(
+					greatest, std::abs(drawn[channel] - linear_to_srgb(expected[channel])) * 255);
+		}
+	}
+	return greatest;
+}
+
+/// Interpolated texels have weights of 8 bits in many devices, and this many values for a texel.
+const double LINEAR_STEPS = 1.51;
+const double NEAREST_STEPS = 0.51;
+
+} // namespace
+
+TEST_CASE("[GPU][Textures] a base colour is repeated, mirrored or clamped, interpolated or not") {
+	RenderFixture fixture;
+	Square square;
+	square.low = { -0.7, -1.4 };
+	square.high = { 1.9, 1.3 };
+	Texture &texture = square.material.base_color_texture;
+	texture.image = make_noise({ 4, 3 });
+	for (const TextureWrap wrap_u :
+			{ TextureWrap::REPEAT, TextureWrap::MIRROR, TextureWrap::CLAMP }) {
+		for (const TextureWrap wrap_v : { TextureWrap::REPEAT, TextureWrap::CLAMP }) {
+			for (const bool is_nearest : { false, true }) {
+				CAPTURE(int(wrap_u));
+				CAPTURE(int(wrap_v));
+				CAPTURE(is_nearest);
+				texture.wrap_u = wrap_u;
+				texture.wrap_v = wrap_v;
+				texture.is_magnified_nearest = is_nearest;
+				CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
+					return sample(texture, square.get_uv(p_pixel), true);
+				}) <= (is_nearest ? NEAREST_STEPS : LINEAR_STEPS));
+			}
+		}
+	}
+}
+
+TEST_CASE("[GPU][Textures] factor and vertex colours multiply the base colour") {
+	RenderFixture fixture;
+	Square square;
+	square.material.base_color = glm::vec3(0.5f, 0.25f, 1.0f);
+	square.material.base_color_texture.image = make_noise({ 4, 4 });
+	square.attributes.colors = { { 1, 1, 1, 1 }, { 0, 1, 0.5f, 1 }, { 0, 1, 0.5f, 1 },
+		{ 1, 1, 1, 1 } };
+	const auto expect = [&](uint32_t p_pixel) {
+		const double down = (p_pixel / SIZE_PX + 0.5) / SIZE_PX;
+		glm::dvec3 color = glm::mix(glm::dvec3(1.0), glm::dvec3(0, 1, 0.5), down) *
+				glm::dvec3(square.material.base_color);
+		if (square.material.base_color_texture.image) {
+			color *= glm::dvec3(
+					sample(square.material.base_color_texture, square.get_uv(p_pixel), true));
+		}
+		return glm::dvec4(color, 1.0);
+	};
+	CHECK(find_base_color_error(square.draw(fixture), expect) <= LINEAR_STEPS);
+	square.material.base_color_texture.image.reset(); // vertex colours alone
+	CHECK(find_base_color_error(square.draw(fixture), expect) <= 1);
+}
+
+TEST_CASE("[GPU][Textures] coordinates are scaled, turned and moved, the second set where asked") {
+	RenderFixture fixture;
+	Square square;
+	Texture &texture = square.material.base_color_texture;
+	texture.image = make_noise({ 5, 4 });
+	texture.is_magnified_nearest = true;
+	const double turn = 0.6;
+	texture.transform = glm::mat3x2(glm::dvec2(std::cos(turn), -std::sin(turn)) * 1.5,
+			glm::dvec2(std::sin(turn), std::cos(turn)) * 0.7, glm::dvec2(0.3, -0.2));
+	uint32_t wrong_count = 0; // at the borders of texels rounding decides
+	const Texels texels = square.draw(fixture);
+	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
+		const glm::dvec4 expected = sample(texture, square.get_uv(pixel), true);
+		wrong_count +=
+				std::abs(texels.get_base_color(pixel).x - linear_to_srgb(expected.x)) > 1 / 255.0;
+	}
+	CHECK(wrong_count <= 4);
+
+	texture.transform = glm::mat3x2(1, 0, 0, 1, 0, 0);
+	texture.uv_set = 1;
+	square.attributes.uvs[0].assign(4, glm::vec2(0.0f));
+	square.attributes.uvs[1] = { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } };
+	CHECK(find_base_color_error(square.draw(fixture), [&](uint32_t p_pixel) {
+		return sample(texture, square.get_uv(p_pixel), true);
+	}) <= NEAREST_STEPS);
+}
+
+TEST_CASE("[GPU][Textures] roughness is green, metal blue, occlusion red, emission a colour") {
+	RenderFixture fixture;
+	Square square;
+	Material &material = square.material;
+	material.metallic = 0.75f;
+	material.roughness = 0.5f;
+	material.emissive = glm::vec3(4, 2, 1);
+	material.occlusion_strength = 0.5f;
+	material.metallic_roughness_texture.image = make_noise({ 4, 4 }, 1);
+	material.occlusion_texture.image = make_noise({ 4, 4 }, 2);
+	material.emissive_texture.image = make_noise({ 4, 4 }, 3);
+	for (Texture *texture : { &material.metallic_roughness_texture, &material.occlusion_texture,
+				 &material.emissive_texture }) {
+		texture->is_magnified_nearest = true;
+	}
+	for (const ShadingModel model : { ShadingModel::METALLIC_ROUGHNESS, ShadingModel::PHONG }) {
+		material.shading_model = model;
+		const Texels texels = square.draw(fixture);
+		double greatest = 0;
+		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
+			const glm::dvec2 uv = square.get_uv(pixel);
+			const glm::dvec4 surface = sample(material.metallic_roughness_texture, uv, false);
+			const glm::dvec4 drawn = texels.get_half(texels.material, pixel);
+			const double roughness = model == ShadingModel::PHONG ? -1 - drawn.z : drawn.z;
+			greatest = std::max({ greatest, std::abs(roughness - 0.5 * surface.y),
+					std::abs(drawn.w - 0.75 * surface.z) });
+			const double occlusion =
+					1 + 0.5 * (sample(material.occlusion_texture, uv, false).x - 1);
+			greatest = std::max(greatest, std::abs(texels.get_base_color(pixel).w - occlusion));
+			const glm::dvec4 emissive = sample(material.emissive_texture, uv, true);
+			const glm::dvec4 emitted = texels.get_half(texels.emissive, pixel);
+			for (int channel = 0; channel < 3; ++channel) {
+				greatest = std::max(greatest,
+						std::abs(
+								emitted[channel] / material.emissive[channel] - emissive[channel]));
+			}
+		}
+		CHECK(greatest <= 1 / 255.0);
+	}
+}
+
+TEST_CASE("[GPU][Textures] a normal map turns normals, with the mesh's tangents or made ones") {
+	RenderFixture fixture;
+	Square square;
+	square.material.normal_texture.image = make_noise({ 4, 4 });
+	square.material.normal_texture.is_magnified_nearest = true;
+	square.material.normal_scale = 0.5f;
+	square.material.is_double_sided = true;
+	const auto find_error = [&](const glm::dvec3 &p_along, double p_side) {
+		const Texels texels = square.draw(fixture);
+		const glm::dvec3 across = glm::cross(glm::dvec3(0, 0, 1), p_along) * p_side;
+		double greatest = 0;
+		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
+			glm::dvec2 uv = square.get_uv(pixel);
+			if (square.world_from_node[0].x < 0) {
+				uv.x = 1 - uv.x;
+			}
+			const glm::dvec3 map =
+					glm::dvec3(sample(square.material.normal_texture, uv, false)) * 2.0 - 1.0;
+			const glm::dvec3 expected = glm::normalize(
+					p_along * (map.x * 0.5) + across * (map.y * 0.5) + glm::dvec3(0, 0, map.z));
+			greatest = std::max(
+					greatest, glm::distance(expected, glm::dvec3(texels.get_normal(pixel))));
+		}
+		return greatest;
+	};
+	const double STEPS = 2e-4;
+	CHECK(find_error({ 1, 0, 0 }, 1) <= STEPS); // x along u, y against v, which grows downwards
+	square.attributes.tangents.assign(4, glm::vec4(0, 1, 0, -1));
+	CHECK(find_error({ 0, 1, 0 }, -1) <= STEPS);
+	square.attributes.tangents.clear();
+	square.world_from_node[0].x = -1; // mirrored: x along u still, which grows to the left
+	CHECK(find_error({ -1, 0, 0 }, -1) <= STEPS);
+}
+
+TEST_CASE("[GPU][Textures] what is cut out is not drawn, what is whole keeps its alpha unseen") {
+	RenderFixture fixture;
+	Square square;
+	square.material.base_color_texture.image = make_noise({ 8, 8 });
+	square.material.alpha = 0.8f;
+	square.material.alpha_cutoff = 0.4f;
+	for (const AlphaMode mode : { AlphaMode::OPAQUE, AlphaMode::MASK, AlphaMode::BLEND }) {
+		square.material.alpha_mode = mode;
+		const Texels texels = square.draw(fixture);
+		uint32_t wrong_count = 0;
+		uint32_t seen_count = 0;
+		for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; ++pixel) {
+			const double alpha =
+					0.8 * sample(square.material.base_color_texture, square.get_uv(pixel), true).w;
+			const bool is_there = mode == AlphaMode::OPAQUE || alpha >= 0.4;
+			const bool is_seen = texels.get_depth(pixel) > 0;
+			seen_count += is_seen;
+			wrong_count += is_seen != is_there && std::abs(alpha - 0.4) > 1 / 255.0;
+		}
+		CHECK(wrong_count == 0);
+		CHECK((seen_count == SIZE_PX * SIZE_PX) == (mode == AlphaMode::OPAQUE));
+	}
+}
+
+TEST_CASE("[Textures] each level of detail has the mean light of what it covers") {
+	// Black and white: the mean light is 0.5, which is 188 as sRGB, and as a number 128.
+	std::vector<uint8_t> texels;
+	for (uint32_t index = 0; index < 64; ++index) {
+		const uint8_t value = (index + index / 8) % 2 == 0 ? 0 : 255;
+		texels.insert(texels.end(), { value, value, value, 255 });
+	}
+	const auto board = make_image("board", { 8, 8 }, texels);
+	uint32_t level_count = 0;
+	std::vector<uint8_t> levels = make_mip_levels(*board, true, level_count);
+	CHECK(level_count == 4);
+	REQUIRE(levels.size() == (64 + 16 + 4 + 1) * 4);
+	CHECK(std::equal(texels.begin(), texels.end(), levels.begin()));
+	for (size_t index = 64 * 4; index < levels.size(); ++index) {
+		CHECK(std::abs(levels[index] - (index % 4 == 3 ? 255 : 188)) <= 1);
+	}
+	levels = make_mip_levels(*board, false, level_count);
+	CHECK(std::abs(levels.back() - 255) == 0);
+	CHECK(std::abs(levels[64 * 4] - 128) <= 1);
+	// Odd sizes: nothing is left out, nothing counts twice.
+	const auto odd = make_noise({ 7, 5 });
+	levels = make_mip_levels(*odd, false, level_count);
+	CHECK(level_count == 3);
+	double mean = 0;
+	for (uint32_t index = 0; index < 35; ++index) {
+		mean += odd->texels[index * 4] / 35.0;
+	}
+	CHECK(std::abs(levels[levels.size() - 4] - mean) <= 2);
+	// Colours that are not seen do not bleed into those that are.
+	const auto leaf = make_image("leaf", { 2, 1 }, { 0, 255, 0, 255, 255, 0, 0, 0 });
+	levels = make_mip_levels(*leaf, true, level_count);
+	CHECK(levels[8] == 0);
+	CHECK(levels[9] == 255);
+	CHECK(levels[11] == 128);
+}
+
+TEST_CASE("[GPU][Textures] a texture far away is its mean, or its first level where it has no "
+		  "other") {
+	RenderFixture fixture;
+	Square square;
+	square.high = { 256, 256 }; // 4 images a pixel
+	Texture &texture = square.material.base_color_texture;
+	texture.image = make_image("stripes", { 2, 1 }, { 0, 0, 0, 255, 255, 255, 255, 255 });
+	CHECK(find_base_color_error(square.draw(fixture), [](uint32_t) { return glm::dvec4(0.5); }) <=
+			1);
+	texture.mip_filter = MipFilter::NONE;
+	texture.is_minified_nearest = true;
+	const Texels texels = square.draw(fixture);
+	for (uint32_t pixel = 0; pixel < SIZE_PX * SIZE_PX; pixel += 37) {
+		const double value = texels.get_base_color(pixel).x;
+		CHECK((value == 0 || value == 1));
+	}
+}
+
+TEST_CASE("[GPU][Textures] what no material shows any more is freed") {
+	RenderFixture fixture;
+	MaterialStore store(*fixture.device);
+	auto image = make_noise({ 16, 16 });
+	Material looks;
+	looks.base_color_texture.image = image;
+	looks.emissive_texture.image = image; // one texture for both
+	looks.occlusion_texture.image = image;
+	auto first = std::make_shared<const Material>(looks);
+	auto second = std::make_shared<const Material>(looks);
+	store.get(first);
+	const uint64_t with_one = fixture.device->get_memory_use().used_bytes;
+	store.get(second);
+	CHECK(store.get_texture_count() == 2); // sRGB, and numbers
+	CHECK(fixture.device->get_memory_use().used_bytes - with_one < 1024);
+	first.reset();
+	second.reset();
+	looks = Material();
+	store.collect_garbage();
+	CHECK(store.get_texture_count() == 2); // the image is still held
+	image.reset();
+	store.collect_garbage();
+	CHECK(store.get_texture_count() == 0);
+}

@@ -1,0 +1,127 @@
+#include "modules/scene/stage.h"
+
+#include "modules/core/error.h"
+#include "modules/core/limits.h"
+#include "modules/scene/box_mesh.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace gnomon {
+
+namespace {
+
+const double CAMERA_FOV_RAD = 0.64;
+// Seen from the front, which looks along +z, a bit from the left and from above.
+const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
+// Over the camera's other shoulder, so that the shadow falls where it is seen.
+const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
+// In diagonals of the meshes' bounds.
+const double CAMERA_MARGIN = 1.25; // with its shadow the scene needs more room than its bounds
+const double LIGHT_DISTANCE = 2.0;
+const double LIGHT_SIZE = 0.1;
+const double GROUND_HALF_WIDTH = 6.0;
+const double GROUND_HALF_HEIGHT = 0.05;
+const double GROUND_GAP = 1e-3; // coplanar faces would flicker
+
+Bounds compute_bounds(const Scene &p_scene) {
+	Bounds bounds;
+	for (const MeshInstance3D *instance : p_scene.find_nodes<MeshInstance3D>()) {
+		const Bounds own = instance->compute_bounds();
+		if (!own.is_empty()) {
+			bounds.add(own);
+		}
+	}
+	return bounds;
+}
+
+glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
+	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0, 1, 0)));
+}
+
+/// A name that no node of the scene has.
+std::string choose_name(const Scene &p_scene, const std::string &p_wanted) {
+	std::set<std::string> taken;
+	for (const Node3D *node : p_scene.find_nodes<Node3D>()) {
+		taken.insert(node->name);
+	}
+	std::string name = p_wanted;
+	for (int number = 2; taken.contains(name); ++number) {
+		name = text(p_wanted, "_", number);
+	}
+	return name;
+}
+
+void add_first(Scene &r_scene, std::unique_ptr<Node3D> p_node, const std::string &p_name) {
+	p_node->name = choose_name(r_scene, p_name);
+	p_node->is_staged = true;
+	r_scene.root->insert_child(std::move(p_node), 0);
+}
+
+} // namespace
+
+StageMode parse_stage_mode(const std::string &p_text, const std::string &p_object) {
+	if (p_text == "auto") {
+		return StageMode::AUTO;
+	}
+	if (p_text == "on" || p_text == "off") {
+		return p_text == "on" ? StageMode::ON : StageMode::OFF;
+	}
+	fail(p_object, " is \"", p_text, "\", must be auto, on or off.");
+}
+
+std::string stage_scene(Scene &r_scene, StageMode p_mode) {
+	const Bounds bounds = compute_bounds(r_scene);
+	const double size_m = bounds.get_diagonal();
+	if (p_mode == StageMode::OFF || !(size_m > 0) || !std::isfinite(size_m)) {
+		return "";
+	}
+	const bool is_all = p_mode == StageMode::ON;
+	const bool needs_camera = is_all || r_scene.find_nodes<Camera3D>().empty();
+	const bool needs_light = is_all || r_scene.find_nodes<Light3D>().empty();
+	const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
+	std::string added;
+	if (needs_light) {
+		auto ground = std::make_unique<MeshInstance3D>();
+		const double below = size_m * (GROUND_GAP + GROUND_HALF_HEIGHT);
+		ground->parent_from_node = glm::translate(
+				glm::dmat4(1.0), glm::dvec3(centre.x, bounds.minimum.y - below, centre.z));
+		ground->surfaces.push_back(
+				{ make_box_mesh("stage ground",
+						  glm::vec3(size_m *
+								  glm::dvec3(GROUND_HALF_WIDTH, GROUND_HALF_HEIGHT,
+										  GROUND_HALF_WIDTH))),
+						std::make_shared<const Material>() });
+		ground->casts_shadow = false;
+		ground->is_planar_receiver = true;
+		add_first(r_scene, std::move(ground), "Stage ground");
+
+		auto light = std::make_unique<Light3D>();
+		light->type = LightType::SPOT;
+		const glm::dvec3 place = centre + glm::normalize(TO_LIGHT) * (LIGHT_DISTANCE * size_m);
+		light->parent_from_node = look_at(place, centre);
+		light->inner_cone_rad = 0.5f;
+		light->outer_cone_rad = 0.8f;
+		light->intensity = static_cast<float>(1000.0 * std::max(size_m * size_m, 1e-6));
+		light->properties["light_size"] = std::min(LIGHT_SIZE * size_m, MAX_LENGTH_M);
+		add_first(r_scene, std::move(light), "Stage light");
+		added = "a spot light and a ground";
+	}
+	if (needs_camera) {
+		auto camera = std::make_unique<Camera3D>();
+		const double distance = CAMERA_MARGIN * 0.5 * size_m / std::sin(CAMERA_FOV_RAD / 2);
+		camera->parent_from_node = look_at(centre + glm::normalize(TO_CAMERA) * distance, centre);
+		camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);
+		camera->near_m = static_cast<float>(1e-3 * distance);
+		add_first(r_scene, std::move(camera), "Stage camera");
+		added = added.empty() ? "a camera" : "a camera, " + added;
+	}
+	return added.empty() ? ""
+						 : text("Staged: ", added, added == "a camera" ? " was" : " were",
+								   " added, as the file has none. The file stays as it is.");
+}
+
+} // namespace gnomon

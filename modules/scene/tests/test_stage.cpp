@@ -1,0 +1,113 @@
+#include "modules/core/error.h"
+#include "modules/scene/box_mesh.h"
+#include "modules/scene/node_properties.h"
+#include "modules/scene/scene_snapshot.h"
+#include "modules/scene/stage.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+template <typename T> T &add(Scene &r_scene, const std::string &p_name) {
+	auto node = std::make_unique<T>();
+	node->name = p_name;
+	return static_cast<T &>(*r_scene.root->add_child(std::move(node)));
+}
+
+std::unique_ptr<Scene> make_model(
+		double p_scale = 1.0, const glm::dvec3 &p_place = glm::dvec3(0.0)) {
+	auto scene = std::make_unique<Scene>();
+	MeshInstance3D &box = add<MeshInstance3D>(*scene, "Stage light");
+	box.surfaces.push_back(
+			{ make_box_mesh("box", glm::vec3(1, 2, 0.5f)), std::make_shared<Material>() });
+	box.parent_from_node =
+			glm::scale(glm::translate(glm::dmat4(1.0), p_place), glm::dvec3(p_scale));
+	return scene;
+}
+
+} // namespace
+
+TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and a ground") {
+	for (const double scale : { 1.0, 1e-3, 1e5 }) {
+		CAPTURE(scale);
+		const auto scene = make_model(scale, glm::dvec3(7, 3, -2) * scale);
+		CHECK(stage_scene(*scene, StageMode::AUTO) ==
+				"Staged: a camera, a spot light and a ground were added, as the file has none. The "
+				"file stays "
+				"as it is.");
+		REQUIRE(scene->find_nodes<Camera3D>().size() == 1);
+		REQUIRE(scene->find_nodes<Light3D>().size() == 1);
+		REQUIRE(scene->find_nodes<MeshInstance3D>().size() == 2);
+		const Camera3D &camera = *scene->find_nodes<Camera3D>()[0];
+		const Light3D &light = *scene->find_nodes<Light3D>()[0];
+		CHECK(camera.is_staged);
+		CHECK(light.name == "Stage light_2"); // that name was taken
+		const auto snapshot = build_snapshot(*scene, camera);
+		const double size_m = 2 * std::sqrt(1 + 4 + 0.25) * scale;
+		CHECK(snapshot->scene_size_m == doctest::Approx(size_m)); // the ground is no caster
+		CHECK(snapshot->lights[0].light_size_m == doctest::Approx(std::min(0.1 * size_m, 10000.0)));
+		for (const InstanceSnapshot &instance : snapshot->instances) {
+			if (!instance.casts_shadow) {
+				// Below the model, by a little.
+				CHECK(instance.bounds_world.maximum.y < scale * (3 - 2));
+				CHECK(instance.bounds_world.maximum.y > scale * (3 - 2) - 0.01 * size_m);
+				continue;
+			}
+			for (int corner = 0; corner < 8; ++corner) {
+				const glm::dvec3 seen = glm::transpose(snapshot->camera.world_from_camera) *
+						(instance.bounds_world.get_corner(corner) -
+								snapshot->camera.position_world);
+				const double reach = -seen.z * std::tan(camera.vertical_fov_rad / 2);
+				CHECK(std::abs(seen.x) < reach);
+				CHECK(std::abs(seen.y) < reach);
+				CHECK(-seen.z > camera.near_m);
+				// Within the light's cone, and far from the light.
+				const glm::dvec3 to_corner = instance.bounds_world.get_corner(corner) -
+						snapshot->lights[0].position_world;
+				CHECK(glm::dot(glm::normalize(to_corner),
+							  snapshot->lights[0].get_direction_world()) >
+						std::cos(light.inner_cone_rad));
+				CHECK(glm::length(to_corner) > 5 * 0.1 * size_m);
+			}
+		}
+	}
+}
+
+TEST_CASE("[Stage] what a file has is not added, unless all is asked for") {
+	const auto scene = make_model();
+	add<Camera3D>(*scene, "Eye");
+	add<Light3D>(*scene, "Lamp");
+	CHECK(stage_scene(*scene, StageMode::AUTO) == "");
+	CHECK(stage_scene(*scene, StageMode::OFF) == "");
+	CHECK(scene->find_nodes<Node3D>().size() == 4);
+	CHECK(stage_scene(*scene, StageMode::ON).find("a camera, a spot light and a ground") !=
+			std::string::npos);
+	CHECK(scene->find_nodes<Camera3D>()[0]->is_staged); // first, so that it is the one that is used
+	CHECK(scene->find_nodes<Light3D>()[0]->is_staged);
+
+	const auto lit = make_model();
+	add<Light3D>(*lit, "Lamp");
+	CHECK(stage_scene(*lit, StageMode::AUTO).starts_with("Staged: a camera was added, "));
+	CHECK(lit->find_nodes<Light3D>().size() == 1);
+	CHECK(lit->find_nodes<MeshInstance3D>().size() == 1);
+	Scene nothing;
+	CHECK(stage_scene(nothing, StageMode::ON) == "");
+}
+
+TEST_CASE("[Stage] staged is a property of such nodes alone, and can be taken off") {
+	const auto scene = make_model();
+	stage_scene(*scene, StageMode::AUTO);
+	Node3D &light = *scene->find_nodes<Light3D>()[0];
+	CHECK(list_node_properties(light).find("staged"));
+	CHECK_FALSE(list_node_properties(*scene->find_nodes<MeshInstance3D>().back()).find("staged"));
+	set_node_property(light, "staged", false);
+	CHECK_FALSE(light.is_staged);
+	CHECK(parse_stage_mode("off", "--stage") == StageMode::OFF);
+	CHECK_THROWS_WITH_AS(parse_stage_mode("maybe", "--stage"),
+			"--stage is \"maybe\", must be auto, on or off.", Error);
+}
