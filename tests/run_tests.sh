@@ -96,7 +96,9 @@ fi
 install_packages "${packages[@]}" || exit 1
 
 work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+# Background jobs of a script ignore the interrupt key: they end with it.
+trap 'kill $(jobs -p) 2>/dev/null; rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
 # Never the user's own cache; shared by all parts, so that a truth is traced once.
 export GNOMON_CACHE_DIR=$work/cache GNOMON_CONFIG_DIR=$work/config
 export PYTHONDONTWRITEBYTECODE=1
@@ -187,7 +189,7 @@ run_lanes() {
 }
 
 finish() {
-    local counts rest
+    local counts passed failed skipped rest
     echo
     [ -f "$work/failures" ] && cat "$work/failures"
     counts=(0 0 0)

@@ -168,6 +168,7 @@ void EditorDocument::duplicate(Node3D &r_node) {
 	}
 	std::unique_ptr<Node3D> copy = copy_tree(r_node, *scene->root);
 	Node3D *made = copy.get();
+	made->is_staged = false; // a copy is the user's own
 	history.add(*r_node.parent, std::move(copy), text("Duplicate ", r_node.name));
 	selected = made;
 }

@@ -82,7 +82,8 @@ UiRenderer::UiRenderer(RenderingDevice &p_device) : device(p_device) {
 							TextureUsage::SAMPLED | TextureUsage::COPY_TARGET },
 					std::span(pixels, size_t(4) * size_px.x * size_px.y)));
 	fonts.SetTexID(to_texture_id(0));
-	sampler = OwnedSampler(device, device.create_sampler({ "editor pictures", Filter::LINEAR, Filter::LINEAR }));
+	sampler = OwnedSampler(
+			device, device.create_sampler({ "editor images", Filter::LINEAR, Filter::LINEAR }));
 	textures.push_back([this] { return font.get(); });
 }
 

@@ -24,12 +24,13 @@ const double MAX_EMISSIVE_CD_M2 = 1e9;				 // the sun's disc
 const double LAST_ROW_TOLERANCE = 1e-6;				 // exporters that compute in float
 const uint64_t MAX_OFFSET_BYTES = INT32_MAX;		 // tinygltf's
 const uint64_t MAX_STRIDE_BYTES = 252;
+const double MAX_TRANSFORM = 1e6; // of texture coordinates; floats hold them, and the rest is noise
 const char NEXT_STEP[] = "Correct it or export the file again.";
 
 /// Extensions that change nothing that is read here, or are read.
 bool is_known_extension(std::string_view p_name) {
 	return p_name == GLTF_PUNCTUAL || p_name == GLTF_AREA || p_name.starts_with("KHR_materials_") ||
-			p_name == "KHR_texture_transform" || p_name == "KHR_mesh_quantization";
+			p_name == GLTF_TEXTURE_TRANSFORM || p_name == "KHR_mesh_quantization";
 }
 
 /// Checks the elements of a list of the document, or of one of its objects.
@@ -96,11 +97,13 @@ void check_bool(const GltfObject &p_object, std::string_view p_key) {
 	}
 }
 
-/// Of a texture: reported, and left out.
+/// A reference of a texture: a wrong one is reported and removed.
 void check_reference(const GltfObject &p_object, std::string_view p_key, size_t p_count,
 		std::string_view p_otherwise) {
-	const Json *value = p_object.find(p_key);
-	if (value && (!value->is_number_integer() || *value < 0 || *value >= p_count)) {
+	const std::optional<uint64_t> index = p_object.find_whole_number(p_key);
+	if (index && *index < p_count) {
+		p_object.set(p_key, *index);
+	} else if (p_object.find(p_key)) {
 		p_object.report_value(p_key,
 				p_count == 0 ? "absent, as there is nothing to refer to" : text("0..", p_count - 1),
 				p_otherwise);
@@ -108,15 +111,33 @@ void check_reference(const GltfObject &p_object, std::string_view p_key, size_t 
 	}
 }
 
-void check_choice(
-		const GltfObject &p_object, std::string_view p_key, std::initializer_list<int> p_choices) {
-	const Json *value = p_object.find(p_key);
-	if (value && std::find(p_choices.begin(), p_choices.end(), *value) == p_choices.end()) {
+/// One of a few whole numbers: another value is reported and removed.
+void check_choice(const GltfObject &p_object, std::string_view p_key,
+		std::initializer_list<uint64_t> p_choices, const char *p_default) {
+	const std::optional<uint64_t> number = p_object.find_whole_number(p_key);
+	if (number && std::find(p_choices.begin(), p_choices.end(), *number) != p_choices.end()) {
+		p_object.set(p_key, *number);
+	} else if (p_object.find(p_key)) {
 		std::string choices;
-		for (const int choice : p_choices) {
+		for (const uint64_t choice : p_choices) {
 			choices += (choices.empty() ? "" : ", ") + std::to_string(choice);
 		}
-		p_object.report_value(p_key, "one of " + choices, "the default");
+		p_object.report_value(p_key, "one of " + choices, p_default);
+		p_object.erase(p_key);
+	}
+}
+
+/// Two numbers of KHR_texture_transform: other values are reported and removed.
+void check_pair(const GltfObject &p_object, std::string_view p_key, const char *p_default) {
+	const Json *value = p_object.find(p_key);
+	const auto is_good = [](const Json &p_number) {
+		return p_number.is_number() && std::abs(p_number.get<double>()) <= MAX_TRANSFORM;
+	};
+	if (value &&
+			!(value->is_array() && value->size() == 2 && is_good((*value)[0]) &&
+					is_good((*value)[1]))) {
+		p_object.report_value(
+				p_key, text("two numbers in -", MAX_TRANSFORM, "..", MAX_TRANSFORM), p_default);
 		p_object.erase(p_key);
 	}
 }
@@ -155,6 +176,12 @@ void GltfChecker::check() {
 	check_elements(root, "cameras", check_camera);
 	if (const auto punctual = root.find_extension(GLTF_PUNCTUAL)) {
 		check_elements(*punctual, "lights", check_light);
+	}
+	if (const auto area = root.find_extension(GLTF_AREA)) {
+		check_elements(*area, "lights", [](const GltfObject &p_light) {
+			p_light.set("type",
+					p_light.get_text("type")); // tinygltf drops empty objects, and indices shift
+		});
 	}
 	if (count("nodes") > GLTF_MAX_NODE_COUNT) {
 		root.fail_at("nodes",
@@ -218,16 +245,19 @@ void GltfChecker::check_bytes() const {
 		for (const char *key : { "wrapS", "wrapT" }) {
 			check_choice(p_sampler, key,
 					{ TINYGLTF_TEXTURE_WRAP_REPEAT, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE,
-							TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT });
+							TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT },
+					"repetition");
 		}
 		check_choice(p_sampler, "magFilter",
-				{ TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR });
+				{ TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR },
+				"interpolation");
 		check_choice(p_sampler, "minFilter",
 				{ TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_LINEAR,
 						TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST,
 						TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST,
 						TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR,
-						TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR });
+						TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR },
+				"interpolation with mip maps");
 	});
 	check_elements(root, "textures", [&](const GltfObject &p_texture) {
 		check_reference(
@@ -304,7 +334,18 @@ void GltfChecker::check_texture(const GltfObject &p_parent, const char *p_key) c
 		p_parent.erase(p_key);
 		return;
 	}
-	check_integer(info, "texCoord", 0, INT32_MAX);
+	check_choice(info, "texCoord", { 0, 1 }, "0");
+	const auto extensions = info.find_object("extensions");
+	const Json *written = extensions ? extensions->find(GLTF_TEXTURE_TRANSFORM) : nullptr;
+	if (written && !written->is_object()) {
+		extensions->report_value(GLTF_TEXTURE_TRANSFORM, "an object", "no transform");
+		extensions->erase(GLTF_TEXTURE_TRANSFORM);
+	} else if (const auto transform = info.find_extension(GLTF_TEXTURE_TRANSFORM)) {
+		check_choice(*transform, "texCoord", { 0, 1 }, "that of the texture");
+		check_pair(*transform, "offset", "0, 0");
+		check_pair(*transform, "scale", "1, 1");
+		check_number(*transform, "rotation", 0, -MAX_TRANSFORM, MAX_TRANSFORM, "rad");
+	}
 	check_number(info, "scale", 1, -FLT_MAX, FLT_MAX);
 	check_number(info, "strength", 1, 0, 1);
 }
@@ -386,10 +427,6 @@ void GltfChecker::check_node(const GltfObject &p_node) const {
 		if (const auto reference = p_node.find_extension(name)) {
 			const auto lights = root.find_extension(name);
 			require_index(*reference, "light", lights ? lights->get_count("lights") : 0);
-			if (lights) {
-				lights->get_element(
-						"lights", reference->require_index("light", lights->get_count("lights")));
-			}
 		}
 	}
 }
@@ -398,7 +435,7 @@ void GltfChecker::check_camera(const GltfObject &p_camera) {
 	const auto perspective = p_camera.find_object("perspective");
 	if (p_camera.get_text("type") != "perspective" || !perspective) {
 		p_camera.get_messages().warn(
-				"camera", p_camera.get_path(), "is not perspective; it is left out.");
+				"camera", p_camera.get_path(), "is not perspective; it is skipped.");
 		// One that tinygltf takes whatever is there.
 		p_camera.set("type", "orthographic");
 		p_camera.set(

@@ -25,7 +25,7 @@ void widen_integers(Json &r_json) {
 	}
 }
 
-/// Likewise, of the extras and extensions of all elements.
+/// The same for the extras and extensions of all elements.
 void widen_extras(Json &r_json) {
 	if (!r_json.is_structured()) {
 		return;
@@ -56,9 +56,9 @@ void make_parser_input(Json &r_json) {
 	}
 	for (Json &mesh : r_json["meshes"]) {
 		for (Json &primitive : mesh["primitives"]) {
-			if (primitive.contains(
-						"extensions")) { // it would be decoded, and take the accessors' place
-				primitive["extensions"].erase("KHR_draco_mesh_compression");
+			const auto extensions = primitive.find("extensions");
+			if (extensions != primitive.end() && extensions->is_object()) {
+				extensions->erase("KHR_draco_mesh_compression"); // else tinygltf decodes it
 			}
 		}
 	}

@@ -19,6 +19,7 @@ inline constexpr char GLTF_PUNCTUAL[] = "KHR_lights_punctual";
 inline constexpr char GLTF_AREA[] = "EXT_lights_area";
 inline constexpr char GLTF_TRANSMISSION[] = "KHR_materials_transmission";
 inline constexpr char GLTF_VOLUME[] = "KHR_materials_volume";
+inline constexpr char GLTF_TEXTURE_TRANSFORM[] = "KHR_texture_transform";
 inline constexpr char GLTF_EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strength";
 
 /// A node as it was loaded. What still equals it is not written.
@@ -30,7 +31,7 @@ struct GltfNodeState {
 	bool is_planar_receiver = false;
 };
 
-/// A file as it was read, kept by its scene: saving changes a copy of it.
+/// A file as it was read, which its scene holds: saving changes a copy of it.
 class GltfDocument : public SceneDocument {
 public:
 	/// Meshes of one node, as pointers that name them.

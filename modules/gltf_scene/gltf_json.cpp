@@ -146,11 +146,6 @@ std::optional<GltfObject> GltfObject::find_extension(std::string_view p_name) co
 	return extensions ? extensions->find_object(p_name) : std::nullopt;
 }
 
-std::optional<GltfObject> GltfObject::find_extras() const {
-	const Json *extras = find("extras");
-	return extras && extras->is_object() ? find_object("extras") : std::nullopt;
-}
-
 size_t GltfObject::get_count(std::string_view p_key) const {
 	const Json *value = find(p_key);
 	if (value && !value->is_array()) {
@@ -162,6 +157,11 @@ size_t GltfObject::get_count(std::string_view p_key) const {
 GltfObject GltfObject::get_element(std::string_view p_key, size_t p_index) const {
 	return GltfObject((*find(p_key))[p_index], path_of(p_key) + "[" + std::to_string(p_index) + "]",
 			*messages);
+}
+
+std::optional<uint64_t> GltfObject::find_whole_number(std::string_view p_key) const {
+	const Json *value = find(p_key);
+	return value ? to_integer(*value) : std::nullopt;
 }
 
 std::optional<uint64_t> GltfObject::find_integer(

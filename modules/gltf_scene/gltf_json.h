@@ -85,13 +85,13 @@ public:
 	GltfObject require_object(std::string_view p_key) const;
 	/// `extensions.<name>`; absent: nothing.
 	std::optional<GltfObject> find_extension(std::string_view p_name) const;
-	/// `extras`, which may be any value: absent or not an object: nothing.
-	std::optional<GltfObject> find_extras() const;
 	/// The length of an array; 0 when absent. Not an array: fails.
 	size_t get_count(std::string_view p_key) const;
 	/// An array's element, which must be an object. p_index is below get_count.
 	GltfObject get_element(std::string_view p_key, size_t p_index) const;
 
+	/// A whole number from 0; nothing where it is absent or another value.
+	std::optional<uint64_t> find_whole_number(std::string_view p_key) const;
 	/// A whole number in p_minimum..p_maximum, else fails.
 	std::optional<uint64_t> find_integer(
 			std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
@@ -122,7 +122,7 @@ public:
 			std::string_view p_key, std::string_view p_range, std::string_view p_default) const;
 
 private:
-	std::shared_ptr<Json> storage; // of json, where that is nobody else's
+	std::shared_ptr<Json> storage; // owns json; null where json is part of a document
 	Json *json;
 	std::string path;
 	GltfMessages *messages;

@@ -29,26 +29,21 @@ Value to_value(const glm::vec3 &p_color) {
 	return Value(Value::Array{ to_value(p_color.x), to_value(p_color.y), to_value(p_color.z) });
 }
 
-void read_surface(const tinygltf::Material &p_written, const std::string &p_path,
-		GltfTextures &r_textures, Material &r_material) {
+void read_surface(
+		const tinygltf::Material &p_written, GltfTextures &r_textures, Material &r_material) {
 	const tinygltf::PbrMetallicRoughness &surface = p_written.pbrMetallicRoughness;
-	const std::string surface_path = p_path + ".pbrMetallicRoughness.";
 	r_material.base_color = to_color(surface.baseColorFactor);
 	r_material.alpha = static_cast<float>(surface.baseColorFactor[3]);
-	r_material.base_color_texture =
-			r_textures.read(surface.baseColorTexture, surface_path + "baseColorTexture");
+	r_material.base_color_texture = r_textures.read(surface.baseColorTexture);
 	r_material.metallic = static_cast<float>(surface.metallicFactor);
 	r_material.roughness = static_cast<float>(surface.roughnessFactor);
-	r_material.metallic_roughness_texture = r_textures.read(
-			surface.metallicRoughnessTexture, surface_path + "metallicRoughnessTexture");
-	r_material.normal_texture = r_textures.read(p_written.normalTexture, p_path + ".normalTexture");
+	r_material.metallic_roughness_texture = r_textures.read(surface.metallicRoughnessTexture);
+	r_material.normal_texture = r_textures.read(p_written.normalTexture);
 	r_material.normal_scale = static_cast<float>(p_written.normalTexture.scale);
-	r_material.occlusion_texture =
-			r_textures.read(p_written.occlusionTexture, p_path + ".occlusionTexture");
+	r_material.occlusion_texture = r_textures.read(p_written.occlusionTexture);
 	r_material.occlusion_strength = static_cast<float>(p_written.occlusionTexture.strength);
 	r_material.emissive = to_color(p_written.emissiveFactor);
-	r_material.emissive_texture =
-			r_textures.read(p_written.emissiveTexture, p_path + ".emissiveTexture");
+	r_material.emissive_texture = r_textures.read(p_written.emissiveTexture);
 	if (const Value *strength = find_extension(p_written.extensions, GLTF_EMISSIVE_STRENGTH)) {
 		r_material.emissive *= static_cast<float>(get_number(*strength, "emissiveStrength", 1));
 	}
@@ -172,7 +167,7 @@ Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextu
 	Material material;
 	material.name = written.name;
 	material.file_index = static_cast<int>(p_index);
-	read_surface(written, path, r_textures, material);
+	read_surface(written, r_textures, material);
 	read_transmission(written, material);
 	if (material.alpha_mode == AlphaMode::BLEND && material.is_cut_out()) {
 		r_messages.warn("blend", path,

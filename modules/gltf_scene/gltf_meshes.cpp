@@ -134,7 +134,7 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 	}
 	const auto position_attribute = p_primitive.attributes.find("POSITION");
 	if (position_attribute == p_primitive.attributes.end()) {
-		messages.warn("positions", p_path, "has no POSITION; it is left out.");
+		messages.warn("positions", p_path, "has no POSITION; it is skipped.");
 		return nullptr;
 	}
 	// Shared, not copied: a file of some kilobytes may have a thousand primitives of one array.

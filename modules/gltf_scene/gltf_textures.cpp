@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_textures.h"
 
 #include "modules/core/error.h"
+#include "modules/gltf_scene/gltf_document.h"
 #include "modules/gltf_scene/gltf_values.h"
 #include "modules/gltf_scene/image_decoder.h"
 
@@ -10,7 +11,6 @@ namespace gnomon {
 
 namespace {
 
-const char TRANSFORM[] = "KHR_texture_transform";
 /// Of all images of a file: 2 GiB, a third more with their levels of detail.
 const uint64_t MAX_ALL_TEXELS = uint64_t(1) << 29;
 
@@ -22,16 +22,20 @@ TextureWrap to_wrap(int p_mode) {
 
 /// KHR_texture_transform: scaled, then turned, then moved. Turned counter-clockwise as it is seen,
 /// with y down.
-glm::mat3x2 read_transform(const GltfObject &p_transform) {
-	double offset[2] = { 0, 0 };
-	double scale[2] = { 1, 1 };
-	p_transform.find_numbers("offset", offset);
-	p_transform.find_numbers("scale", scale);
-	const double turn = p_transform.read_number("rotation", 0, -1e6, 1e6, "rad");
+glm::mat3x2 read_transform(const tinygltf::Value &p_transform) {
+	const auto get_pair = [&](const char *p_key, double p_default) {
+		if (!p_transform.Has(p_key)) {
+			return glm::dvec2(p_default);
+		}
+		const tinygltf::Value &pair = p_transform.Get(p_key);
+		return glm::dvec2(pair.Get(0).GetNumberAsDouble(), pair.Get(1).GetNumberAsDouble());
+	};
+	const glm::dvec2 offset = get_pair("offset", 0);
+	const glm::dvec2 scale = get_pair("scale", 1);
+	const double turn = get_number(p_transform, "rotation", 0);
 	const double c = std::cos(turn);
 	const double s = std::sin(turn);
-	return glm::mat3x2(glm::dvec2(c, -s) * scale[0], glm::dvec2(s, c) * scale[1],
-			glm::dvec2(offset[0], offset[1]));
+	return glm::mat3x2(glm::dvec2(c, -s) * scale.x, glm::dvec2(s, c) * scale.y, offset);
 }
 
 } // namespace
@@ -41,14 +45,14 @@ GltfTextures::GltfTextures(
 		root(p_root),
 		model(p_model), buffers(p_buffers) {}
 
-Texture GltfTextures::read(size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions,
-		const std::string &p_path) {
+Texture GltfTextures::read(
+		size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions) {
 	Texture texture;
 	const tinygltf::Texture &written = model.textures[p_index];
 	GltfMessages &messages = root.get_messages();
 	if (written.source < 0) {
 		messages.report(messages.describe(text("textures[", p_index, "].source"),
-				"is missing, must name a PNG or JPEG image; the texture is left out."));
+				"is missing, must name a PNG or JPEG image; the texture is skipped."));
 		return texture;
 	}
 	texture.image = load_image(static_cast<size_t>(written.source));
@@ -58,19 +62,11 @@ Texture GltfTextures::read(size_t p_index, int p_uv_set, const tinygltf::Extensi
 	if (written.sampler >= 0) {
 		read_sampler(static_cast<size_t>(written.sampler), texture);
 	}
-	uint64_t uv_set = static_cast<uint64_t>(p_uv_set);
-	if (const tinygltf::Value *value = find_extension(p_extensions, TRANSFORM)) {
-		const GltfObject transform =
-				*find_object(*value, text(p_path, ".extensions.", TRANSFORM), messages);
-		texture.transform = read_transform(transform);
-		uv_set = transform.find_integer("texCoord", 0, INT32_MAX).value_or(uv_set);
+	texture.uv_set = static_cast<uint32_t>(p_uv_set);
+	if (const tinygltf::Value *transform = find_extension(p_extensions, GLTF_TEXTURE_TRANSFORM)) {
+		texture.transform = read_transform(*transform);
+		texture.uv_set = static_cast<uint32_t>(get_number(*transform, "texCoord", p_uv_set));
 	}
-	if (uv_set > 1) {
-		messages.report(messages.describe(
-				p_path + ".texCoord", text("is ", uv_set, ", must be 0..1; 0 is used.")));
-		uv_set = 0;
-	}
-	texture.uv_set = static_cast<uint32_t>(uv_set);
 	return texture;
 }
 

@@ -18,17 +18,15 @@ public:
 	/// p_root: the document as it was read, for the images' places. All must outlive it.
 	GltfTextures(const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers);
 
-	/// p_info: a TextureInfo of tinygltf, also that of a normal or occlusion map. p_path: where it
-	/// stands.
-	template <typename Info> Texture read(const Info &p_info, const std::string &p_path) {
-		return p_info.index < 0 ? Texture()
-								: read(static_cast<size_t>(p_info.index), p_info.texCoord,
-										  p_info.extensions, p_path);
+	/// p_info: a TextureInfo of tinygltf, also that of a normal or occlusion map.
+	template <typename Info> Texture read(const Info &p_info) {
+		return p_info.index < 0
+				? Texture()
+				: read(static_cast<size_t>(p_info.index), p_info.texCoord, p_info.extensions);
 	}
 
 private:
-	Texture read(size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions,
-			const std::string &p_path);
+	Texture read(size_t p_index, int p_uv_set, const tinygltf::ExtensionMap &p_extensions);
 	const std::shared_ptr<const Image> &load_image(size_t p_index);
 	std::shared_ptr<const Image> decode(size_t p_index, const GltfObject &p_image);
 	void read_sampler(size_t p_index, Texture &r_texture) const;

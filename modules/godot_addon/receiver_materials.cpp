@@ -168,9 +168,9 @@ void ReceiverMaterials::take_answers() {
 			}
 		}
 	} else if (++silent_frames == MOST_SILENT_FRAMES) {
-		log_warning("This Godot told the shaders of ", answers.size(), " of ", asked.size(),
+		log_warning("Godot returned the shaders of ", answers.size(), " of ", asked.size(),
 				" materials in ", MOST_SILENT_FRAMES,
-				" frames, must tell all: such materials stay in "
+				" frames, must return all: such materials stay in "
 				"Godot's light and shadow. Use Godot 4.6, or ShaderMaterials that include "
 				"gnomon.gdshaderinc.");
 	}

@@ -24,7 +24,7 @@ struct GpuMaterial {
 	std::weak_ptr<const Material> material;
 };
 
-/// What vertices have beside position and normal, in GPU memory.
+/// Vertex attributes other than position and normal, in GPU memory.
 struct GpuAttributes {
 	std::array<OwnedBuffer, 2> uvs;
 	OwnedBuffer tangents;
@@ -37,7 +37,7 @@ struct VertexStream {
 	bool is_constant = false;
 };
 
-/// Keeps the textures of the materials in use; what nobody holds any more is freed.
+/// The textures of the materials in use; those that are no longer referenced are freed.
 class MaterialStore {
 public:
 	explicit MaterialStore(RenderingDevice &p_device);

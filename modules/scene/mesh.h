@@ -39,7 +39,7 @@ struct Bounds {
 /// Of a box's corners after a transform; not for an empty one.
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source);
 
-/// What vertices may have beside position and normal. Each list is empty or has one element a
+/// Vertex attributes other than position and normal. Each list is empty or has one element a
 /// vertex.
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top

@@ -121,7 +121,7 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode) {
 	}
 	return added.empty() ? ""
 						 : text("Staged: ", added, added == "a camera" ? " was" : " were",
-								   " added, as the file has none. The file stays as it is.");
+								   " added. The file stays as it is.");
 }
 
 } // namespace gnomon

@@ -74,12 +74,14 @@ class BadScenes(CommandLineTest):
     def test_a_scene_without_camera_says_so(self):
         del self.find_node("Camera")["camera"]
         del self.scene["cameras"]
-        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "camera")
+        result = self.compute_mask(self.write_scene(self.scene), "--stage", "off")
+        self.assert_refused(result, "changed.gltf", "camera", "--stage auto")
 
     def test_a_scene_without_light_says_so(self):
         del self.find_node("Light")["extensions"]
         del self.scene["extensions"]
-        self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "light")
+        result = self.compute_mask(self.write_scene(self.scene), "--stage", "off")
+        self.assert_refused(result, "changed.gltf", "light", "--stage auto")
 
     def test_a_scene_without_meshes_says_so(self):
         for node in self.scene["nodes"]:
@@ -88,11 +90,11 @@ class BadScenes(CommandLineTest):
             del self.scene[member]
         self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf", "mesh")
 
-    def test_an_alpha_mode_is_told_to_be_unread(self):
+    def test_a_blended_surface_is_warned_of(self):
         self.scene["materials"][0]["alphaMode"] = "BLEND"
         result = self.compute_mask(self.write_scene(self.scene))
         self.assert_mask(result)
-        self.assertIn("materials[0] has an alphaMode", result.stderr)
+        self.assertIn("materials[0] has alphaMode BLEND", result.stderr)
 
     def test_a_light_that_lights_nothing_in_view_says_so(self):
         self.find_node("Light")["translation"] = [0, -50, 0]

@@ -243,6 +243,28 @@ TEST_CASE("[GltfBadInput] required extensions that are not supported are named")
 	CHECK(get_load_error(folder, json) == "");
 }
 
+TEST_CASE("[GltfBadInput] extensions of any kind do not end the program") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	for (const char *pointer : { "/meshes/0/primitives/0/extensions", "/meshes/0/extensions",
+				 "/accessors/0/extensions", "/nodes/0/extensions", "/scenes/0/extensions",
+				 "/extensions" }) {
+		for (const Json &value :
+				{ Json(5), Json("x"), Json::array({ 1 }), Json(), Json::object() }) {
+			CAPTURE(pointer);
+			CAPTURE(value.dump());
+			Json json = make_triangle(folder);
+			json[Json::json_pointer(pointer)] = value;
+			const std::string error = get_load_error(folder, json);
+			CHECK((error.empty() || error.find("extensions is ") != std::string::npos));
+			if (error.empty()) {
+				save_gltf(*load_gltf(folder.path / "scene.gltf"), folder.path / "again.gltf");
+				CHECK(folder.read_json("again.gltf") == json);
+			}
+		}
+	}
+}
+
 TEST_CASE("[GltfBadInput] many nodes of one name, and a small file that claims much, stay quick") {
 	GltfTestFolder folder;
 	Json json = make_header();

@@ -96,6 +96,25 @@ TEST_CASE("[GltfLights] the area disc outranks the light's extras, and they the 
 	CHECK(load_number(folder, json, "penumbra_outer_width") == 0.6);
 }
 
+TEST_CASE("[GltfLights] an area light without members does not shift those after it") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = add_area(make_lamp(), { { "type", "disk" }, { "size", 0.5 } });
+	Json &lights = json["extensions"]["EXT_lights_area"]["lights"];
+	lights.insert(lights.begin(), Json::object());
+	json["nodes"][0]["extensions"]["EXT_lights_area"]["light"] = 1;
+	const auto scene = folder.load(json);
+	Light3D &light = *scene->find_nodes<Light3D>().at(0);
+	CHECK(std::get<double>(light.properties.at("light_size")) == 0.25);
+	light.properties["light_size"] = 0.75;
+	save_gltf(*scene, folder.path / "again.gltf");
+	const auto again = load_gltf(folder.path / "again.gltf");
+	CHECK(std::get<double>(again->find_nodes<Light3D>().at(0)->properties.at("light_size")) ==
+			0.75);
+	json["nodes"][0]["extensions"]["EXT_lights_area"]["light"] = 0;
+	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->properties.empty());
+}
+
 TEST_CASE("[GltfLights] -1 is allowed for r and t; other bad values are reported and left out") {
 	GltfTestFolder folder;
 	Json json = make_lamp();

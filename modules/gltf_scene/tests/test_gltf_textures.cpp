@@ -303,7 +303,20 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	CHECK(attributes.tangents.empty()); // no normal map
 	CHECK(log.errors.empty());
 
+	info["extensions"]["KHR_texture_transform"] =
+			Json::parse(R"({"offset": [1e300, 0], "scale": [1], "rotation": "x", "texCoord": -1})");
+	const auto refused = folder.load(json);
+	const Texture &plain = get_surface(*refused).material->base_color_texture;
+	CHECK(plain.transform == glm::mat3x2(1, 0, 0, 1, 0, 0));
+	CHECK(plain.uv_set == 1);
+	for (const char *words :
+			{ "KHR_texture_transform.offset is an array of 2", "scale is an array of 1",
+					"rotation is \"x\"", "KHR_texture_transform.texCoord is -1" }) {
+		CAPTURE(words);
+		CHECK(GltfTestLog::contains(log.errors, words));
+	}
 	info["texCoord"] = 2;
+	info["index"] = 0.0; // a whole number, if an odd one
 	info.erase("extensions");
 	json["samplers"][0]["wrapS"] = 7;
 	json["samplers"][0]["magFilter"] = "x";
@@ -316,7 +329,7 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	CHECK(get_surface(*other).material->base_color_texture.uv_set == 0);
 	CHECK(get_surface(*other).mesh->attributes.uvs[0] ==
 			std::vector<glm::vec2>(3, glm::vec2(0.0f)));
-	for (const char *words : { "baseColorTexture.texCoord is 2, must be 0..1",
+	for (const char *words : { "baseColorTexture.texCoord is 2, must be one of 0, 1",
 				 "samplers[0].wrapS is 7", "samplers[0].magFilter is \"x\"",
 				 "textures[1].source is 5, must be 0..0", "textures[1].sampler is 9",
 				 "textures[1].source is missing", "emissiveTexture.index is 44",

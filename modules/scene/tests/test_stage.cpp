@@ -37,9 +37,7 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 		CAPTURE(scale);
 		const auto scene = make_model(scale, glm::dvec3(7, 3, -2) * scale);
 		CHECK(stage_scene(*scene, StageMode::AUTO) ==
-				"Staged: a camera, a spot light and a ground were added, as the file has none. The "
-				"file stays "
-				"as it is.");
+				"Staged: a camera, a spot light and a ground were added. The file stays as it is.");
 		REQUIRE(scene->find_nodes<Camera3D>().size() == 1);
 		REQUIRE(scene->find_nodes<Light3D>().size() == 1);
 		REQUIRE(scene->find_nodes<MeshInstance3D>().size() == 2);
@@ -92,7 +90,7 @@ TEST_CASE("[Stage] what a file has is not added, unless all is asked for") {
 
 	const auto lit = make_model();
 	add<Light3D>(*lit, "Lamp");
-	CHECK(stage_scene(*lit, StageMode::AUTO).starts_with("Staged: a camera was added, "));
+	CHECK(stage_scene(*lit, StageMode::AUTO).starts_with("Staged: a camera was added."));
 	CHECK(lit->find_nodes<Light3D>().size() == 1);
 	CHECK(lit->find_nodes<MeshInstance3D>().size() == 1);
 	Scene nothing;
