@@ -28,7 +28,7 @@ struct PassBinding {
 	static PassBinding read(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::SHADER_READ_COMPUTE };
 	}
-	/// A uniform block.
+	/// A block of constants, see RenderGraph::upload_constants.
 	static PassBinding constants(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::UNIFORM_READ };
 	}

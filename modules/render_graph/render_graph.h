@@ -108,8 +108,11 @@ public:
 	/// A buffer that holds these bytes; for constants and small lists of this frame.
 	RGBuffer upload(
 			const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
+	/// For uniform blocks, and for storage blocks of std140 layout. Mesa's lavapipe 22.3 compiles a
+	/// shader again for each value of a uniform block that its branches depend on, for each light
+	/// and frame that is; of a storage block it never does.
 	template <typename T> RGBuffer upload_constants(const std::string &p_name, const T &p_block) {
-		return upload(p_name, BufferUsage::UNIFORM,
+		return upload(p_name, BufferUsage::UNIFORM | BufferUsage::STORAGE,
 				std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
 	}
 	/// A resource that outlives the frame. Between frames imported textures rest as

@@ -264,7 +264,7 @@ enum class Access {
 	SHADER_READ_VERTEX, // vertex and geometry stages
 	SHADER_READ_FRAGMENT,
 	SHADER_READ_COMPUTE,
-	UNIFORM_READ,		   // any stage
+	UNIFORM_READ,		   // any stage; uniform and storage buffers
 	SHADER_WRITE_FRAGMENT, // storage, read and write
 	SHADER_WRITE_COMPUTE,
 	COLOR_WRITE,

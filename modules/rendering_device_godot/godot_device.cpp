@@ -129,7 +129,8 @@ godot::RID GodotDevice::create_godot_buffer(
 		return rd.index_buffer_create(size / int64_t(sizeof(uint32_t)),
 				RD::INDEX_BUFFER_FORMAT_UINT32, bytes, false, bits);
 	}
-	if (has_usage(p_desc.usage, BufferUsage::UNIFORM)) {
+	if (has_usage(p_desc.usage, BufferUsage::UNIFORM) &&
+			!has_usage(p_desc.usage, BufferUsage::STORAGE)) { // Godot's are one of the two
 		return rd.uniform_buffer_create(size, bytes, 0);
 	}
 	return rd.storage_buffer_create(size, bytes,

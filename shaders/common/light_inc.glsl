@@ -29,9 +29,6 @@ bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 
 /// Illuminance on a surface that faces the light, lx per colour: KHR_lights_punctual's attenuation
 /// with its range window and smooth cone.
-///
-/// Without a branch on the light's constants: some drivers (Mesa's lavapipe 22.3) compile a shader anew
-/// for the constants that its branches ask for, here once a light and frame.
 vec3 illuminance(LightConstants p_light, vec3 p_to_light) {
 	const bool is_directional = p_light.type == LIGHT_TYPE_DIRECTIONAL;
 	const float distance2 = max(dot(p_to_light, p_to_light), 1e-12);

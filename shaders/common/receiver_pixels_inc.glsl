@@ -7,10 +7,10 @@
 #include "common/receiver_inc.glsl"
 #include "shared/map_resolve_shared.h"
 
-layout(set = 0, binding = MAP_RESOLVE_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = MAP_RESOLVE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
-layout(set = 0, binding = MAP_RESOLVE_BINDING_VIEWS) uniform Views {
+layout(std140, set = 0, binding = MAP_RESOLVE_BINDING_VIEWS) restrict readonly buffer Views {
 	LightViewsConstants light_views;
 };
 layout(set = 0, binding = MAP_RESOLVE_BINDING_DEPTH) uniform texture2D depth_texture;

@@ -8,7 +8,7 @@
 // All that a sample must know of a pixel in four words, as each pixel is looked up by many others:
 // depth; normal; a key of the material and the mask's blue; its red and green.
 layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
-layout(set = 0, binding = SCATTER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = SCATTER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = SCATTER_BINDING_DEPTH) uniform texture2D depth_texture;

@@ -6,7 +6,7 @@
 #include "common/normal_inc.glsl"
 #include "receiver_scatter/receiver_scatter_shared.h"
 
-layout(set = 0, binding = SCATTER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = SCATTER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = SCATTER_BINDING_MATERIAL) uniform texture2D material_texture;

@@ -6,7 +6,7 @@
 
 // Starts a frame's radiance: ambient and emitted light, and the background.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_texture;

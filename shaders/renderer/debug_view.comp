@@ -7,7 +7,7 @@
 // Shows one texture, stretched over the frame: nearest texel, range mapped to black .. white, or
 // classes as colours.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D shown_texture;

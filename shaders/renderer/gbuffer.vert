@@ -3,7 +3,7 @@
 #include "renderer/renderer_shared.h"
 #include "shared/frame_shared.h"
 
-layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame {
+layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
 	FrameConstants frame;
 };
 layout(push_constant) uniform Push {

@@ -20,6 +20,8 @@ struct SurfaceTexels {
 
 #ifdef VARIANT_TEXTURED
 
+// Constants of the G-buffer are uniform blocks: lavapipe 22.3 loads nothing from storage buffers in helper
+// invocations, and derivatives need them.
 layout(set = 0, binding = GBUFFER_BINDING_MATERIAL) uniform Material {
 	MaterialConstants material;
 };

@@ -6,7 +6,7 @@
 
 // gbuffer.frag for devices that tell no fragment its primitive: without the geometric normal, for
 // which derivatives would not do at grazing angles.
-layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame {
+layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
 	FrameConstants frame;
 };
 layout(push_constant) uniform Push {

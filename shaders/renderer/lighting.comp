@@ -10,10 +10,10 @@
 
 // Adds one light, times its visibility mask, to the frame's radiance.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
-layout(set = 0, binding = RENDERER_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = RENDERER_BINDING_LIGHT) restrict readonly buffer Light {
 	LightConstants light;
 };
 layout(set = 0, binding = RENDERER_BINDING_DEPTH) uniform texture2D depth_texture;

@@ -7,7 +7,7 @@
 // Exposed linear radiance to sRGB-encoded bytes. The curve is the identity below 0.8 and compresses
 // above it to 1, so that the penumbra's shades on screen are the mask's.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(set = 0, binding = RENDERER_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = RENDERER_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = RENDERER_BINDING_RADIANCE) uniform texture2D radiance_texture;

@@ -4,7 +4,7 @@
 
 // Empties the lists of one view, before they are made.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
-layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_HEADS) writeonly buffer Heads {

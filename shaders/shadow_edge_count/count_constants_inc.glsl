@@ -6,7 +6,7 @@
 
 #include "shadow_edge_count/count_parts_inc.glsl"
 
-layout(set = 0, binding = COUNT_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = COUNT_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light_block;
 };
 

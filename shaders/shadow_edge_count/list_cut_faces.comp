@@ -4,7 +4,7 @@
 
 // Lists the faces that may cut the light's disc. One work group goes through all faces, so that the list has their order.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
-layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_FACES) readonly buffer Faces {

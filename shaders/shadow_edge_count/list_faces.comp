@@ -7,7 +7,7 @@
 // what is counted does not depend on it. Nodes beyond the capacity are only counted: then a further attempt
 // with larger texels follows. One invocation per face; large faces are shared out among all of the group.
 layout(local_size_x = FACE_LIST_GROUP_SIZE) in;
-layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_FACES) readonly buffer Faces {

@@ -5,7 +5,7 @@
 // After an attempt to list a view's faces: where there was no room for all, the next one has larger texels.
 // Texels of twice the width hold about a quarter of the nodes; the last attempt has one texel, and a node a face.
 layout(local_size_x = 1) in;
-layout(set = 0, binding = FACE_LIST_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = FACE_LIST_BINDING_LIGHT) restrict readonly buffer Light {
 	CountLightConstants light;
 };
 layout(std430, set = 0, binding = FACE_LIST_BINDING_TOTALS) buffer Totals {

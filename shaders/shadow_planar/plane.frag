@@ -6,7 +6,7 @@
 #include "shadow_planar/shadow_planar_shared.h"
 
 // Marks in the stencil where a plane is seen.
-layout(set = 0, binding = PLANAR_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = PLANAR_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = PLANAR_BINDING_DEPTH) uniform texture2D depth_texture;

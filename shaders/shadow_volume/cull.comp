@@ -5,7 +5,7 @@
 // Which casters may have a shadow of their own? One workgroup per subtree: is its box hidden from the
 // light, so are all its casters; otherwise each is looked at.
 layout(local_size_x = CULLING_CASTERS_PER_SUBTREE) in;
-layout(std140, set = 0, binding = CULLING_BINDING_CONSTANTS) uniform Constants {
+layout(std140, set = 0, binding = CULLING_BINDING_CONSTANTS) restrict readonly buffer Constants {
 	CullingConstants constants;
 };
 layout(std430, set = 0, binding = CULLING_BINDING_BOUNDS) readonly buffer Bounds {

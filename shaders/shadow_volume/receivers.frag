@@ -7,13 +7,13 @@
 
 // The depth that volumes are compared with: that of each receiver, moved off its surface. What does not
 // receive stays at infinity. The mask begins as lit.
-layout(set = 0, binding = RECEIVERS_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = RECEIVERS_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = RECEIVERS_BINDING_DEPTH) uniform texture2D depth_texture;
 layout(set = 0, binding = RECEIVERS_BINDING_NORMAL) uniform utexture2D normal_texture;
 layout(set = 0, binding = RECEIVERS_BINDING_RECEIVERS) uniform texture2D receivers_texture;
-layout(set = 0, binding = RECEIVERS_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = RECEIVERS_BINDING_LIGHT) restrict readonly buffer Light {
 	LightConstants light;
 };
 layout(location = 0) out float out_visibility;

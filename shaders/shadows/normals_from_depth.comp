@@ -9,7 +9,7 @@
 // surface. Stored depth, near / z, is linear in pixels on a plane: of the three pixels ahead, around and
 // behind, those are taken whose depths lie closest to a line; where none do, the side with the smaller step.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
-layout(set = 0, binding = SURFACE_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;

@@ -8,10 +8,10 @@
 
 // Marks the pixels that the light can reach at all; every technique answers for these alone.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
-layout(set = 0, binding = SURFACE_BINDING_FRAME) uniform Frame {
+layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
-layout(set = 0, binding = SURFACE_BINDING_LIGHT) uniform Light {
+layout(std140, set = 0, binding = SURFACE_BINDING_LIGHT) restrict readonly buffer Light {
 	LightConstants light;
 };
 layout(set = 0, binding = SURFACE_BINDING_DEPTH) uniform texture2D depth_texture;

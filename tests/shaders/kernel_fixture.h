@@ -47,7 +47,7 @@ struct KernelFixture : DeviceFixture {
 	std::vector<glm::vec4> run_with_constants(const std::string &p_kernel, const T &p_constants,
 			const std::vector<glm::vec4> &p_input, size_t p_item_count, size_t p_output_per_item) {
 		const OwnedBuffer constants = make_buffer(
-				"kernel constants", std::vector<T>{ p_constants }, BufferUsage::UNIFORM);
+				"kernel constants", std::vector<T>{ p_constants }, BufferUsage::STORAGE);
 		return run(p_kernel, p_input, p_item_count, p_output_per_item,
 				{ { BINDING_CONSTANTS, constants.get() } });
 	}

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0) readonly buffer Input {
 layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[]; // three per item
 };
-layout(set = 0, binding = 2) uniform Views {
+layout(std140, set = 0, binding = 2) restrict readonly buffer Views {
 	LightViewsConstants light_views;
 };
 

@@ -11,7 +11,7 @@ layout(set = 0, binding = 0) readonly buffer Input {
 layout(set = 0, binding = 1) writeonly buffer Output {
 	vec4 results[];
 };
-layout(set = 0, binding = 2) uniform Constants {
+layout(std140, set = 0, binding = 2) restrict readonly buffer Constants {
 	CountLightConstants light;
 };
 layout(set = 0, binding = 3) readonly buffer Edges {

@@ -85,7 +85,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 		input.push_back(box.box.slope_range);
 	}
 	const OwnedBuffer light = r_fixture.make_buffer("light",
-			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::UNIFORM);
+			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::STORAGE);
 	const OwnedBuffer edges = r_fixture.make_buffer("edges", arrays.edges);
 	const OwnedBuffer planes = r_fixture.make_buffer("planes", arrays.planes);
 	const auto results =

@@ -26,7 +26,7 @@ std::vector<glm::vec4> run_receivers(const CountScene &p_scene, KernelFixture &r
 		input.emplace_back(glm::vec3(receiver), 0.0f);
 	}
 	const OwnedBuffer light = r_fixture.make_buffer("light",
-			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::UNIFORM);
+			std::vector<shader::CountLightConstants>{ arrays.light }, BufferUsage::STORAGE);
 	const OwnedBuffer edges = r_fixture.make_buffer("edges", arrays.edges);
 	const OwnedBuffer faces = r_fixture.make_buffer("faces", arrays.faces);
 	const OwnedBuffer planes = r_fixture.make_buffer("planes", arrays.planes);

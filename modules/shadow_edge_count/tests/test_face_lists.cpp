@@ -56,7 +56,7 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 	const uint32_t texel_count = p_light.views[0].map_size_px.x * p_light.views[0].map_size_px.y;
 	const BufferUsage usage = BufferUsage::STORAGE | BufferUsage::COPY_SOURCE;
 	const OwnedBuffer light = r_fixture.make_buffer(
-			"light", std::vector<shader::CountLightConstants>{ p_light }, BufferUsage::UNIFORM);
+			"light", std::vector<shader::CountLightConstants>{ p_light }, BufferUsage::STORAGE);
 	const OwnedBuffer faces = r_fixture.make_buffer("faces", records);
 	const OwnedBuffer heads =
 			r_fixture.make_buffer("heads", std::vector<uint32_t>(texel_count, 77u), usage);

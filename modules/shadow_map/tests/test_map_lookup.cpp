@@ -37,7 +37,7 @@ std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool>
 															   .is_array = true },
 					bytes_of(std::span<const float>(depths))));
 	const OwnedBuffer view = r_fixture.make_buffer(
-			"view", std::vector<shader::LightViewConstants>{ make_view() }, BufferUsage::UNIFORM);
+			"view", std::vector<shader::LightViewConstants>{ make_view() }, BufferUsage::STORAGE);
 	std::vector<glm::vec4> points;
 	for (const glm::vec2 &texel : p_texels) {
 		const glm::vec2 xy = (texel / float(SIZE_PX) * 2.0f - 1.0f) * HALF_EXTENT_M;

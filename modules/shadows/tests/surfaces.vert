@@ -3,7 +3,7 @@
 #include "shared/frame_shared.h"
 
 // The host of the tests of shadows: what its camera sees, see surface_host.h.
-layout(set = 0, binding = 0) uniform Frame {
+layout(std140, set = 0, binding = 0) restrict readonly buffer Frame {
 	FrameConstants frame;
 };
 layout(push_constant) uniform Push {
