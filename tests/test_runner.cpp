@@ -7,6 +7,7 @@
 #include "modules/core/log.h"
 #include "modules/core/module_registry.h"
 #include "modules/rendering_device/rendering_device.h"
+#include "modules/rendering_device/tests/device_pool.h"
 
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
@@ -71,6 +72,7 @@ int run_tests(int p_argument_count, char **p_arguments) {
 	context.setOption("no-version", true);
 	context.applyCommandLine(p_argument_count, p_arguments);
 	const int result = context.run();
+	gnomon::close_test_devices();
 	gnomon::ModuleRegistry::uninitialize();
 	if (context.shouldExit()) {
 		return result;

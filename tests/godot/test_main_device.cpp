@@ -14,7 +14,7 @@ void use_main_device(MaskFixture &r_fixture) {
 	r_fixture.transients.reset();
 	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
 	r_fixture.device =
-			std::make_unique<GodotDevice>(server.get_rendering_device(), GodotDevice::Kind::MAIN);
+			TestDevice(new GodotDevice(server.get_rendering_device(), GodotDevice::Kind::MAIN), {});
 	r_fixture.transients = std::make_unique<TransientPool>(*r_fixture.device);
 	r_fixture.shadows = std::make_unique<ShadowSystem>(*r_fixture.device);
 }

@@ -9,14 +9,16 @@ namespace gnomon {
 
 struct RenderFixture {
 	TemporaryCache cache;
-	std::unique_ptr<RenderingDevice> device;
+	TestDevice device;
 	std::unique_ptr<Renderer> renderer;
 
 	/// p_device: as DeviceOptions::device.
-	explicit RenderFixture(const std::string &p_device = "", const FeatureList &p_denied = {}) {
-		device = create_validated_device(p_device, p_denied);
+	explicit RenderFixture(const std::string &p_device = "", const FeatureList &p_denied = {},
+			DeviceChoice p_choice = DeviceChoice::ANY) :
+			device(create_test_device(p_choice, p_device, p_denied)) {
 		renderer = std::make_unique<Renderer>(*device);
 	}
+	explicit RenderFixture(DeviceChoice p_choice) : RenderFixture("", {}, p_choice) {}
 
 	RenderResult render_mask(const SmallScene &p_scene, const std::string &p_technique,
 			glm::uvec2 p_size_px = glm::uvec2(64), bool p_may_leave_out = true) {

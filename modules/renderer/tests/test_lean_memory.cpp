@@ -65,7 +65,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 		ids.push_back(info.id);
 	}
 	const auto measure = [](const std::string &p_id) {
-		RenderFixture fixture;
+		RenderFixture fixture(DeviceChoice::NEW);
 		SmallScene scene;
 		fixture.render_picture(scene, p_id);
 		return measure_use(*fixture.device);
@@ -87,7 +87,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 		CHECK(among_others.pipeline_count > 0);
 	}
 	// Two techniques at work are more: what is counted above does tell them apart.
-	RenderFixture fixture;
+	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const auto count_pipelines = [&](const std::string &p_second) {
 		lights.scene.light->properties["shadow_technique"] = ids.front();
@@ -103,7 +103,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 }
 
 TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
-	RenderFixture fixture;
+	RenderFixture fixture(DeviceChoice::NEW);
 	const Used without_frames = measure_use(*fixture.device);
 	const size_t topology_count = get_kept_topology_count();
 	SmallScene empty;
@@ -141,7 +141,7 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 }
 
 TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, and not at once") {
-	RenderFixture fixture;
+	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const std::string id = ShadowRegistry::find_default()->id;
 	const Used without = [&] {
@@ -173,7 +173,7 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 
 TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do") {
 	const auto measure = [](int p_hidden_count, Used &r_used) {
-		RenderFixture fixture;
+		RenderFixture fixture(DeviceChoice::NEW);
 		SmallScene scene;
 		for (int index = 1; index < 4; ++index) {
 			scene.add_light(text("Visible ", index), LightType::SPOT, { 0.8 * index, 3.5, -0.5 },

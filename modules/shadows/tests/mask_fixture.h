@@ -3,6 +3,7 @@
 #include "modules/core/tests/temporary_folder.h"
 #include "modules/render_graph/read_back.h"
 #include "modules/render_graph/transient_pool.h"
+#include "modules/rendering_device/tests/device_pool.h"
 #include "modules/rendering_device/tests/testing.h"
 #include "modules/scene/box_mesh.h"
 #include "modules/scene/nodes.h"
@@ -114,26 +115,17 @@ struct MaskResult : MaskValues {
 	std::vector<float> debug_values;		 // of the view, one per texel
 };
 
-/// p_device: as DeviceOptions::device.
-inline std::unique_ptr<RenderingDevice> create_validated_device(
-		const std::string &p_device, const FeatureList &p_denied) {
-	DeviceOptions options;
-	options.validation = true;
-	options.device = p_device;
-	options.denied_features = p_denied;
-	return create_rendering_device(options);
-}
-
 /// A device under validation and the smallest host, with a cache folder of their own.
 struct MaskFixture {
 	TemporaryCache cache;
-	std::unique_ptr<RenderingDevice> device;
+	TestDevice device;
 	std::unique_ptr<TransientPool> transients;
 	std::unique_ptr<ShadowSystem> shadows;
 
 	/// p_device: as DeviceOptions::device.
-	explicit MaskFixture(const std::string &p_device = "", const FeatureList &p_denied = {}) {
-		device = create_validated_device(p_device, p_denied);
+	explicit MaskFixture(const std::string &p_device = "", const FeatureList &p_denied = {},
+			DeviceChoice p_choice = DeviceChoice::ANY) :
+			device(create_test_device(p_choice, p_device, p_denied)) {
 		transients = std::make_unique<TransientPool>(*device);
 		shadows = std::make_unique<ShadowSystem>(*device);
 	}

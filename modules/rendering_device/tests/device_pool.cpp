@@ -1,0 +1,55 @@
+#include "modules/rendering_device/tests/device_pool.h"
+
+#include "modules/core/error.h"
+#include "modules/rendering_device/tests/testing.h"
+
+#include <vector>
+
+namespace gnomon {
+
+namespace {
+
+std::vector<std::unique_ptr<RenderingDevice>> waiting;
+
+/// Nothing is left on it, and it still works.
+bool is_sound(RenderingDevice &r_device) {
+	try {
+		r_device.abandon_commands();
+		r_device.wait_idle();
+		r_device.begin_commands(); // collects what was freed
+		r_device.submit_commands(RenderingDevice::SubmitMode::WAIT);
+		return list_live_resources(r_device).empty();
+	} catch (const Error &) {
+		return false; // lost
+	}
+}
+
+} // namespace
+
+void DeviceReturn::operator()(RenderingDevice *p_device) const {
+	std::unique_ptr<RenderingDevice> device(p_device);
+	if (device && is_shared && is_sound(*device)) {
+		waiting.push_back(std::move(device));
+	}
+}
+
+TestDevice create_test_device(
+		DeviceChoice p_choice, const std::string &p_device, const FeatureList &p_denied) {
+	const bool is_shared = p_choice == DeviceChoice::ANY && p_device.empty() && p_denied.empty();
+	if (is_shared && !waiting.empty()) {
+		std::unique_ptr<RenderingDevice> device = std::move(waiting.back());
+		waiting.pop_back();
+		return TestDevice(device.release(), { true });
+	}
+	DeviceOptions options;
+	options.validation = true;
+	options.device = p_device;
+	options.denied_features = p_denied;
+	return TestDevice(create_rendering_device(options).release(), { is_shared });
+}
+
+void close_test_devices() {
+	waiting.clear();
+}
+
+} // namespace gnomon

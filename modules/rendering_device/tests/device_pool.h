@@ -1,0 +1,29 @@
+#pragma once
+
+#include "modules/rendering_device/rendering_device.h"
+
+#include <memory>
+#include <string>
+
+namespace gnomon {
+
+/// Ends a device, or hands it to the next test that borrows one.
+struct DeviceReturn {
+	bool is_shared = false;
+	void operator()(RenderingDevice *p_device) const;
+};
+using TestDevice = std::unique_ptr<RenderingDevice, DeviceReturn>;
+
+/// What a test asks of its device. A new one has made no pipelines, and nobody has it afterwards:
+/// for tests that count pipelines, replace shaders or make a device fail.
+enum class DeviceChoice { ANY, NEW };
+
+/// A device under validation. Making pipelines is most of what tests would do, so one that a test
+/// has returned, sound and without resources, goes to the next that asks for any.
+/// p_device: as DeviceOptions::device; it and denied features get a new device.
+TestDevice create_test_device(
+		DeviceChoice p_choice, const std::string &p_device = "", const FeatureList &p_denied = {});
+/// Ends the devices that wait for a test.
+void close_test_devices();
+
+} // namespace gnomon
