@@ -1,5 +1,7 @@
 #include "modules/editor/scene_rays.h"
 
+#include "modules/scene/cut_mesh.h"
+
 #include <cmath>
 #include <limits>
 
@@ -15,15 +17,15 @@ void SceneRays::follow(const Scene &p_scene) {
 			continue;
 		}
 		for (const MeshInstance3D::Surface &surface : node->surfaces) {
-			if (surface.mesh->bounds_node.is_empty()) {
+			const std::shared_ptr<const Mesh> mesh =
+					get_cut_mesh(surface.mesh, surface.material).mesh;
+			if (!mesh || mesh->bounds_node.is_empty()) {
 				continue;
 			}
-			instances.push_back(
-					{ node, surface.mesh, world_from_node, glm::inverse(world_from_node),
-							transform_bounds(surface.mesh->bounds_node, world_from_node),
-							node->casts_shadow });
-			if (std::unique_ptr<RayTree> &tree = trees[surface.mesh->id]) {
-				kept[surface.mesh->id] = std::move(tree);
+			instances.push_back({ node, mesh, world_from_node, glm::inverse(world_from_node),
+					transform_bounds(mesh->bounds_node, world_from_node), node->casts_shadow });
+			if (std::unique_ptr<RayTree> &tree = trees[mesh->id]) {
+				kept[mesh->id] = std::move(tree);
 			}
 		}
 	}

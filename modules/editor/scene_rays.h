@@ -15,7 +15,7 @@ class SceneRays {
 public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
-		std::shared_ptr<const Mesh> mesh;
+		std::shared_ptr<const Mesh> mesh; // what is there of it, see CutMesh
 		glm::dmat4 world_from_node = glm::dmat4(1.0);
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;

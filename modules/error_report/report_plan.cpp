@@ -249,8 +249,8 @@ private:
 		p_configuration.scene_size_m = question.scene->scene_size_m;
 		for (const InstanceSnapshot &instance : question.scene->instances) {
 			if (instance.casts_shadow) {
-				p_configuration.triangle_count += instance.mesh->get_triangle_count();
-				p_configuration.edge_count += get_topology(instance.mesh)->edges.size();
+				p_configuration.triangle_count += instance.caster_mesh->get_triangle_count();
+				p_configuration.edge_count += get_topology(instance.caster_mesh)->edges.size();
 			}
 		}
 		// What has no truth lacks none.

@@ -172,8 +172,7 @@ Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextu
 	if (material.alpha_mode == AlphaMode::BLEND && material.is_cut_out()) {
 		r_messages.warn("blend", path,
 				"has alphaMode BLEND: it is drawn and casts like MASK, where alpha is at least "
-				"0.5. Light goes "
-				"through with KHR_materials_transmission.");
+				"0.5. Light goes through with KHR_materials_transmission.");
 	}
 	if (const auto extras = find_object(written.extras, path + ".extras", r_messages)) {
 		read_extras(*extras, material);

@@ -93,8 +93,8 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 	uint64_t edge_count = 0;
 	for (const InstanceSnapshot &instance : p_request.scene->instances) {
 		if (instance.casts_shadow) {
-			triangle_count += instance.mesh->get_triangle_count();
-			edge_count += get_topology(instance.mesh)->edges.size();
+			triangle_count += instance.caster_mesh->get_triangle_count();
+			edge_count += get_topology(instance.caster_mesh)->edges.size();
 		}
 	}
 	const DeviceInfo &info = r_renderer.get_device().get_info();

@@ -90,8 +90,23 @@ void collect_triangles(const Mesh &p_mesh, MeshTopology &r_topology) {
 	}
 }
 
+/// The cross product of two sides of a triangle; zero where rounding is all of it.
+glm::dvec3 compute_cross(const glm::dvec3 &p_0, const glm::dvec3 &p_1, const glm::dvec3 &p_2) {
+	const glm::dvec3 cross = glm::cross(p_1 - p_0, p_2 - p_0);
+	const bool has_area =
+			glm::length(cross) > ZERO_AREA_SINE * glm::length(p_1 - p_0) * glm::length(p_2 - p_0);
+	return has_area ? cross : glm::dvec3(0.0);
+}
+
+/// Of a triangle of a mesh.
+glm::dvec3 compute_cross(const Mesh &p_mesh, uint32_t p_triangle) {
+	const uint32_t *corner = &p_mesh.indices[3 * size_t(p_triangle)];
+	return compute_cross(p_mesh.positions_node[corner[0]], p_mesh.positions_node[corner[1]],
+			p_mesh.positions_node[corner[2]]);
+}
+
 /// Planes, vertex normals and volume. Returns the unit normals in double; zero without area.
-std::vector<glm::dvec3> compute_normals(MeshTopology &r_topology) {
+std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topology) {
 	const size_t face_count = r_topology.source_triangles.size();
 	const size_t vertex_count = r_topology.welded_positions_node.size();
 	std::vector<glm::dvec3> unit_normals(face_count, glm::dvec3(0.0));
@@ -108,14 +123,18 @@ std::vector<glm::dvec3> compute_normals(MeshTopology &r_topology) {
 		const glm::dvec3 p0 = r_topology.welded_positions_node[corner[0]];
 		const glm::dvec3 p1 = r_topology.welded_positions_node[corner[1]];
 		const glm::dvec3 p2 = r_topology.welded_positions_node[corner[2]];
-		const glm::dvec3 cross = glm::cross(p1 - p0, p2 - p0);
+		const glm::dvec3 cross = compute_cross(p0, p1, p2);
 		const double length = glm::length(cross);
 		r_topology.signed_volume_m3 += glm::dot(p0 - centre, cross) / 6;
-		if (!(length > ZERO_AREA_SINE * glm::length(p1 - p0) * glm::length(p2 - p0))) {
-			++r_topology.counts.zero_area_triangle_count;
+		r_topology.counts.zero_area_triangle_count += length > 0 ? 0 : 1;
+		const glm::dvec3 whole = p_mesh.source.mesh
+				? compute_cross(*p_mesh.source.mesh,
+						  p_mesh.source.triangles[r_topology.source_triangles[face]])
+				: cross;
+		if (!(glm::length(whole) > 0)) {
 			continue;
 		}
-		unit_normals[face] = cross / length;
+		unit_normals[face] = glm::normalize(whole);
 		FacePlane &plane = r_topology.planes[face];
 		plane.normal = glm::vec3(unit_normals[face]);
 		// From the rounded normal: the plane then fits the triangle itself best.
@@ -278,7 +297,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 	MeshTopology topology;
 	weld(p_mesh, topology);
 	collect_triangles(p_mesh, topology);
-	const std::vector<glm::dvec3> unit_normals = compute_normals(topology);
+	const std::vector<glm::dvec3> unit_normals = compute_normals(p_mesh, topology);
 
 	std::vector<uint32_t> first_of_vertex;
 	const std::vector<SortedHalfEdge> sorted = sort_half_edges(topology, first_of_vertex);

@@ -108,12 +108,15 @@ public:
 	/// A buffer that holds these bytes; for constants and small lists of this frame.
 	RGBuffer upload(
 			const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
-	/// For uniform blocks, and for storage blocks of std140 layout. Mesa's lavapipe 22.3 compiles a
+	/// For storage blocks of std140 layout, or for uniform blocks. Mesa's lavapipe 22.3 compiles a
 	/// shader again for each value of a uniform block that its branches depend on, for each light
-	/// and frame that is; of a storage block it never does.
-	template <typename T> RGBuffer upload_constants(const std::string &p_name, const T &p_block) {
-		return upload(p_name, BufferUsage::UNIFORM | BufferUsage::STORAGE,
-				std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
+	/// and frame that is; of a storage block it never does. But it loads nothing from storage
+	/// blocks in helper invocations, which derivatives need, and slower ones in fragment shaders.
+	template <typename T>
+	RGBuffer upload_constants(const std::string &p_name, const T &p_block,
+			BufferUsage p_usage = BufferUsage::STORAGE) {
+		return upload(
+				p_name, p_usage, std::span(reinterpret_cast<const uint8_t *>(&p_block), sizeof(T)));
 	}
 	/// A resource that outlives the frame. Between frames imported textures rest as
 	/// SHADER_READ_COMPUTE. NONE: it has no content yet (it was just made).

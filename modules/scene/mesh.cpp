@@ -101,7 +101,7 @@ void repair_normals(Mesh &r_mesh) {
 
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
-		MeshAttributes p_attributes) {
+		MeshAttributes p_attributes, MeshSource p_source) {
 	static std::atomic<uint64_t> next_id = 1;
 	auto mesh = std::make_shared<Mesh>();
 	mesh->name = std::move(p_name);
@@ -109,6 +109,7 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 	mesh->normals_node = std::move(p_normals_node);
 	mesh->indices = std::move(p_indices);
 	mesh->attributes = std::move(p_attributes);
+	mesh->source = std::move(p_source);
 	check_mesh(*mesh);
 	repair_normals(*mesh);
 	for (const glm::vec3 &position : mesh->positions_node) {

@@ -49,6 +49,15 @@ struct MeshAttributes {
 	std::vector<glm::vec4> colors; // linear, and alpha
 };
 
+struct Mesh;
+
+/// Of a mesh that was cut out of another: in which of its triangles each one lies. Their planes are
+/// the source's, as rounding bends those of small triangles.
+struct MeshSource {
+	std::shared_ptr<const Mesh> mesh; // null: the mesh is its own
+	std::vector<uint32_t> triangles;
+};
+
 /// Triangles of one material. Immutable once shared; identified by `id`.
 struct Mesh {
 	std::string name;
@@ -56,6 +65,7 @@ struct Mesh {
 	std::vector<glm::vec3> normals_node;   // unit, one per position
 	MeshAttributes attributes;
 	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
+	MeshSource source;
 	Bounds bounds_node;
 	uint64_t id = 0;		   // unique in the process, see make_mesh
 	uint64_t content_hash = 0; // of positions, normals and indices
@@ -68,7 +78,7 @@ struct Mesh {
 /// id.
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
-		MeshAttributes p_attributes = {});
+		MeshAttributes p_attributes = {}, MeshSource p_source = {});
 
 /// Tangents of a mesh for coordinates of a normal map, where it has none of its own: of each vertex
 /// the sum over its faces, weighted by their angles there, at right angles to its normal. Vertices

@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
+#include "modules/scene/cut_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,8 +135,9 @@ struct TreeReader {
 			}
 			snapshot.instances.push_back(
 					make_instance(surface.mesh, surface.material, p_world_from_node, p_node.name));
-			snapshot.instances.back().casts_shadow = p_node.casts_shadow;
-			snapshot.instances.back().is_planar_receiver = p_node.is_planar_receiver;
+			InstanceSnapshot &instance = snapshot.instances.back();
+			instance.casts_shadow = instance.casts_shadow && p_node.casts_shadow;
+			instance.is_planar_receiver = p_node.is_planar_receiver;
 		}
 	}
 };
@@ -169,6 +171,11 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 	InstanceSnapshot instance;
 	instance.mesh = std::move(p_mesh);
 	instance.material = p_material ? std::move(p_material) : default_material;
+	const CutMesh cut = get_cut_mesh(instance.mesh, instance.material);
+	instance.casts_shadow = cut.mesh != nullptr;
+	instance.caster_mesh = cut.mesh ? cut.mesh : instance.mesh;
+	instance.outline_block_size_px = cut.block_size_px;
+	instance.outline_hash = cut.content_hash;
 	instance.node_name = p_node_name;
 	instance.world_from_node = p_world_from_node;
 	thicken_if_flat(instance.world_from_node);
@@ -216,6 +223,7 @@ uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
 
 uint64_t InstanceSnapshot::compute_hash(uint64_t p_seed) const {
 	uint64_t hash = compute_value_hash(mesh->content_hash, p_seed);
+	hash = compute_value_hash(outline_hash, hash);
 	hash = compute_value_hash(world_from_node, hash);
 	hash = compute_value_hash(casts_shadow, hash);
 	return compute_value_hash(compute_transmittance(), hash);

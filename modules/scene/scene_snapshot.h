@@ -58,10 +58,14 @@ struct LightSnapshot : LightSettings {
 
 struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> mesh;
+	/// What casts its shadow: the mesh, or what a cut-out material leaves of it (cut_mesh.h).
+	std::shared_ptr<const Mesh> caster_mesh;
 	std::shared_ptr<const Material> material;
 	std::string node_name; // for messages
 	glm::dmat4 world_from_node = glm::dmat4(1.0);
 	Bounds bounds_world;
+	uint32_t outline_block_size_px = 0; // see CutMesh
+	uint64_t outline_hash = 0;			// see CutMesh::content_hash
 	bool casts_shadow = true;
 	bool is_planar_receiver = false;
 	uint32_t layers = 1; // see LightSnapshot::caster_layers

@@ -1,6 +1,7 @@
 #include "modules/scene/texture.h"
 
 #include "modules/core/error.h"
+#include "modules/core/files.h"
 
 #include <atomic>
 
@@ -17,6 +18,7 @@ std::shared_ptr<const Image> make_image(
 	image->size_px = p_size_px;
 	image->texels = std::move(p_texels);
 	image->id = next_id++;
+	image->content_hash = compute_hash(image->texels, compute_value_hash(p_size_px, 1));
 	return image;
 }
 

@@ -17,7 +17,8 @@ struct Image {
 	/// numbers, is up to the texture's place in the material; alpha is linear and not multiplied
 	/// in.
 	std::vector<uint8_t> texels;
-	uint64_t id = 0; // unique in the process, see make_image
+	uint64_t id = 0;		   // unique in the process, see make_image
+	uint64_t content_hash = 0; // of size and texels
 
 	const uint8_t *get_texel(uint32_t p_x, uint32_t p_y) const {
 		return texels.data() + 4 * (size_t(p_y) * size_px.x + p_x);

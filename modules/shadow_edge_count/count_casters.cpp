@@ -109,9 +109,9 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 			++result.flat_instance_count;
 			continue;
 		}
-		const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(instance.mesh, [&] {
-			return upload_count_mesh(
-					p_inputs.device, instance.mesh->name, *get_topology(instance.mesh));
+		const auto &gpu = p_inputs.meshes.get_derived<CountGpuMesh>(instance.caster_mesh, [&] {
+			return upload_count_mesh(p_inputs.device, instance.caster_mesh->name,
+					*get_topology(instance.caster_mesh));
 		});
 		if (gpu.face_count == 0) {
 			continue;
@@ -122,9 +122,10 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 						is_near_light(instance, first, p_disc_radius));
 		CountCaster caster;
 		caster.gpu = &gpu;
-		caster.positions = p_inputs.meshes.get_topology(instance.mesh, TopologyPart::POSITIONS)
-								   .positions.get();
-		caster.mesh_id = instance.mesh->id;
+		caster.positions =
+				p_inputs.meshes.get_topology(instance.caster_mesh, TopologyPart::POSITIONS)
+						.positions.get();
+		caster.mesh_id = instance.caster_mesh->id;
 		caster.push = { glm::mat4(first.view_from_world * instance.world_from_node), gpu.face_count,
 			result.face_count, gpu.edge_count, result.word_count, result.block_count,
 			(volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
@@ -150,15 +151,16 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 		uint32_t face_count = 0;
 		for (const uint32_t index : p_inputs.casters[view].instances) {
 			const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-			face_count +=
-					with_faces.contains(index) ? get_topology(instance.mesh)->get_face_count() : 0;
+			face_count += with_faces.contains(index)
+					? get_topology(instance.caster_mesh)->get_face_count()
+					: 0;
 		}
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
 		// All casters: also those known to lie beside the view.
 		for (const uint32_t index : with_faces) {
 			if (result.face_count <= MAX_BOUNDED_FACES) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-				bound += compute_node_bound(*get_topology(instance.mesh),
+				bound += compute_node_bound(*get_topology(instance.caster_mesh),
 						p_inputs.views[view].compute_clip_from_node(instance.world_from_node),
 						glm::vec2(p_inputs.views[view].size_px));
 			}

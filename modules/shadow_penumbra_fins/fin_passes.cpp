@@ -29,7 +29,8 @@ std::vector<FinDraw> build_draws(const ShadowTechnique::Inputs &p_inputs, uint32
 			continue;
 		}
 		FinDraw draw;
-		draw.gpu = &p_inputs.meshes.get_topology(p_inputs.scene.instances[index].mesh, p_parts);
+		draw.gpu =
+				&p_inputs.meshes.get_topology(p_inputs.scene.instances[index].caster_mesh, p_parts);
 		draw.draw_index = static_cast<uint32_t>(caster - p_casters.casters.data());
 		const glm::dmat4 &world_from_node = p_inputs.scene.instances[index].world_from_node;
 		draw.push.view_from_node = glm::mat4(view.view_from_world * world_from_node);
@@ -121,8 +122,8 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, const FinsSettings &p_settings, const SilhouetteCasters &p_casters,
 		const SilhouetteLists &p_lists, const FinTargets &p_targets) {
 	const bool is_geometry_shader = p_settings.method == FinMethod::GEOMETRY_SHADER;
-	const RGBuffer constants = r_graph.upload_constants(
-			"fins view", compute_fins_view_constants(p_inputs, p_view_index, p_settings));
+	const RGBuffer constants = r_graph.upload_constants("fins view",
+			compute_fins_view_constants(p_inputs, p_view_index, p_settings), BufferUsage::UNIFORM);
 	const RGTexture layer_1 = p_targets.layer_1;
 	// Bound though not read where the layer was not peeled.
 	const RGTexture layer_2 = p_targets.layer_2 ? p_targets.layer_2 : layer_1;

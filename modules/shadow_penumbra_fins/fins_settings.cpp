@@ -116,7 +116,7 @@ Peeling choose_peeling(const FinsSettings &p_settings, const ShadowTechnique::In
 	}
 	uint64_t triangle_count = 0;
 	for (uint32_t index : p_inputs.casters[p_view_index].instances) {
-		triangle_count += p_inputs.scene.instances[index].mesh->get_triangle_count();
+		triangle_count += p_inputs.scene.instances[index].caster_mesh->get_triangle_count();
 	}
 	return triangle_count >= ONE_PASS_MIN_TRIANGLES ? Peeling::ONE_PASS : Peeling::PASSES;
 }

@@ -28,7 +28,7 @@ RGBuffer add_found_flag(RenderGraph &r_graph, uint32_t p_view_index) {
 bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterList &p_casters) {
 	return std::none_of(
 			p_casters.instances.begin(), p_casters.instances.end(), [&](uint32_t p_index) {
-				const auto topology = get_topology(p_inputs.scene.instances[p_index].mesh);
+				const auto topology = get_topology(p_inputs.scene.instances[p_index].caster_mesh);
 				return topology->mesh_class == MeshClass::CLOSED;
 			});
 }

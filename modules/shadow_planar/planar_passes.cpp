@@ -55,7 +55,7 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		glm::dmat4 relative_from_node = instance.world_from_node;
 		relative_from_node[3] -= glm::dvec4(scene.camera.position_world, 0.0);
 		PlanarDraw draw;
-		draw.mesh = &p_inputs.meshes.get(instance.mesh);
+		draw.mesh = &p_inputs.meshes.get(instance.caster_mesh);
 		draw.push.clip_from_node = glm::mat4(clip_from_relative * relative_from_node);
 		draw.push.plane_node = glm::vec4(glm::transpose(relative_from_node) * p_plane);
 		// Beyond the light nothing is hidden; a sun has no beyond.

@@ -24,8 +24,9 @@ void set_ray(RTCRay8 &r_rays, uint32_t p_lane, const glm::vec3 &p_origin, const 
 
 CasterScene::CasterScene(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices,
-		std::span<const TranslucentTriangles> p_translucent) :
-		opaque(p_positions, p_triangle_indices) {
+		std::span<const TranslucentTriangles> p_translucent,
+		std::span<const CutOutTriangles> p_cut_out) :
+		opaque(p_positions, p_triangle_indices, p_cut_out) {
 	std::vector<const Triangles *> bodies;
 	for (const TranslucentTriangles &body : p_translucent) {
 		bodies.push_back(&body.triangles);

@@ -28,7 +28,8 @@ public:
 	/// p_translucent: each leaves its part of the rays that meet it; several multiply.
 	CasterScene(std::span<const glm::vec3> p_positions,
 			std::span<const uint32_t> p_triangle_indices,
-			std::span<const TranslucentTriangles> p_translucent = {});
+			std::span<const TranslucentTriangles> p_translucent = {},
+			std::span<const CutOutTriangles> p_cut_out = {});
 
 	/// The definition of truth (exact area-light visibility, float32): the share of the rays from
 	/// P, moved by 5e-5 S along its geometric normal, to stratified points of the light's disc that
@@ -48,7 +49,7 @@ public:
 	glm::vec3 trace(const glm::vec3 &p_origin, const glm::vec3 &p_ray, float p_end) const;
 
 private:
-	EmbreeScene opaque;
+	EmbreeScene opaque;						// those with holes too
 	std::optional<EmbreeScene> translucent; // a geometry for each body
 	std::vector<glm::vec3> transmittances;	// of the bodies
 };

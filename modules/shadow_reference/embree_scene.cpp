@@ -46,6 +46,19 @@ std::vector<uint32_t> keep_finite(
 	return kept;
 }
 
+/// A geometry's filter: hits in the holes do not count.
+void test_alpha(const RTCFilterFunctionNArguments *p_arguments) {
+	const auto &body = *static_cast<const CutOutTriangles *>(p_arguments->geometryUserPtr);
+	for (unsigned int i = 0; i < p_arguments->N; ++i) {
+		if (p_arguments->valid[i] != 0 &&
+				!body.is_there(RTCHitN_primID(p_arguments->hit, p_arguments->N, i),
+						RTCHitN_u(p_arguments->hit, p_arguments->N, i),
+						RTCHitN_v(p_arguments->hit, p_arguments->N, i))) {
+			p_arguments->valid[i] = 0;
+		}
+	}
+}
+
 /// One for all, as long as there is a scene: each has threads and memory of its own.
 std::shared_ptr<RTCDeviceTy> acquire_device() {
 	static std::mutex mutex;
@@ -66,15 +79,35 @@ std::shared_ptr<RTCDeviceTy> acquire_device() {
 
 } // namespace
 
+bool CutOutTriangles::is_there(uint32_t p_triangle, float p_u, float p_v) const {
+	const uint32_t *corners = &triangles.indices[3 * size_t(p_triangle)];
+	const float weights[] = { 1.0f - p_u - p_v, p_u, p_v };
+	glm::dvec2 uv(0.0);
+	double alpha = 0;
+	for (int corner = 0; corner < 3; ++corner) {
+		uv += glm::dvec2(uvs[corners[corner]]) * double(weights[corner]);
+		alpha += double(alphas[corners[corner]]) * weights[corner];
+	}
+	return alpha * (image ? sample_alpha(test, uv) : 1.0f) >= test.cutoff;
+}
+
 EmbreeScene::EmbreeScene() : device(acquire_device()), scene(rtcNewScene(device.get())) {
 	rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
 	rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
 }
 
-EmbreeScene::EmbreeScene(
-		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) :
+EmbreeScene::EmbreeScene(std::span<const glm::vec3> p_positions,
+		std::span<const uint32_t> p_triangle_indices, std::span<const CutOutTriangles> p_cut_out) :
 		EmbreeScene() { // from here on the destructor runs, whatever throws
 	add(p_positions, p_triangle_indices, Hits::COUNT);
+	for (const CutOutTriangles &body : p_cut_out) {
+		auto held = std::make_unique<CutOutTriangles>(body);
+		held->triangles.indices = keep_finite(body.triangles.positions, body.triangles.indices);
+		held->test.image = held->image.get();
+		cut_out.push_back(std::move(held));
+		add(cut_out.back()->triangles.positions, cut_out.back()->triangles.indices, Hits::COUNT,
+				cut_out.back().get());
+	}
 	finish();
 }
 
@@ -88,7 +121,8 @@ EmbreeScene EmbreeScene::make_crossed(std::span<const Triangles *const> p_geomet
 }
 
 EmbreeScene::EmbreeScene(EmbreeScene &&p_other) noexcept :
-		device(std::move(p_other.device)), scene(std::exchange(p_other.scene, nullptr)) {}
+		device(std::move(p_other.device)), scene(std::exchange(p_other.scene, nullptr)),
+		cut_out(std::move(p_other.cut_out)) {}
 
 EmbreeScene::~EmbreeScene() {
 	if (scene != nullptr) {
@@ -128,7 +162,8 @@ bool EmbreeScene::is_occluded(
 
 /// Every call takes the next geometry's number, also where no triangle is left.
 void EmbreeScene::add(std::span<const glm::vec3> p_positions,
-		std::span<const uint32_t> p_triangle_indices, Hits p_hits) {
+		std::span<const uint32_t> p_triangle_indices, Hits p_hits,
+		const CutOutTriangles *p_cut_out) {
 	const std::vector<uint32_t> kept = keep_finite(p_positions, p_triangle_indices);
 	RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
 	if (!kept.empty()) {
@@ -145,6 +180,11 @@ void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 	}
 	if (p_hits == Hits::ARE_TOLD) {
 		rtcSetGeometryOccludedFilterFunction(geometry, &tell_crossing);
+	}
+	if (p_cut_out != nullptr) {
+		rtcSetGeometryUserData(geometry, const_cast<CutOutTriangles *>(p_cut_out)); // only read
+		rtcSetGeometryOccludedFilterFunction(geometry, &test_alpha);
+		rtcSetGeometryIntersectFilterFunction(geometry, &test_alpha);
 	}
 	rtcCommitGeometry(geometry);
 	rtcAttachGeometry(scene, geometry);

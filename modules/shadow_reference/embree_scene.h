@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/scene/alpha_outline.h"
 #include "modules/shadow_reference/embree_header.h"
 
 #include <glm/glm.hpp>
@@ -23,13 +24,26 @@ struct Triangles {
 	std::vector<uint32_t> indices;
 };
 
+/// Triangles with holes: rays meet them where their alpha is at least a cutoff.
+struct CutOutTriangles {
+	Triangles triangles;
+	std::vector<glm::vec2> uvs;			// one a position, of the image
+	std::vector<float> alphas;			// one a position; times the image's
+	std::shared_ptr<const Image> image; // null: no other alpha
+	AlphaTest test;						// of the image
+
+	/// At barycentric coordinates of the second and third corner.
+	bool is_there(uint32_t p_triangle, float p_u, float p_v) const;
+};
+
 /// A scene of triangles: robust (no ray slips through a shared edge), built for fast tracing. Rays
 /// may be traced from several threads. All scenes share one Embree device.
 class EmbreeScene {
 public:
 	/// See CasterScene.
-	EmbreeScene(
-			std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices);
+	EmbreeScene(std::span<const glm::vec3> p_positions,
+			std::span<const uint32_t> p_triangle_indices,
+			std::span<const CutOutTriangles> p_cut_out = {});
 	/// A geometry for each, whose hits are told and do not count (tell_crossing).
 	static EmbreeScene make_crossed(std::span<const Triangles *const> p_geometries);
 	~EmbreeScene();
@@ -47,12 +61,13 @@ private:
 	EmbreeScene();
 	enum class Hits { COUNT, ARE_TOLD };
 	void add(std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices,
-			Hits p_hits);
+			Hits p_hits, const CutOutTriangles *p_cut_out = nullptr);
 	void finish();
 	void check() const;
 
 	std::shared_ptr<RTCDeviceTy> device;
 	RTCScene scene = nullptr;
+	std::vector<std::unique_ptr<const CutOutTriangles>> cut_out; // their filters read them
 };
 
 } // namespace gnomon

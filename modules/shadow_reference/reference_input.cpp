@@ -18,6 +18,23 @@ void add_triangles(
 	}
 }
 
+CutOutTriangles make_cut_out(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
+	CutOutTriangles body;
+	add_triangles(p_scene, p_instance, body.triangles);
+	const MeshAttributes &attributes = p_instance.mesh->attributes;
+	const Material &material = *p_instance.material;
+	const Texture &texture = material.base_color_texture;
+	for (size_t i = 0; i < body.triangles.positions.size(); ++i) {
+		const std::vector<glm::vec2> &uvs = attributes.uvs[texture.uv_set];
+		body.uvs.push_back(texture.transform_uv(uvs.empty() ? glm::vec2(0.0f) : uvs[i]));
+		body.alphas.push_back(
+				material.alpha * (attributes.colors.empty() ? 1.0f : attributes.colors[i].w));
+	}
+	body.image = texture.image;
+	body.test = make_alpha_test(material);
+	return body;
+}
+
 } // namespace
 
 std::vector<ReceiverPoint> make_receiver_points(std::span<const SurfacePoint> p_surfaces,
@@ -42,7 +59,9 @@ CasterTriangles collect_triangles(const SceneSnapshot &p_scene) {
 		if (!instance.casts_shadow) {
 			continue;
 		}
-		if (transmittance == glm::vec3(0.0f)) {
+		if (instance.material->is_cut_out()) {
+			triangles.cut_out.push_back(make_cut_out(p_scene, instance));
+		} else if (transmittance == glm::vec3(0.0f)) {
 			add_triangles(p_scene, instance, triangles.opaque);
 		} else if (transmittance != glm::vec3(1.0f)) {
 			TranslucentTriangles &body = triangles.translucent.emplace_back();

@@ -15,9 +15,11 @@
 
 namespace gnomon {
 
-/// Triangles of all casters: the opaque ones together, each other by itself.
+/// Triangles of all casters: the opaque ones together, each other by itself. Those with holes are
+/// not the meshes that techniques draw: a ray looks up the alpha where it meets one.
 struct CasterTriangles {
 	Triangles opaque;
+	std::vector<CutOutTriangles> cut_out;
 	std::vector<TranslucentTriangles> translucent;
 };
 

@@ -16,7 +16,8 @@ TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<boo
 		points = make_receiver_points(question.surfaces, question.spread.get(),
 				[&](size_t p_pixel) { return question.receiver[p_pixel] >= 0.5f; });
 		const CasterTriangles triangles = collect_triangles(*question.scene);
-		tracer.emplace(triangles.opaque.positions, triangles.opaque.indices, triangles.translucent);
+		tracer.emplace(triangles.opaque.positions, triangles.opaque.indices, triangles.translucent,
+				triangles.cut_out);
 		if (question.spread) {
 			spread_visibility.emplace(collect_spread_bodies(*question.scene, question.spread.get()),
 					*question.spread);

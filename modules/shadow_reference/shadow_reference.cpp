@@ -49,6 +49,12 @@ struct ShadowReference::Job {
 
 	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
 		uint64_t key = add_to_hash(triangles.opaque, TRUTH_VERSION);
+		for (const CutOutTriangles &body : triangles.cut_out) {
+			key = add_to_hash(body.triangles, key);
+			key = add_to_hash(std::span<const glm::vec2>(body.uvs), key);
+			key = add_to_hash(std::span<const float>(body.alphas), key);
+			key = compute_hash(body.test, key);
+		}
 		for (const TranslucentTriangles &body : triangles.translucent) {
 			key = add_to_hash(body.triangles, key);
 			key = compute_value_hash(body.transmittance, key);
@@ -89,7 +95,7 @@ void ShadowReference::compute(
 		const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth) {
 	const auto start = std::chrono::steady_clock::now();
 	const CasterScene tracer(p_job.triangles.opaque.positions, p_job.triangles.opaque.indices,
-			p_job.triangles.translucent);
+			p_job.triangles.translucent, p_job.triangles.cut_out);
 	Progress progress("Tracing the reference of light \"" + p_job.light_name + "\"");
 	VisibilityOptions options = p_job.options;
 	std::optional<SpreadVisibility> spread;

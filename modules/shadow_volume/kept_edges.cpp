@@ -11,7 +11,8 @@ namespace {
 uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters) {
 	uint64_t key = 1;
 	for (const SilhouetteCaster &caster : p_casters.casters) {
-		key = compute_value_hash(p_inputs.scene.instances[caster.instance_index].mesh->id, key);
+		key = compute_value_hash(
+				p_inputs.scene.instances[caster.instance_index].caster_mesh->id, key);
 		key = compute_value_hash(caster.light_node, key);
 		key = compute_value_hash(caster.vertices_per_edge, key);
 	}

@@ -41,7 +41,7 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 /// may move an occluder by must be small beside the gap that cull.comp leaves to it, or it could
 /// come to lie before a caster that is behind it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
-	const Bounds &box = p_instance.mesh->bounds_node;
+	const Bounds &box = p_instance.caster_mesh->bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
 	double scale = 0;
 	for (int axis = 0; axis < 3; ++axis) {
@@ -74,7 +74,7 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		}
 		OccluderDraw draw;
 		draw.begin_m = p_view.compute_distance_range_m(instance).x;
-		draw.gpu = &p_inputs.meshes.get_topology(instance.mesh,
+		draw.gpu = &p_inputs.meshes.get_topology(instance.caster_mesh,
 				TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES);
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
@@ -205,7 +205,7 @@ std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 		const InstanceSnapshot &instance = p_inputs.scene.instances[p_instances[i]];
 		const double size_px = estimate_size_px(p_inputs, instance.bounds_world);
 		if (size_px >= LEAST_SIZE_PX &&
-				instance.mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE &&
+				instance.caster_mesh->get_triangle_count() <= MOST_TRIANGLES_OF_ONE &&
 				is_precise(p_inputs, instance)) {
 			candidates.push_back(
 					{ p_instances[i], !p_was_hidden.empty() && p_was_hidden[i], size_px });
@@ -219,8 +219,8 @@ std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 	std::vector<uint32_t> occluders;
 	uint32_t triangle_count = 0;
 	for (const Candidate &candidate : candidates) {
-		const uint32_t count =
-				p_inputs.scene.instances[candidate.instance_index].mesh->get_triangle_count();
+		const uint32_t count = p_inputs.scene.instances[candidate.instance_index]
+									   .caster_mesh->get_triangle_count();
 		if (triangle_count + count <= MOST_TRIANGLES && occluders.size() < MOST_OCCLUDERS) {
 			triangle_count += count;
 			occluders.push_back(candidate.instance_index);

@@ -120,7 +120,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 			++result.flat_count;
 			continue;
 		}
-		caster.gpu = &p_inputs.meshes.get_topology(instance.mesh, TopologyPart::NONE);
+		caster.gpu = &p_inputs.meshes.get_topology(instance.caster_mesh, TopologyPart::NONE);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}
@@ -136,7 +136,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const MeshTopology &topology = *caster.gpu->topology;
 		caster.is_mirrored = instance.is_mirrored();
 		const MeshSolids &solids = p_inputs.meshes.get_derived<MeshSolids>(
-				instance.mesh, [&] { return find_solids(topology); });
+				instance.caster_mesh, [&] { return find_solids(topology); });
 		caster.shape.robust =
 				p_settings.is_always_robust || is_light_within(instance, p_inputs.light)
 				? VolumeFaces::ALL

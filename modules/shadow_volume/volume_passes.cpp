@@ -87,7 +87,7 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 		draw.push.light_node = caster.light_node;
 		if (caster.maker == VolumeMaker::GEOMETRY_SHADER) {
 			draw.pipeline = get_pipeline(p_inputs, p_settings, caster, "geometry shader");
-			p_inputs.meshes.get_topology(instance.mesh,
+			p_inputs.meshes.get_topology(instance.caster_mesh,
 					TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
 		} else if (caster.maker == VolumeMaker::CPU) {
 			const std::vector<glm::vec4> corners = build_cpu_volume(
@@ -108,7 +108,7 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			draw.cap_vertex_count =
 					cap_count * CORNERS_PER_CAP * caster.gpu->topology->get_face_count();
 			draw.caps_pipeline = get_pipeline(p_inputs, p_settings, caster, "caps");
-			p_inputs.meshes.get_topology(instance.mesh,
+			p_inputs.meshes.get_topology(instance.caster_mesh,
 					TopologyPart::POSITIONS | TopologyPart::EDGES | TopologyPart::TRIANGLES |
 							TopologyPart::FACE_FLAGS);
 		}

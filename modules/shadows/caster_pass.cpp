@@ -10,7 +10,7 @@ std::vector<CasterDraw> build_caster_draws(const ShadowTechnique::Inputs &p_inpu
 	std::vector<CasterDraw> draws;
 	for (uint32_t index : p_casters.instances) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
-		draws.push_back({ &p_inputs.meshes.get(instance.mesh),
+		draws.push_back({ &p_inputs.meshes.get(instance.caster_mesh),
 				{ p_view.compute_clip_from_node(instance.world_from_node) } });
 	}
 	return draws;

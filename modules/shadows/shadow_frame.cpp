@@ -97,10 +97,18 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		ShadowRegistry::get(options.technique_override);
 	}
 	system.begin_frame(*scene);
-	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px));
+	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
+			BufferUsage::STORAGE | BufferUsage::UNIFORM); // as the host's own passes like it
 	LightView view = make_camera_view(scene->camera, size_px);
 	view.half_extent *= 1.0f + glm::abs(scene->camera.shift);
 	receivers = find_visible_receivers(*scene, view);
+	for (const InstanceSnapshot &instance : scene->instances) {
+		if (instance.casts_shadow && instance.outline_block_size_px > 0) {
+			plan.run(
+					text("holes of \"", instance.node_name, "\" as squares, one for each block of ",
+							instance.outline_block_size_px, " texels"));
+		}
+	}
 }
 
 ShadowFrame::~ShadowFrame() {

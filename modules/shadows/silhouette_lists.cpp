@@ -77,7 +77,7 @@ SilhouetteCasters build_silhouette_casters(const ShadowTechnique::Inputs &p_inpu
 			continue;
 		}
 		caster.gpu = &p_inputs.meshes.get_topology(
-				instance.mesh, TopologyPart::POSITIONS | TopologyPart::EDGES);
+				instance.caster_mesh, TopologyPart::POSITIONS | TopologyPart::EDGES);
 		if (caster.gpu->edge_count == 0) {
 			continue;
 		}

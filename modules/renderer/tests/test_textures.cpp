@@ -149,7 +149,8 @@ struct Square {
 		RenderGraph graph(device, pool);
 		const glm::uvec2 size_px(SIZE_PX);
 		const RGBuffer frame =
-				graph.upload_constants("frame", compute_frame_constants(*snapshot, size_px));
+				graph.upload_constants("frame", compute_frame_constants(*snapshot, size_px),
+						BufferUsage::STORAGE | BufferUsage::UNIFORM);
 		uint32_t drawn_count = 0;
 		const GBuffer gbuffer = add_gbuffer_pass(
 				graph, device, meshes, materials, *snapshot, size_px, frame, drawn_count);

@@ -16,13 +16,13 @@ struct HalfPlane {
 
 	explicit HalfPlane(double p_radius_m, const glm::dvec3 &p_offset = glm::dvec3(0.0)) {
 		scene.scene_size_m = 4.0;
-		InstanceSnapshot plate;
-		plate.mesh = make_mesh("plate",
-				{ { 0, 0, -100 }, { 0, 0, 100 }, { 100, 0, 100 }, { 100, 0, -100 } }, {},
-				{ 0, 1, 2, 0, 2, 3 });
-		plate.world_from_node[3] = glm::dvec4(p_offset + glm::dvec3(0, 1, 0), 1.0);
-		plate.bounds_world = transform_bounds(plate.mesh->bounds_node, plate.world_from_node);
-		scene.instances.push_back(plate);
+		glm::dmat4 world_from_node(1.0);
+		world_from_node[3] = glm::dvec4(p_offset + glm::dvec3(0, 1, 0), 1.0);
+		scene.instances.push_back(make_instance(
+				make_mesh("plate",
+						{ { 0, 0, -100 }, { 0, 0, 100 }, { 100, 0, 100 }, { 100, 0, -100 } }, {},
+						{ 0, 1, 2, 0, 2, 3 }),
+				nullptr, world_from_node, "plate"));
 		LightSnapshot light;
 		light.position_world = p_offset + glm::dvec3(0, 2, 0);
 		light.light_size_m = float(p_radius_m);

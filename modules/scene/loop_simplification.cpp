@@ -1,0 +1,309 @@
+#include "modules/scene/loop_simplification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace gnomon {
+
+namespace {
+
+double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
+	const glm::dvec2 along(p_b - p_a);
+	const glm::dvec2 offset(p_point - p_a);
+	const double length = glm::dot(along, along);
+	const double share = length > 0 ? std::clamp(glm::dot(offset, along) / length, 0.0, 1.0) : 0.0;
+	return glm::length(offset - along * share);
+}
+
+/// One loop, of which some points are left.
+struct Chain {
+	const PolygonLoop *loop;
+	std::vector<uint8_t> is_left; // per point
+
+	const glm::ivec2 &get(uint32_t p_point) const { return (*loop)[p_point % loop->size()]; }
+	/// Of those between two, the farthest from the line; p_end is above p_begin and may be beyond
+	/// the loop's end.
+	uint32_t find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const;
+	void keep(uint32_t p_point) { is_left[p_point % loop->size()] = 1; }
+	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
+};
+
+uint32_t Chain::find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const {
+	uint32_t farthest = p_begin;
+	r_distance = -1;
+	for (uint32_t point = p_begin + 1; point < p_end; ++point) {
+		const double distance = compute_distance(get(point), get(p_begin), get(p_end));
+		if (distance > r_distance) {
+			r_distance = distance;
+			farthest = point;
+		}
+	}
+	return farthest;
+}
+
+/// Each line as long as it may be, one after another: about a quarter fewer lines than halving at
+/// the farthest point (Douglas and Peucker 1973) leaves.
+void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
+	uint32_t begin = p_begin;
+	while (begin < p_end) {
+		uint32_t end = begin + 1;
+		double distance = 0;
+		while (end < p_end) {
+			find_farthest(begin, end + 1, distance);
+			if (distance > p_tolerance) {
+				break;
+			}
+			++end;
+		}
+		keep(end);
+		begin = end;
+	}
+}
+
+/// On one of the rectangle's sides, and its neighbours are not both there too.
+bool is_fixed(const Chain &p_chain, uint32_t p_point, const glm::ivec2 &p_size) {
+	const uint32_t count = static_cast<uint32_t>(p_chain.loop->size());
+	const glm::ivec2 &before = p_chain.get(p_point + count - 1);
+	const glm::ivec2 &point = p_chain.get(p_point);
+	const glm::ivec2 &after = p_chain.get(p_point + 1);
+	const bool is_on_x = point.x == 0 || point.x == p_size.x;
+	const bool is_on_y = point.y == 0 || point.y == p_size.y;
+	if (is_on_x && before.x == point.x && after.x == point.x) {
+		return false;
+	}
+	if (is_on_y && before.y == point.y && after.y == point.y) {
+		return false;
+	}
+	return is_on_x || is_on_y;
+}
+
+Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::ivec2 &p_size) {
+	const uint32_t count = static_cast<uint32_t>(p_loop.size());
+	Chain chain{ &p_loop, std::vector<uint8_t>(count) };
+	std::vector<uint32_t> fixed;
+	for (uint32_t point = 0; point < count; ++point) {
+		if (is_fixed(chain, point, p_size)) {
+			fixed.push_back(point);
+		}
+	}
+	if (fixed.size() < 2) {
+		const uint32_t first = fixed.empty() ? 0 : fixed[0];
+		double distance = 0;
+		// Of a chain that ends where it begins: the farthest from there.
+		fixed = { first, chain.find_farthest(first, first + count, distance) % count };
+		std::sort(fixed.begin(), fixed.end());
+	}
+	for (size_t i = 0; i < fixed.size(); ++i) {
+		chain.keep(fixed[i]);
+		chain.simplify(
+				fixed[i], i + 1 < fixed.size() ? fixed[i + 1] : fixed[0] + count, p_tolerance);
+	}
+	if (std::count(chain.is_left.begin(), chain.is_left.end(), 1) < 3) { // thinner than that
+		double distances[2];
+		const uint32_t points[] = {
+			chain.find_farthest(fixed[0], fixed[1], distances[0]),
+			chain.find_farthest(fixed[1], fixed[0] + count, distances[1]),
+		};
+		chain.keep(points[distances[1] > distances[0] ? 1 : 0]);
+	}
+	return chain;
+}
+
+struct Segment {
+	uint32_t chain;
+	uint32_t begin, end; // points; see Chain::find_farthest
+	glm::ivec2 a, b;
+
+	int32_t get_least_x() const { return std::min(a.x, b.x); }
+	int32_t get_greatest_x() const { return std::max(a.x, b.x); }
+};
+
+std::vector<Segment> list_segments(const std::vector<Chain> &p_chains) {
+	std::vector<Segment> segments;
+	for (uint32_t index = 0; index < p_chains.size(); ++index) {
+		const Chain &chain = p_chains[index];
+		const uint32_t count = static_cast<uint32_t>(chain.loop->size());
+		uint32_t first = 0;
+		while (!chain.is_left[first]) {
+			++first;
+		}
+		uint32_t begin = first;
+		for (uint32_t point = first + 1; point <= first + count; ++point) {
+			if (chain.is_left[point % count]) {
+				segments.push_back({ index, begin, point, chain.get(begin), chain.get(point) });
+				begin = point;
+			}
+		}
+	}
+	std::sort(segments.begin(), segments.end(), [](const Segment &p_one, const Segment &p_other) {
+		return p_one.get_least_x() < p_other.get_least_x();
+	});
+	return segments;
+}
+
+int get_sign(int64_t p_number) {
+	return p_number > 0 ? 1 : p_number < 0 ? -1 : 0;
+}
+
+bool is_between(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
+	return glm::min(p_a.x, p_b.x) <= p_point.x && p_point.x <= glm::max(p_a.x, p_b.x) &&
+			glm::min(p_a.y, p_b.y) <= p_point.y && p_point.y <= glm::max(p_a.y, p_b.y);
+}
+
+/// Segments that follow each other may have their end in common, and nothing else.
+bool do_meet(const Segment &p_one, const Segment &p_other) {
+	if (glm::max(p_one.a.y, p_one.b.y) < glm::min(p_other.a.y, p_other.b.y) ||
+			glm::max(p_other.a.y, p_other.b.y) < glm::min(p_one.a.y, p_one.b.y)) {
+		return false;
+	}
+	if (p_one.b == p_other.a || p_one.a == p_other.b) {
+		const glm::ivec2 &common = p_one.b == p_other.a ? p_one.b : p_one.a;
+		const glm::ivec2 &one = p_one.b == p_other.a ? p_one.a : p_one.b;
+		const glm::ivec2 &other = p_one.b == p_other.a ? p_other.b : p_other.a;
+		const glm::dvec2 along_one(one - common);
+		const glm::dvec2 along_other(other - common);
+		return compute_turn(common, one, other) == 0 && glm::dot(along_one, along_other) > 0;
+	}
+	const int a = get_sign(compute_turn(p_one.a, p_one.b, p_other.a));
+	const int b = get_sign(compute_turn(p_one.a, p_one.b, p_other.b));
+	const int c = get_sign(compute_turn(p_other.a, p_other.b, p_one.a));
+	const int d = get_sign(compute_turn(p_other.a, p_other.b, p_one.b));
+	if (a * b < 0 && c * d < 0) {
+		return true;
+	}
+	return (a == 0 && is_between(p_other.a, p_one.a, p_one.b)) ||
+			(b == 0 && is_between(p_other.b, p_one.a, p_one.b)) ||
+			(c == 0 && is_between(p_one.a, p_other.a, p_other.b)) ||
+			(d == 0 && is_between(p_one.b, p_other.a, p_other.b));
+}
+
+/// Calls with each pair of segments that meet, until a call returns false.
+template <typename Visitor>
+void visit_meetings(const std::vector<Segment> &p_segments, const Visitor &p_visit) {
+	for (size_t i = 0; i < p_segments.size(); ++i) {
+		const int32_t end = p_segments[i].get_greatest_x();
+		for (size_t k = i + 1; k < p_segments.size() && p_segments[k].get_least_x() <= end; ++k) {
+			if (do_meet(p_segments[i], p_segments[k]) && !p_visit(p_segments[i], p_segments[k])) {
+				return;
+			}
+		}
+	}
+}
+
+/// Takes points back where segments meet. False: none do.
+bool part(std::vector<Chain> &r_chains) {
+	bool has_parted = false;
+	const auto take_back = [&](const Segment &p_segment) {
+		double distance = 0;
+		const uint32_t point =
+				r_chains[p_segment.chain].find_farthest(p_segment.begin, p_segment.end, distance);
+		if (point != p_segment.begin) {
+			r_chains[p_segment.chain].keep(point);
+			has_parted = true;
+		}
+	};
+	visit_meetings(list_segments(r_chains), [&](const Segment &p_one, const Segment &p_other) {
+		take_back(p_one);
+		take_back(p_other);
+		return true;
+	});
+	return has_parted;
+}
+
+/// The points that are left of a chain, moved by at most p_tolerance so that each line has as much
+/// of the loop on one side as on the other: chords of a curve alone make what is round smaller.
+/// Points on the rectangle's border stay, as those of the next tile do.
+PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
+	struct Line {
+		glm::dvec2 normal; // to the right: outwards
+		double offset;	   // along it
+	};
+	std::vector<uint32_t> left;
+	for (uint32_t point = 0; point < p_chain.loop->size(); ++point) {
+		if (p_chain.is_left[point]) {
+			left.push_back(point);
+		}
+	}
+	const size_t count = left.size();
+	std::vector<Line> lines;
+	for (size_t i = 0; i < count; ++i) {
+		const uint32_t begin = left[i];
+		const uint32_t end = left[(i + 1) % count] +
+				(i + 1 < count ? 0 : static_cast<uint32_t>(p_chain.loop->size()));
+		int64_t twice_area = 0;
+		for (uint32_t point = begin; point < end; ++point) {
+			twice_area +=
+					compute_turn(p_chain.get(begin), p_chain.get(point), p_chain.get(point + 1));
+		}
+		const glm::dvec2 along(p_chain.get(end) - p_chain.get(begin));
+		const double length = glm::length(along);
+		const glm::dvec2 normal = glm::dvec2(along.y, -along.x) / length;
+		lines.push_back({ normal, double(twice_area) / 2 / length });
+	}
+	PolygonLoop moved;
+	for (size_t i = 0; i < count; ++i) {
+		const glm::ivec2 &point = p_chain.get(left[i]);
+		const Line &before = lines[(i + count - 1) % count];
+		const Line &after = lines[i];
+		glm::dvec2 shift = (before.normal * before.offset + after.normal * after.offset) * 0.5;
+		const double turn = before.normal.x * after.normal.y - before.normal.y * after.normal.x;
+		if (std::abs(turn) > 0.1) { // where both moved lines meet
+			shift = glm::dvec2(before.offset * after.normal.y - after.offset * before.normal.y,
+							after.offset * before.normal.x - before.offset * after.normal.x) /
+					turn;
+		}
+		const double length = glm::length(shift);
+		shift *= length > p_tolerance ? p_tolerance / length : 1.0;
+		const bool is_on_border =
+				point.x == 0 || point.y == 0 || point.x == p_size.x || point.y == p_size.y;
+		moved.push_back(is_on_border ? point
+									 : glm::clamp(point + glm::ivec2(glm::round(shift)),
+											   glm::ivec2(1), p_size - 1));
+	}
+	return moved;
+}
+
+bool has_meeting(const std::vector<PolygonLoop> &p_loops) {
+	std::vector<Chain> chains;
+	for (const PolygonLoop &loop : p_loops) {
+		chains.push_back({ &loop, std::vector<uint8_t>(loop.size(), 1) });
+	}
+	bool has_met = false;
+	visit_meetings(list_segments(chains), [&](const Segment &, const Segment &) {
+		has_met = true;
+		return false;
+	});
+	return has_met;
+}
+
+} // namespace
+
+std::vector<PolygonLoop> simplify_loops(
+		const std::vector<PolygonLoop> &p_loops, int32_t p_tolerance, const glm::ivec2 &p_size) {
+	std::vector<Chain> chains;
+	for (const PolygonLoop &loop : p_loops) {
+		chains.push_back(simplify_loop(loop, p_tolerance, p_size));
+	}
+	while (part(chains)) { // ends at the latest where all points are back
+	}
+	std::vector<PolygonLoop> balanced;
+	for (const Chain &chain : chains) {
+		balanced.push_back(balance(chain, p_tolerance, p_size));
+	}
+	if (!has_meeting(balanced)) {
+		return balanced;
+	}
+	std::vector<PolygonLoop> simplified;
+	for (const Chain &chain : chains) {
+		PolygonLoop &loop = simplified.emplace_back();
+		for (uint32_t point = 0; point < chain.loop->size(); ++point) {
+			if (chain.is_left[point]) {
+				loop.push_back((*chain.loop)[point]);
+			}
+		}
+	}
+	return simplified;
+}
+
+} // namespace gnomon

@@ -1,0 +1,198 @@
+// build: optimised
+#include "modules/scene/alpha_outline.h"
+#include "modules/scene/loop_simplification.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+using namespace gnomon;
+
+namespace {
+
+std::shared_ptr<const Image> make_alpha_image(
+		glm::uvec2 p_size_px, const std::function<double(glm::uvec2)> &p_alpha) {
+	std::vector<uint8_t> texels;
+	for (uint32_t y = 0; y < p_size_px.y; ++y) {
+		for (uint32_t x = 0; x < p_size_px.x; ++x) {
+			const double alpha = std::clamp(p_alpha({ x, y }), 0.0, 1.0);
+			texels.insert(texels.end(), { 0, 0, 0, uint8_t(std::lround(alpha * 255)) });
+		}
+	}
+	return make_image("mask", p_size_px, std::move(texels));
+}
+
+double compute_area(const AlphaOutline &p_outline) {
+	int64_t twice = 0;
+	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
+		const int64_t turn = compute_turn(p_outline.points[p_outline.triangles[i]],
+				p_outline.points[p_outline.triangles[i + 1]],
+				p_outline.points[p_outline.triangles[i + 2]]);
+		CHECK(turn >= 0);
+		twice += turn;
+	}
+	return double(twice) / 2 / p_outline.size.x / p_outline.size.y;
+}
+
+/// Whether a place, in texels, lies in one of the triangles.
+bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_place) {
+	const glm::dvec2 place = p_place * double(AlphaOutline::UNITS_PER_TEXEL);
+	const auto turn = [&](const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
+		return (p_b.x - p_a.x) * (place.y - p_a.y) - (p_b.y - p_a.y) * (place.x - p_a.x);
+	};
+	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
+		const glm::dvec2 a(p_outline.points[p_outline.triangles[i]]);
+		const glm::dvec2 b(p_outline.points[p_outline.triangles[i + 1]]);
+		const glm::dvec2 c(p_outline.points[p_outline.triangles[i + 2]]);
+		if (turn(a, b) >= 0 && turn(b, c) >= 0 && turn(c, a) >= 0) {
+			return true;
+		}
+	}
+	return false;
+}
+
+/// How far from the contour, in alpha, a wrongly decided place may lie.
+void check_places(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
+	std::minstd_rand random(5);
+	std::uniform_real_distribution<double> uniform(0, 1);
+	const glm::dvec2 size(p_test.image->size_px);
+	for (int i = 0; i < 4000; ++i) {
+		const glm::dvec2 place = glm::dvec2(uniform(random), uniform(random)) * size;
+		// The place and some around it agree: it is not near the contour.
+		const bool expected = sample_alpha(p_test, place / size) >= p_test.cutoff;
+		bool is_near = false;
+		for (int k = 0; k < 16; ++k) {
+			const glm::dvec2 moved = place +
+					p_tolerance_px * glm::dvec2(std::cos(k * 0.4), std::sin(k * 0.4)) *
+							(k % 2 ? 1.0 : 0.5);
+			const bool is_out = glm::any(glm::lessThan(moved, glm::dvec2(0))) ||
+					glm::any(glm::greaterThan(moved, size));
+			is_near = is_near || is_out ||
+					(sample_alpha(p_test, moved / size) >= p_test.cutoff) != expected;
+		}
+		if (!is_near) {
+			CAPTURE(place.x);
+			CAPTURE(place.y);
+			CHECK(is_inside(p_outline, place) == expected);
+		}
+	}
+}
+
+} // namespace
+
+TEST_CASE("[AlphaOutline] polygons with holes are filled exactly, or refused") {
+	const PolygonLoop square = { { 0, 0 }, { 100, 0 }, { 100, 100 }, { 0, 100 } };
+	const PolygonLoop hole = { { 20, 20 }, { 20, 40 }, { 40, 40 }, { 40, 20 } };
+	const PolygonLoop other_hole = { { 60, 20 }, { 50, 80 }, { 80, 70 }, { 70, 60 } };
+	CHECK(triangulate(std::vector<PolygonLoop>{ square }).size() == 6);
+	CHECK(triangulate(std::vector<PolygonLoop>{ square, hole }).size() == 3 * 8);
+	CHECK(triangulate(std::vector<PolygonLoop>{ square, hole, other_hole }).size() == 3 * 14);
+	CHECK(triangulate(
+			std::vector<PolygonLoop>{ PolygonLoop{ { 0, 0 }, { 0, 9 }, { 9, 9 }, { 9, 0 } } })
+					.empty());
+	CHECK(triangulate(
+			std::vector<PolygonLoop>{ PolygonLoop{ { 0, 0 }, { 9, 9 }, { 0, 9 }, { 9, 0 } } })
+					.empty());
+	CHECK(triangulate(std::vector<PolygonLoop>{ PolygonLoop{ { 0, 0 }, { 9, 0 } } }).empty());
+	CHECK(triangulate({}).empty());
+}
+
+TEST_CASE("[AlphaOutline] the contour of smooth masks is within a quarter of a texel") {
+	for (const int seed : { 1, 2, 3, 4, 5, 6, 7, 8 }) {
+		CAPTURE(seed);
+		std::minstd_rand random(static_cast<uint32_t>(seed));
+		std::uniform_real_distribution<double> uniform(0, 1);
+		double phases[6];
+		for (double &phase : phases) {
+			phase = 6.3 * uniform(random);
+		}
+		const auto image = make_alpha_image({ 40u + 3 * seed, 48 }, [&](const glm::uvec2 &p_texel) {
+			const glm::dvec2 at = glm::dvec2(p_texel) * (seed % 2 ? 0.3 : 0.9);
+			return 0.5 +
+					0.3 *
+					(std::sin(at.x + phases[0]) + std::sin(at.y * 0.7 + phases[1]) +
+							std::sin((at.x + at.y) * 0.6 + phases[2]));
+		});
+		for (const TextureWrap wrap :
+				{ TextureWrap::CLAMP, TextureWrap::REPEAT, TextureWrap::MIRROR }) {
+			AlphaTest test;
+			test.image = image.get();
+			test.cutoff = 0.2f + 0.07f * seed;
+			test.wrap_u = test.wrap_v = wrap;
+			const AlphaOutline outline = make_alpha_outline(test, 20000);
+			REQUIRE(!outline.is_empty());
+			CHECK(outline.block_size_px == 0);
+			check_places(test, outline, 0.5);
+		}
+	}
+}
+
+TEST_CASE("[AlphaOutline] a disc has the area of a disc, and few edges") {
+	const double radius_px = 20;
+	const auto image = make_alpha_image(glm::uvec2(64), [&](const glm::uvec2 &p_texel) {
+		return 0.5 + (radius_px - glm::distance(glm::dvec2(p_texel) + 0.5, glm::dvec2(32))) * 0.5;
+	});
+	AlphaTest test;
+	test.image = image.get();
+	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	const double expected = 3.14159265 * radius_px * radius_px / (64 * 64);
+	CHECK(std::abs(compute_area(outline) / expected - 1) < 0.01);
+	CHECK(outline.edge_count >= 12);
+	CHECK(outline.edge_count <= 40);
+	test.cutoff = 0;
+	CHECK(make_alpha_outline(test, 20000).is_whole);
+	CHECK(make_alpha_outline(test, 20000).edge_count == 4);
+	test.cutoff = 1.5f;
+	CHECK(make_alpha_outline(test, 20000).is_empty());
+}
+
+TEST_CASE(
+		"[AlphaOutline] noise of any wrapping is filled, and a nearest sampler gives its squares") {
+	for (const uint32_t seed : { 1u, 2u, 3u }) {
+		std::minstd_rand random(seed);
+		const auto image = make_alpha_image(
+				{ 33, 29 }, [&](const glm::uvec2 &) { return double(random() % 256) / 255; });
+		AlphaTest test;
+		test.image = image.get();
+		for (const TextureWrap wrap :
+				{ TextureWrap::CLAMP, TextureWrap::REPEAT, TextureWrap::MIRROR }) {
+			test.wrap_u = test.wrap_v = wrap;
+			const AlphaOutline outline = make_alpha_outline(test, 20000);
+			CHECK(outline.block_size_px == 0);
+			check_places(test, outline, 0.4);
+		}
+		test.is_nearest = true;
+		const AlphaOutline squares = make_alpha_outline(test, 20000);
+		CHECK(squares.block_size_px == 0);
+		check_places(test, squares, 0.05);
+		// More than the budget: as much is there, in squares.
+		const AlphaOutline half_tone = make_alpha_outline(test, 200);
+		CHECK(half_tone.block_size_px > 1);
+		CHECK(half_tone.edge_count <= 200);
+		CHECK(std::abs(compute_area(half_tone) - compute_area(squares)) < 0.01);
+	}
+}
+
+TEST_CASE("[AlphaOutline] tiles that repeat meet at their borders") {
+	const auto image = make_alpha_image({ 16, 12 }, [&](const glm::uvec2 &p_texel) {
+		return 0.5 + 0.5 * std::sin(p_texel.x * 0.9) * std::cos(p_texel.y * 0.8 + 1);
+	});
+	AlphaTest test;
+	test.image = image.get();
+	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	std::map<int, std::set<int>> on_x, on_y;
+	for (const glm::ivec2 &point : outline.points) {
+		if (point.y != 0 && point.y != outline.size.y) {
+			on_x[point.x].insert(point.y);
+		}
+		if (point.x != 0 && point.x != outline.size.x) {
+			on_y[point.y].insert(point.x);
+		}
+	}
+	CHECK(!on_x[0].empty());
+	CHECK(on_x[0] == on_x[outline.size.x]);
+	CHECK(on_y[0] == on_y[outline.size.y]);
+}

@@ -1,0 +1,235 @@
+// build: optimised
+#include "modules/scene/alpha_outline.h"
+#include "modules/scene/cut_mesh.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+
+std::shared_ptr<const Image> make_wave_image(glm::uvec2 p_size_px, double p_frequency) {
+	std::vector<uint8_t> texels;
+	for (uint32_t y = 0; y < p_size_px.y; ++y) {
+		for (uint32_t x = 0; x < p_size_px.x; ++x) {
+			const double alpha = 0.5 +
+					0.5 * std::sin(p_frequency * x + 0.3) * std::cos(p_frequency * 0.8 * y + 1.1);
+			texels.insert(texels.end(), { 0, 0, 0, uint8_t(std::lround(alpha * 255)) });
+		}
+	}
+	return make_image("waves", p_size_px, std::move(texels));
+}
+
+Material make_material(std::shared_ptr<const Image> p_image) {
+	Material material;
+	material.alpha_mode = AlphaMode::MASK;
+	material.base_color_texture.image = std::move(p_image);
+	return material;
+}
+
+/// A grid of quads in the plane z = x / 2; coordinates grow by p_repeats over it.
+std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double p_offset = 0) {
+	std::vector<glm::vec3> positions;
+	MeshAttributes attributes;
+	std::vector<uint32_t> indices;
+	for (uint32_t y = 0; y <= p_count; ++y) {
+		for (uint32_t x = 0; x <= p_count; ++x) {
+			const glm::dvec2 place(double(x) / p_count, double(y) / p_count);
+			positions.emplace_back(place.x, place.y, place.x / 2);
+			attributes.uvs[0].emplace_back(place * p_repeats + p_offset);
+		}
+	}
+	for (uint32_t y = 0; y < p_count; ++y) {
+		for (uint32_t x = 0; x < p_count; ++x) {
+			const uint32_t a = y * (p_count + 1) + x;
+			const uint32_t b = a + p_count + 1;
+			indices.insert(indices.end(), { a, a + 1, b + 1, a, b + 1, b });
+		}
+	}
+	return make_mesh("grid", positions, {}, indices, attributes);
+}
+
+double compute_area(const Mesh &p_mesh) {
+	double area = 0;
+	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
+		const glm::dvec3 a = p_mesh.positions_node[p_mesh.indices[i]];
+		const glm::dvec3 b = p_mesh.positions_node[p_mesh.indices[i + 1]];
+		const glm::dvec3 c = p_mesh.positions_node[p_mesh.indices[i + 2]];
+		// With the sign that its source triangle's winding gives it.
+		area += glm::dot(glm::cross(b - a, c - a), glm::normalize(glm::dvec3(-0.5, 0, 1))) / 2;
+	}
+	return area;
+}
+
+/// Of the share of a surface's area that is there, by samples of the alpha itself.
+double sample_share(const Material &p_material, double p_repeats, double p_offset) {
+	const AlphaTest test = make_alpha_test(p_material);
+	int inside = 0;
+	const int COUNT = 700;
+	for (int y = 0; y < COUNT; ++y) {
+		for (int x = 0; x < COUNT; ++x) {
+			const glm::dvec2 uv = p_material.base_color_texture.transform_uv(
+					glm::vec2(glm::dvec2(x + 0.5, y + 0.5) / double(COUNT) * p_repeats + p_offset));
+			inside += sample_alpha(test, uv) >= test.cutoff ? 1 : 0;
+		}
+	}
+	return double(inside) / (COUNT * COUNT);
+}
+
+/// How often each edge is used, by its ends' positions; even edges of one plane cancel.
+uint32_t count_open_edges(const Mesh &p_mesh) {
+	const auto less = [](const std::array<float, 6> &p_a, const std::array<float, 6> &p_b) {
+		return p_a < p_b;
+	};
+	std::map<std::array<float, 6>, int, decltype(less)> sums(less);
+	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
+		for (size_t k = 0; k < 3; ++k) {
+			const glm::vec3 a = p_mesh.positions_node[p_mesh.indices[i + k]];
+			const glm::vec3 b = p_mesh.positions_node[p_mesh.indices[i + (k + 1) % 3]];
+			++sums[{ a.x, a.y, a.z, b.x, b.y, b.z }];
+			--sums[{ b.x, b.y, b.z, a.x, a.y, a.z }];
+		}
+	}
+	uint32_t count = 0;
+	for (const auto &[ends, sum] : sums) {
+		count += sum > 0 ? static_cast<uint32_t>(sum) : 0;
+	}
+	return count;
+}
+
+} // namespace
+
+TEST_CASE("[CutMesh] of a mesh as much is there as its alpha says, wrapped, mirrored and clamped") {
+	Material material = make_material(make_wave_image({ 24, 32 }, 0.7));
+	const double whole_area = compute_area(*make_grid(1, 1));
+	for (const TextureWrap wrap :
+			{ TextureWrap::REPEAT, TextureWrap::MIRROR, TextureWrap::CLAMP }) {
+		for (const bool is_nearest : { false, true }) {
+			for (const double repeats : { 1.0, 2.6, -1.7 }) {
+				for (const uint32_t count : { 1u, 7u }) {
+					CAPTURE(int(wrap));
+					CAPTURE(is_nearest);
+					CAPTURE(repeats);
+					CAPTURE(count);
+					Texture &texture = material.base_color_texture;
+					texture.wrap_u = texture.wrap_v = wrap;
+					texture.is_magnified_nearest = is_nearest;
+					texture.transform = glm::mat3x2(0.8f, 0.3f, -0.2f, 1.1f, 0.1f, 0.4f);
+					const double offset = -0.35;
+					const auto grid = make_grid(count, repeats, offset);
+					const CutMesh cut = cut_mesh(grid, material);
+					REQUIRE(cut.mesh);
+					CHECK(cut.block_size_px == 0);
+					CHECK(compute_area(*cut.mesh) / whole_area ==
+							doctest::Approx(sample_share(material, repeats, offset)).epsilon(0.01));
+					CHECK(cut.mesh->source.mesh == grid);
+				}
+			}
+		}
+	}
+}
+
+TEST_CASE("[CutMesh] triangles that meet make the same points: no edges but those of the holes") {
+	// The finer grid has the same holes: its edges cross them, and leave no edges of their own.
+	const Material material = make_material(make_wave_image({ 24, 24 }, 0.6));
+	const uint32_t coarse = count_open_edges(*cut_mesh(make_grid(1, 1), material).mesh);
+	for (const uint32_t count : { 2u, 5u, 16u }) {
+		CAPTURE(count);
+		const CutMesh cut = cut_mesh(make_grid(count, 1), material);
+		const uint32_t fine = count_open_edges(*cut.mesh);
+		// Each hole's edge may be cut by the grid's lines, twice a line at the most.
+		CHECK(fine >= coarse);
+		CHECK(fine <= coarse + 6 * count * 24);
+		CHECK(compute_area(*cut.mesh) ==
+				doctest::Approx(compute_area(*cut_mesh(make_grid(1, 1), material).mesh))
+						.epsilon(1e-5));
+	}
+}
+
+TEST_CASE("[CutMesh] what is whole is the mesh itself, and what is nowhere is null") {
+	const auto grid = make_grid(3, 1);
+	Material material;
+	CHECK(get_cut_mesh(grid, std::make_shared<const Material>(material)).mesh == grid);
+	CHECK(get_cut_mesh(grid, nullptr).mesh == grid);
+	material.alpha_mode = AlphaMode::BLEND;
+	CHECK(cut_mesh(grid, material).mesh == grid);
+	material.alpha = 0.4f; // below the half at which blended surfaces cast
+	CHECK(cut_mesh(grid, material).mesh == nullptr);
+	material.alpha_mode = AlphaMode::MASK;
+	material.alpha_cutoff = 0.4f;
+	CHECK(cut_mesh(grid, material).mesh == grid);
+	material.base_color_texture.image = make_wave_image({ 8, 8 }, 0.7);
+	material.alpha = 1;
+	material.alpha_cutoff = 0;
+	CHECK(cut_mesh(grid, material).mesh == grid);
+	material.alpha_cutoff = 1.1f;
+	CHECK(cut_mesh(grid, material).mesh == nullptr);
+	material.transmission = 0.5f; // it lets light through, and is whole
+	CHECK(get_cut_mesh(grid, std::make_shared<const Material>(material)).mesh == grid);
+}
+
+TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones end nothing") {
+	Material material = make_material(make_wave_image({ 8, 8 }, 0.7));
+	const auto plain =
+			make_mesh("plain", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 });
+	const AlphaTest test = make_alpha_test(material);
+	CHECK((cut_mesh(plain, material).mesh == plain) ==
+			(sample_alpha(test, glm::dvec2(0)) >= test.cutoff));
+	for (const float odd : { NAN, INFINITY, 1e30f, -1e30f, 1e-38f }) {
+		CAPTURE(odd);
+		MeshAttributes attributes;
+		attributes.uvs[0] = { { 0, 0 }, { odd, 0 }, { 0, odd } };
+		cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },
+						 attributes),
+				material);
+	}
+	// As many tiles as no mesh could hold: squares stand for many of them.
+	const CutMesh many = cut_mesh(make_grid(1, 3000), material);
+	REQUIRE(many.mesh);
+	CHECK(many.block_size_px > 8);
+	CHECK(many.mesh->get_triangle_count() < 12u << 20);
+}
+
+TEST_CASE("[CutMesh] materials that cut alike share a mesh; others and changed ones do not") {
+	const auto grid = make_grid(2, 1);
+	Material material = make_material(make_wave_image({ 16, 16 }, 0.5));
+	const auto one = std::make_shared<const Material>(material);
+	material.roughness = 0.3f;
+	const auto other = std::make_shared<const Material>(material);
+	material.alpha_cutoff = 0.6f;
+	const auto changed = std::make_shared<const Material>(material);
+	const CutMesh first = get_cut_mesh(grid, one);
+	CHECK(get_cut_mesh(grid, other).mesh == first.mesh);
+	CHECK(get_cut_mesh(grid, changed).mesh != first.mesh);
+	CHECK(get_cut_mesh(grid, changed).content_hash != first.content_hash);
+	CHECK(first.content_hash != 0);
+}
+
+TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
+	std::minstd_rand random(11);
+	std::uniform_real_distribution<double> uniform(0, 1);
+	for (int i = 0; i < 60; ++i) {
+		CAPTURE(i);
+		std::vector<uint8_t> texels;
+		const glm::uvec2 size_px(1 + random() % 12, 1 + random() % 12);
+		for (uint32_t texel = 0; texel < size_px.x * size_px.y; ++texel) {
+			texels.insert(texels.end(), { 0, 0, 0, uint8_t(random() % 4 * 85) });
+		}
+		Material material = make_material(make_image("noise", size_px, texels));
+		material.base_color_texture.is_magnified_nearest = i % 3 == 0;
+		material.base_color_texture.wrap_u = i % 2 ? TextureWrap::REPEAT : TextureWrap::MIRROR;
+		// Coordinates on texels' borders and corners are the hard ones.
+		const double repeats = i % 5 == 0 ? 1.0 : i % 5 == 1 ? 2.0 : 3 * uniform(random);
+		const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 0.5 : uniform(random);
+		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
+		const double share =
+				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
+		// A line stands for a hyperbola: of masks that change from texel to texel that shows.
+		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;
+		CHECK(std::abs(share - sample_share(material, repeats, offset)) < tolerance);
+	}
+}
