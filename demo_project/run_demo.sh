@@ -81,6 +81,7 @@ fi
 # Generated every time, which takes four seconds: files of an older generator would be measured otherwise.
 echo "== Meshes that no technique was tuned for"
 python3 demo_project/scenes/make_artist_scenes.py || has_failed=yes
+python3 demo_project/scenes/make_foliage_scenes.py || has_failed=yes
 python3 demo_project/scenes/make_package_meshes.py || has_failed=yes
 
 echo "== Scenes"

@@ -243,6 +243,7 @@ part_layers() {
 }
 part_scenes() {
     run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
+        tests/demo/test_foliage_scenes.py \
         tests/demo/test_package_meshes.py tests/demo/test_page.py
 }
 part_docs() {
@@ -268,7 +269,7 @@ part_blender() {
 part_demo() {
     # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo" \
-        --skip 'kitbash,rigging,grass,package_*'
+        --skip 'kitbash,rigging,grass,leaf,leaves,courtyard,package_*'
 }
 part_stability() {
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py tests/stability/test_untuned_meshes.py
@@ -370,7 +371,7 @@ if [ ${#only[@]} -gt 0 ]; then
 fi
 run_lanes "sanitized fuzz_replay"
 if is_wanted godot_build && part_godot_build; then
-    run_lanes "godot_device" "godot_addon godot_editor" "godot_masks godot_soak"
+    run_lanes "godot_addon" "godot_device godot_editor" "godot_masks godot_soak"
 fi
 if [ "$is_full" = yes ]; then
     run_lanes "sanitized_all threads tables fuzz large_meshes soak extremes kills editor_repeats"

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import struct
+import zlib
 
 FLOAT = 5126  # glTF component types
 UINT32 = 5125
@@ -86,17 +87,31 @@ def rotate(quaternion, v):
     return add(add(v, scale(t, w)), cross((x, y, z), t))
 
 
+def encode_png(width, height, rows):
+    """rows: bytes of red, green, blue and alpha, from the top."""
+
+    def make_chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    lines = b"".join(b"\0" + bytes(row) for row in rows)
+    return b"\x89PNG\r\n\x1a\n" + make_chunk(b"IHDR", header) + make_chunk(b"IDAT", zlib.compress(lines, 9)) + make_chunk(b"IEND", b"")
+
+
 class Mesh:
-    """Positions, normals and triangles; positions are rounded to float32 when they are added."""
+    """Positions, normals and triangles; positions are rounded to float32 when they are added. uvs: none, or one a vertex."""
 
     def __init__(self, is_closed=True, is_manifold=True):
         self.positions = []
         self.normals = []
+        self.uvs = []
         self.triangles = []
         self.is_closed = is_closed
         self.is_manifold = is_manifold
 
-    def add_vertex(self, position, normal):
+    def add_vertex(self, position, normal, uv=None):
+        if uv is not None:
+            self.uvs.append(tuple(to_float32(value) for value in uv))
         self.positions.append(tuple(to_float32(value) for value in position))
         self.normals.append(tuple(to_float32(value) for value in normalize(normal)))
         return len(self.positions) - 1
@@ -112,6 +127,7 @@ class Mesh:
         first = len(self.positions)
         for position, normal in zip(other.positions, other.normals):
             self.add_vertex(add(rotate(rotation, position), translation), rotate(rotation, normal))
+        self.uvs += other.uvs
         self.triangles += [(a + first, b + first, c + first) for a, b, c in other.triangles]
 
     def set_smooth_normals(self):
@@ -130,6 +146,8 @@ class Mesh:
         ids = [welded.setdefault(position, len(welded)) for position in self.positions]
         points = list(welded)
         parent = list(range(len(points)))
+        if len(self.uvs) not in (0, len(self.positions)):
+            raise ValueError("mesh %s: %d coordinates for %d vertices" % (name, len(self.uvs), len(self.positions)))
 
         def find(index):
             while parent[index] != index:
@@ -168,6 +186,7 @@ class Document:
 
     def __init__(self, scene_size_m):
         self.binary = bytearray()
+        self.images = {}  # file name -> bytes
         self.root = {
             "asset": {"version": "2.0", "generator": "Gnomon make_scenes.py"},
             "extensionsUsed": ["KHR_lights_punctual"],
@@ -196,7 +215,7 @@ class Document:
             "bufferView": self._add_view(struct.pack("<%df" % len(flat), *flat), ARRAY_BUFFER),
             "componentType": FLOAT,
             "count": len(vectors),
-            "type": "VEC3",
+            "type": "VEC%d" % len(vectors[0]),
         }
         if has_bounds:
             accessor["min"] = [min(vector[axis] for vector in vectors) for axis in range(3)]
@@ -221,6 +240,22 @@ class Document:
         self.root["materials"].append(material)
         return len(self.root["materials"]) - 1
 
+    def add_texture(self, file_name, png):
+        """Of a file beside the scene; repeated and interpolated."""
+        self.images[file_name] = png
+        for members, value in (("samplers", {}), ("images", {"uri": file_name})):
+            self.root.setdefault(members, []).append(value)
+        index = len(self.root["images"]) - 1
+        self.root.setdefault("textures", []).append({"sampler": index, "source": index})
+        return index
+
+    def set_texture(self, material, texture, is_cut_out=False):
+        """The base colour's, whose alpha cuts holes where is_cut_out."""
+        written = self.root["materials"][material]
+        written["pbrMetallicRoughness"]["baseColorTexture"] = {"index": texture}
+        if is_cut_out:
+            written["alphaMode"] = "MASK"
+
     def add_glass(self, name, color, transmission, thickness_m=0.0, attenuation_color=None, attenuation_distance_m=None):
         """A material through which light goes: KHR_materials_transmission, and _volume where it has a thickness."""
         index = self.add_material(name, color, roughness=0.1)
@@ -241,6 +276,9 @@ class Document:
         mesh.check(name)
         positions = self._add_vectors(mesh.positions, True)
         normals = self._add_vectors(mesh.normals, False)
+        attributes = {"POSITION": positions, "NORMAL": normals}
+        if mesh.uvs:
+            attributes["TEXCOORD_0"] = self._add_vectors(mesh.uvs, False)
         flat = [index for triangle in mesh.triangles for index in triangle]
         view = self._add_view(struct.pack("<%dI" % len(flat), *flat), ELEMENT_ARRAY_BUFFER)
         self.root["accessors"].append(
@@ -251,7 +289,7 @@ class Document:
                 "name": name,
                 "primitives": [
                     {
-                        "attributes": {"POSITION": positions, "NORMAL": normals},
+                        "attributes": attributes,
                         "indices": len(self.root["accessors"]) - 1,
                         "material": material,
                     }
@@ -299,7 +337,7 @@ class Document:
         binary = (binary_stem or stem) + ".bin"
         self.root["buffers"] = [{"uri": binary, "byteLength": len(self.binary)}]
         text = json.dumps(self.root, indent="\t", allow_nan=False) + "\n"
-        return {stem + ".gltf": text.encode("utf-8"), binary: bytes(self.binary)}
+        return {stem + ".gltf": text.encode("utf-8"), binary: bytes(self.binary), **self.images}
 
 
 def save_files(files, folder):

@@ -7,16 +7,13 @@ The same seed and count give the same bytes. The default output is beside this f
 tests/stability make it.
 """
 
-import argparse
 import math
-import os
-import random
 
 from artist_shapes import make_grass, make_hull, make_kitbash, make_rigging
-from gltf_writer import Document, save_files
-from make_scenes import AMBER, BARK, FOLDER, MOSS, SAND, SCENE_SIZE_M, add_ground, make_light_extras
+from gltf_writer import Document
+from make_scenes import AMBER, BARK, MOSS, SAND, SCENE_SIZE_M, add_ground, make_light_extras
+from seeded_scenes import SeededScenes
 
-DEFAULT_SEED = 1
 MOST_PARTS = 20000
 LIGHT_SHARE = 0.1  # of S: the size of each light
 SUN_ANGLE_DEG = round(2.0 * math.degrees(math.atan(LIGHT_SHARE)), 6)
@@ -67,35 +64,10 @@ SCENES = {
     "rigging": (make_rigging_scene, 400),
     "grass": (make_grass_scene, 2000),
 }
-
-
-def build_scene(name, seed=DEFAULT_SEED, count=None):
-    build, default_count = SCENES[name]
-    return build(random.Random(seed), count or default_count)
-
-
-def build_scene_files(name, seed=DEFAULT_SEED, count=None):
-    """File name -> bytes."""
-    return build_scene(name, seed, count).build_files(name)
-
-
-def main():
-    parser = argparse.ArgumentParser(description="Makes the scenes of merged, open and piercing parts.")
-    parser.add_argument("--scenes", default=",".join(SCENES), help="comma-separated (default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=DEFAULT_SEED, help="of the random numbers (default: %(default)s)")
-    parser.add_argument("--count", type=int, help="parts, ropes or blades, 1..%d (default: the scene's)" % MOST_PARTS)
-    parser.add_argument("--out", default=FOLDER, help="folder to write to (default: beside this file)")
-    arguments = parser.parse_args()
-    names = [name for name in arguments.scenes.split(",") if name]
-    unknown = [name for name in names if name not in SCENES]
-    if unknown or not names:
-        parser.error("--scenes is %r, must be of: %s" % (arguments.scenes, ", ".join(SCENES)))
-    if arguments.count is not None and not 1 <= arguments.count <= MOST_PARTS:
-        parser.error("--count is %d, must be 1..%d" % (arguments.count, MOST_PARTS))
-    for name in names:
-        save_files(build_scene_files(name, arguments.seed, arguments.count), arguments.out)
-        print(os.path.join(arguments.out, name + ".gltf"))
+_seeded = SeededScenes(SCENES, "parts, ropes or blades", MOST_PARTS)
+build_scene = _seeded.build
+build_scene_files = _seeded.build_files
 
 
 if __name__ == "__main__":
-    main()
+    _seeded.run("Makes the scenes of merged, open and piercing parts.")

@@ -13,8 +13,9 @@ sys.path.insert(0, SCENES)
 import gltf_writer  # noqa: E402
 import make_artist_scenes  # noqa: E402
 import make_package_meshes  # noqa: E402
+import seeded_scenes  # noqa: E402
 
-DEFAULT_SEED = make_artist_scenes.DEFAULT_SEED
+DEFAULT_SEED = seeded_scenes.DEFAULT_SEED
 PACKAGE_MESHES = tuple(make_package_meshes.MESHES)
 
 
