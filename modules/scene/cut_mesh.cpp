@@ -217,11 +217,39 @@ double ClippedPiece::compute_area() const {
 	return area;
 }
 
+/// How much of a texture's plane the triangles of a mesh cover, in tiles.
+struct TileCover {
+	double area = 0;
+	double box_area = 0; // of the boxes around them
+	double box_sides = 0;
+	double farthest = 0; // of their coordinates
+
+	void add(const MeshTriangle &p_triangle) {
+		const glm::dvec2 low =
+				glm::min(glm::min(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
+		const glm::dvec2 high =
+				glm::max(glm::max(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
+		const glm::dvec2 size = high - low;
+		area += std::abs(p_triangle.area) / 2;
+		box_area += size.x * size.y;
+		box_sides += size.x + size.y;
+		farthest = std::max(
+				{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
+	}
+	/// Tiles of that size are few enough to be looked at one by one, and told apart in double.
+	bool fits(double p_tile_size) const {
+		const double MOST_TILES = 1 << 20;
+		const double MOST_PLACES = double(uint64_t(1) << 40);
+		return box_area / (p_tile_size * p_tile_size) + box_sides / p_tile_size <= MOST_TILES &&
+				farthest / p_tile_size <= MOST_PLACES;
+	}
+};
+
 /// What a texture leaves of a mesh: outlines for each part of the plane of its coordinates.
 class OutlinedTexture {
 public:
-	/// p_tile_count: how many tiles the mesh covers.
-	OutlinedTexture(const AlphaTest &p_test, double p_tile_count, const OutlineBudget &p_budget);
+	OutlinedTexture(
+			const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget);
 
 	/// Calls with each triangle of the outline that may meet a box of coordinates.
 	template <typename Visitor>
@@ -263,13 +291,13 @@ std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_
 }
 
 OutlinedTexture::OutlinedTexture(
-		const AlphaTest &p_test, double p_tile_count, const OutlineBudget &p_budget) :
+		const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget) :
 		test(p_test) {
-	const double share = p_budget.edges_per_mesh / std::max(p_tile_count, 1.0);
-	edge_budget = static_cast<uint32_t>(std::clamp(share, 4.0, double(p_budget.edges_per_tile)));
-	edge_budget = std::bit_floor(edge_budget);
-	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP && p_test.wrap_v != TextureWrap::CLAMP;
-	while (repeats && share * tile_size * tile_size < 4) {
+	const double share = p_budget.edges_per_mesh / std::max(p_cover.area, 1.0);
+	edge_budget = std::bit_floor(
+			static_cast<uint32_t>(std::clamp(share, 4.0, double(p_budget.edges_per_tile))));
+	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP || p_test.wrap_v != TextureWrap::CLAMP;
+	while (repeats && (share * tile_size * tile_size < 4 || !p_cover.fits(tile_size))) {
 		tile_size *= 2;
 	}
 }
@@ -308,8 +336,8 @@ const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
 			part.image = drawn_out.get();
 		}
 		found->second = make_alpha_outline(part, tile_size > 1 ? 4 : edge_budget);
-		block_size_px = std::max(
-				block_size_px, static_cast<uint32_t>(found->second.block_size_px * tile_size));
+		const double block = std::min(found->second.block_size_px * tile_size, double(INT32_MAX));
+		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));
 	}
 	return found->second;
 }
@@ -373,7 +401,7 @@ private:
 	const Material &material;
 	const Texture &texture;
 	OutlineBudget budget;
-	double tile_count = 0;
+	TileCover cover;
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
 	std::vector<uint32_t> whole;				// triangles
@@ -392,7 +420,10 @@ MeshCutter::MeshCutter(
 		material(p_material), texture(p_material.base_color_texture), budget(p_budget) {
 	if (texture.image) {
 		for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
-			tile_count += std::abs(read_triangle(triangle).area) / 2;
+			const MeshTriangle read = read_triangle(triangle);
+			if (std::isfinite(read.area)) {
+				cover.add(read);
+			}
 		}
 	}
 }
@@ -432,7 +463,7 @@ OutlinedTexture &MeshCutter::get_texture(double p_cutoff) {
 	}
 	AlphaTest test = make_alpha_test(material);
 	test.cutoff = static_cast<float>(p_cutoff);
-	return textures.try_emplace(p_cutoff, test, tile_count, budget).first->second;
+	return textures.try_emplace(p_cutoff, test, cover, budget).first->second;
 }
 
 void MeshCutter::cut_triangle(uint32_t p_triangle) {

@@ -187,6 +187,20 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 						 attributes),
 				material);
 	}
+	// Thin and long, far away, and of one repeated axis.
+	for (const glm::vec2 &far_uv :
+			{ glm::vec2(1e20f, 1e-20f), glm::vec2(1e7f, 1e7f), glm::vec2(3e38f, 1) }) {
+		for (const TextureWrap wrap : { TextureWrap::REPEAT, TextureWrap::CLAMP }) {
+			CAPTURE(far_uv.x);
+			material.base_color_texture.wrap_v = wrap;
+			MeshAttributes attributes;
+			attributes.uvs[0] = { { 0, 0 }, { far_uv.x, 0.1f }, { 0.1f, far_uv.y } };
+			cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },
+							 attributes),
+					material);
+		}
+	}
+	material.base_color_texture.wrap_v = TextureWrap::REPEAT;
 	// As many tiles as no mesh could hold: squares stand for many of them.
 	const CutMesh many = cut_mesh(make_grid(1, 3000), material);
 	REQUIRE(many.mesh);
