@@ -50,15 +50,19 @@ std::vector<uint32_t> read_indices(std::span<const uint8_t> p_bytes, size_t p_ve
 	return indices;
 }
 
-/// Null: there are no triangles.
+/// Null: there are no triangles. p_uvs: may be empty.
 std::shared_ptr<const Mesh> make_mesh_of(const std::string &p_name,
 		std::span<const glm::vec3> p_positions, std::span<const glm::vec3> p_normals,
-		std::vector<uint32_t> p_triangles) {
+		std::span<const glm::vec2> p_uvs, std::vector<uint32_t> p_triangles) {
 	if (p_triangles.empty()) {
 		return nullptr;
 	}
+	MeshAttributes attributes;
+	if (p_uvs.size() == p_positions.size()) {
+		attributes.uvs[0].assign(p_uvs.begin(), p_uvs.end()); // for holes, see CutOutMaterials
+	}
 	return make_mesh(p_name, { p_positions.begin(), p_positions.end() },
-			{ p_normals.begin(), p_normals.end() }, std::move(p_triangles));
+			{ p_normals.begin(), p_normals.end() }, std::move(p_triangles), std::move(attributes));
 }
 
 ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
@@ -74,6 +78,7 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 	}
 	const godot::PackedVector3Array positions(arrays.get_value(godot::Mesh::ARRAY_VERTEX));
 	const godot::PackedVector3Array normals(arrays.get_value(godot::Mesh::ARRAY_NORMAL));
+	const godot::PackedVector2Array uvs(arrays.get_value(godot::Mesh::ARRAY_TEX_UV));
 	const godot::PackedInt32Array indices(arrays.get_value(godot::Mesh::ARRAY_INDEX));
 	const std::span<const glm::vec3> points = positions.get_values();
 	std::vector<uint32_t> order(indices.get_values().begin(), indices.get_values().end());
@@ -82,8 +87,8 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 			order.push_back(vertex);
 		}
 	}
-	surface.mesh =
-			make_mesh_of(p_name, points, normals.get_values(), make_triangles(order, is_strip));
+	surface.mesh = make_mesh_of(p_name, points, normals.get_values(), uvs.get_values(),
+			make_triangles(order, is_strip));
 	if (!surface.mesh || !godot::cast<godot::ArrayMesh>(p_mesh)) {
 		return surface; // others have no levels
 	}
@@ -94,8 +99,9 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 	for (int64_t index = 0; index < levels.get_size(); ++index) {
 		const godot::Variant level = levels.get_value(index);
 		const godot::PackedByteArray bytes(level.get_keyed("index_data"));
-		const std::shared_ptr<const Mesh> mesh = make_mesh_of(p_name, points, normals.get_values(),
-				make_triangles(read_indices(bytes.get_values(), points.size()), is_strip));
+		const std::shared_ptr<const Mesh> mesh =
+				make_mesh_of(p_name, points, normals.get_values(), uvs.get_values(),
+						make_triangles(read_indices(bytes.get_values(), points.size()), is_strip));
 		if (mesh) {
 			read->push_back(
 					{ static_cast<float>(level.get_keyed("edge_length").to_float()), mesh });
@@ -139,11 +145,19 @@ const std::vector<ReadSurface> &MeshReader::read(
 	return entry.surfaces;
 }
 
+bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
+	if (cut.try_emplace(p_cut->id, p_cut).second) {
+		worker.prepare(p_cut);
+	}
+	return worker.is_ready(p_cut);
+}
+
 void MeshReader::forget_unused() {
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
 		return !p_entry.second.watched->is_alive() || frame - p_entry.second.last_use > KEPT_FRAMES;
 	});
+	std::erase_if(cut, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();
 }
 

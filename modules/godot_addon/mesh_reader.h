@@ -30,6 +30,8 @@ public:
 	const std::vector<ReadSurface> &read(const godot::Mesh &p_mesh, const std::string &p_name);
 	/// False while the worker thread finds its edges: until then it can cast no shadow.
 	bool is_ready(const ReadSurface &p_surface) { return worker.is_ready(p_surface.mesh); }
+	/// As above of what is left of a surface; it may be asked for in each frame.
+	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
 	/// Forgets meshes that were not asked for in many frames, or are gone. Once a frame.
 	void forget_unused();
 
@@ -42,7 +44,8 @@ private:
 	};
 
 	TopologyWorker worker;
-	std::map<uint64_t, Entry> entries; // by the resource's id
+	std::map<uint64_t, std::weak_ptr<const Mesh>> cut; // that the worker has, by Mesh::id
+	std::map<uint64_t, Entry> entries;				   // by the resource's id
 	uint64_t frame = 0;
 };
 

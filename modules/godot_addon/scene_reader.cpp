@@ -88,16 +88,23 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 				material = p_mesh.surface_get_material(surface.index);
 			}
 		}
-		const ShadowKind kind = material ? materials.read(material) : ShadowKind::OPAQUE;
+		const ShadowSurface shadow = material ? materials.read(material) : ShadowSurface();
 		InstanceSnapshot instance =
-				make_instance(surface.mesh, nullptr, p_world_from_mesh, p_body.name);
+				make_instance(surface.mesh, shadow.cut_out, p_world_from_mesh, p_body.name);
 		instance.layers = p_body.layers;
-		instance.casts_shadow = p_body.casts_shadow && kind != ShadowKind::NONE;
+		instance.casts_shadow =
+				instance.casts_shadow && p_body.casts_shadow && shadow.kind != ShadowKind::NONE;
 		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world);
-		if (instance.casts_shadow && kind == ShadowKind::CUT_OUT) {
-			warn_once(p_body, "is cut out by alpha, and casts the shadow of its whole surface.");
+		if (instance.casts_shadow && shadow.kind == ShadowKind::CUT_OUT && !shadow.cut_out) {
+			warn_once(p_body,
+					"is cut out by alpha in a way that is not read, and casts the shadow of its "
+					"whole "
+					"surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
+					"coordinates, MSDF textures and albedo from vertex colours.");
 		}
-		if (instance.casts_shadow && !meshes.is_ready(surface)) {
+		const bool is_ready = meshes.is_ready(surface) &&
+				(instance.caster_mesh == surface.mesh || meshes.is_cut_ready(instance.caster_mesh));
+		if (instance.casts_shadow && !is_ready) {
 			instance.casts_shadow = false;
 			++pending_count;
 		}

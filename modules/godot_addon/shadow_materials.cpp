@@ -37,15 +37,16 @@ ShadowKind find_shadow_kind(const ShaderText &p_shader) {
 	return p_shader.has_word("ALPHA") ? ShadowKind::NONE : ShadowKind::OPAQUE;
 }
 
-ShadowKind ShadowMaterials::read(const godot::Material &p_material) {
+ShadowSurface ShadowMaterials::read(const godot::Material &p_material) {
 	if (const auto base = godot::cast<godot::BaseMaterial3D>(p_material)) {
-		return read_base_material(base);
+		const ShadowKind kind = read_base_material(base);
+		return { kind, kind == ShadowKind::CUT_OUT ? cut_outs.read(base) : nullptr };
 	}
 	if (const auto custom = godot::cast<godot::ShaderMaterial>(p_material)) {
 		const godot::Ref<godot::Shader> shader = custom.get_shader();
-		return shader ? read_shader(shader) : ShadowKind::OPAQUE;
+		return { shader ? read_shader(shader) : ShadowKind::OPAQUE, nullptr };
 	}
-	return ShadowKind::OPAQUE;
+	return {};
 }
 
 ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {
@@ -61,6 +62,7 @@ ShadowKind ShadowMaterials::read_shader(const godot::Shader &p_shader) {
 }
 
 void ShadowMaterials::forget_unused() {
+	cut_outs.forget_unused();
 	std::erase_if(shaders, [](const auto &p_entry) { return !p_entry.second.watched->is_alive(); });
 }
 

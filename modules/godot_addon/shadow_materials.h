@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/godot_addon/cut_out_materials.h"
 #include "modules/godot_addon/shader_text.h"
 #include "modules/godot_addon/watched_resource.h"
 
@@ -15,10 +16,17 @@ enum class ShadowKind {
 	NONE,	 // blended, or without depth
 };
 
+/// What of a surface casts.
+struct ShadowSurface {
+	ShadowKind kind = ShadowKind::OPAQUE;
+	/// Of a cut-out one: where it is there. Null: that cannot be read.
+	std::shared_ptr<const Material> cut_out;
+};
+
 /// Reads materials of Godot. Main thread only.
 class ShadowMaterials {
 public:
-	ShadowKind read(const godot::Material &p_material);
+	ShadowSurface read(const godot::Material &p_material);
 	/// Drops what is known of shaders that are gone. Once a frame.
 	void forget_unused();
 
@@ -30,6 +38,7 @@ private:
 	ShadowKind read_shader(const godot::Shader &p_shader);
 
 	std::map<uint64_t, Entry> shaders; // by the resource's id
+	CutOutMaterials cut_outs;
 };
 
 /// What a shader's code says: the built-ins and render modes that decide it.

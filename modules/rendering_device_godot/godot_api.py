@@ -119,7 +119,7 @@ USED = {
     "DirectionalLight3D": {"methods": "get_shadow_mode get_sky_mode is_blend_splits_enabled"},
     "Viewport": {"methods": "get_camera_3d get_mesh_lod_threshold get_scaling_3d_scale get_texture"},
     "Window": {"methods": "get_size get_content_scale_mode", "enums": "ContentScaleMode"},
-    "Texture2D": {"methods": "get_width get_height"},
+    "Texture2D": {"methods": "get_width get_height get_image"},
     "ViewportTexture": {"methods": ""},
     "Environment": {"methods": "is_volumetric_fog_enabled is_sdfgi_enabled"},
     "ProjectSettings": {"methods": "has_setting get_setting_with_override"},
@@ -138,10 +138,17 @@ USED = {
         "enums": "TransformFormat",
     },
     "Material": {"methods": "get_next_pass inspect_native_shader_code"},
-    "BaseMaterial3D": {"methods": "get_transparency get_depth_draw_mode get_flag get_blend_mode", "enums": "Transparency DepthDrawMode Flags BlendMode"},
+    "BaseMaterial3D": {
+        "methods": """get_transparency get_depth_draw_mode get_flag get_blend_mode get_texture get_albedo
+            get_alpha_scissor_threshold get_uv1_scale get_uv1_offset get_texture_filter""",
+        "enums": "Transparency DepthDrawMode Flags BlendMode TextureParam TextureFilter",
+    },
     "ShaderMaterial": {"methods": "get_shader"},
     "Shader": {"methods": "get_code"},
-    "Image": {"methods": "create_from_data", "enums": "Format"},
+    "Image": {
+        "methods": "create_from_data get_width get_height is_empty is_compressed decompress convert get_data",
+        "enums": "Format",
+    },
 }
 BUILT_IN_METHODS = {
     "Array": ("append", "size"),
@@ -149,6 +156,7 @@ BUILT_IN_METHODS = {
     "PackedInt32Array": ("size", "resize"),
     "PackedInt64Array": ("size", "resize"),
     "PackedFloat32Array": ("size", "resize"),
+    "PackedVector2Array": ("size", "resize"),
     "PackedVector3Array": ("size", "resize"),
     "PackedColorArray": ("size", "resize"),
     "PackedStringArray": ("append",),

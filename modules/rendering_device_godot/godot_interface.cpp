@@ -93,6 +93,7 @@ void load_interface(
 	LOAD(packed_float32_array_operator_index);
 	LOAD(packed_int32_array_operator_index);
 	LOAD(packed_int64_array_operator_index);
+	LOAD(packed_vector2_array_operator_index);
 	LOAD(packed_vector3_array_operator_index);
 	LOAD(classdb_construct_object2);
 	LOAD(classdb_get_method_bind);
@@ -357,6 +358,8 @@ const PackedType &get_packed_type(BuiltInType p_type) {
 				packed_int64_array_operator_index),
 		PACKED(BuiltInType::PACKED_FLOAT32_ARRAY, PACKEDFLOAT32ARRAY,
 				packed_float32_array_operator_index),
+		PACKED(BuiltInType::PACKED_VECTOR2_ARRAY, PACKEDVECTOR2ARRAY,
+				packed_vector2_array_operator_index),
 		PACKED(BuiltInType::PACKED_VECTOR3_ARRAY, PACKEDVECTOR3ARRAY,
 				packed_vector3_array_operator_index),
 		PACKED(BuiltInType::PACKED_COLOR_ARRAY, PACKEDCOLORARRAY,

@@ -58,6 +58,7 @@ enum class BuiltInType : int {
 	PACKED_INT64_ARRAY = 31,
 	PACKED_FLOAT32_ARRAY = 32,
 	PACKED_STRING_ARRAY = 34,
+	PACKED_VECTOR2_ARRAY = 35,
 	PACKED_VECTOR3_ARRAY = 36,
 	PACKED_COLOR_ARRAY = 37,
 };
@@ -214,6 +215,7 @@ public:
 using PackedInt32Array = PackedArray<int32_t, BuiltInType::PACKED_INT32_ARRAY>;
 using PackedInt64Array = PackedArray<int64_t, BuiltInType::PACKED_INT64_ARRAY>;
 using PackedFloat32Array = PackedArray<float, BuiltInType::PACKED_FLOAT32_ARRAY>;
+using PackedVector2Array = PackedArray<glm::vec2, BuiltInType::PACKED_VECTOR2_ARRAY>;
 using PackedVector3Array = PackedArray<glm::vec3, BuiltInType::PACKED_VECTOR3_ARRAY>;
 using PackedColorArray = PackedArray<glm::vec4, BuiltInType::PACKED_COLOR_ARRAY>;
 

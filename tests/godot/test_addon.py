@@ -20,7 +20,7 @@ EXPECTED = (
     ("penumbra_outer_width is nan, must be", 1),
     ("has an orthogonal projection", 1),
     ('RIDs of type "Texture" were leaked', 1),  # by Godot, of each reflection probe that was drawn
-    ("is cut out by alpha", 2),
+    ("is cut out by alpha", 1),
     ("is transparent or drawn without depth", 3),
     ("has a rim", 4),
     ("has toon shading", 1),

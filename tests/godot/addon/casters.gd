@@ -68,6 +68,61 @@ func test_layers_choose_the_casters() -> void:
 	await _check_same(both, "a caster on a chosen layer")
 
 
+## A texture whose alpha is that of each column.
+func _make_alpha_texture(columns: Array[float]) -> ImageTexture:
+	var image := Image.create_empty(columns.size(), 4, false, Image.FORMAT_RGBA8)
+	for x in columns.size():
+		for y in 4:
+			image.set_pixel(x, y, Color(1.0, 1.0, 1.0, columns[x]))
+	return ImageTexture.create_from_image(image)
+
+
+func _make_cut_out(columns: Array[float], kind := BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR) -> StandardMaterial3D:
+	var material := StandardMaterial3D.new()
+	material.transparency = kind
+	material.albedo_texture = _make_alpha_texture(columns)
+	return material
+
+
+func test_cut_out_materials_cast_no_holes() -> void:
+	for kind: BaseMaterial3D.Transparency in [BaseMaterial3D.TRANSPARENCY_ALPHA_SCISSOR, BaseMaterial3D.TRANSPARENCY_ALPHA_HASH]:
+		var use := func(columns: Array[float]) -> Callable:
+			return func(scene: StudyScene) -> void: scene.caster.material_override = _make_cut_out(columns, kind)
+		await _check_same(use.call([1.0, 1.0] as Array[float]), "opaque everywhere, kind %d" % kind)
+		await _check_same(use.call([0.0, 0.1] as Array[float]), "opaque nowhere, kind %d" % kind, false)
+	var stripes: Array[float] = []
+	for column in 64:
+		stripes.append(float(column / 4 % 2))
+	var whole := count_darker(await _render_with_caster())
+	var striped := count_darker(await _render(func(scene: StudyScene) -> void: scene.caster.material_override = _make_cut_out(stripes)))
+	check(striped > 100 and striped != whole, "%d darker pixels with stripes, %d of the whole box" % [striped, whole])
+
+
+func test_changes_of_cut_out_materials_are_followed() -> void:
+	var scene := add_study()
+	var material := _make_cut_out([0.4, 0.4] as Array[float])
+	scene.caster.material_override = material
+	check(count_darker(await read_settled(scene)) == 0, "0.4 is below the threshold of 0.5")
+	material.alpha_scissor_threshold = 0.3
+	check(count_darker(await read_settled(scene)) > 500, "and above one of 0.3")
+	material.albedo_color.a = 0.5
+	check(count_darker(await read_settled(scene)) == 0, "the colour's alpha multiplies it")
+	material.albedo_texture = _make_alpha_texture([1.0, 1.0] as Array[float])
+	check(count_darker(await read_settled(scene)) > 500, "another texture")
+	(material.albedo_texture as ImageTexture).update(_make_alpha_texture([0.1, 0.1] as Array[float]).get_image())
+	check(count_darker(await read_settled(scene)) == 0, "other texels")
+	remove(scene)
+
+
+func test_cut_out_shaders_cast_whole_with_a_warning() -> void:
+	var shader := func(scene: StudyScene) -> void:
+		var material := ShaderMaterial.new()
+		material.shader = Shader.new()
+		material.shader.code = "shader_type spatial;\nvoid fragment() { ALPHA = 0.9; ALPHA_SCISSOR_THRESHOLD = 0.5; }"
+		scene.caster.material_override = material
+	await _check_same(shader, "a shader that is cut out")
+
+
 func test_blended_materials_cast_nothing() -> void:
 	var blend := func(scene: StudyScene) -> void:
 		var material := StandardMaterial3D.new()
