@@ -15,7 +15,7 @@ DEMO_PACKAGES=(glmark2-data assimp-testmodels assimp-utils)
 TEST_PACKAGES=(
     git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium
 )
-# What tests/run_tests.sh --full uses beside that, to download meshes.
+# What tests/run_tests.sh --full uses beside that, to download meshes and gltf-validator.
 LARGE_MESH_PACKAGES=(npm)
 # What tests/run_tests.sh --full uses beside that, to fuzz: libFuzzer is clang's.
 FUZZ_PACKAGES=(clang libclang-rt-14-dev)

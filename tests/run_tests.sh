@@ -2,14 +2,14 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes soak kills extremes blender"
+PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
   --full       beside the quick tests: sanitizers over everything, removal of every technique in
                turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
-               times, shadow volumes of large meshes (installs npm, which downloads them), fuzzing
+               times, shadow volumes of large meshes and gltf-validator (installs npm, which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
                times, all stability sweeps
   --godot      also tests inside Godot 4.5 or later: that of $GODOT or PATH, or one that is set up below
@@ -18,7 +18,7 @@ Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
                command_line demo stability removal template sanitized fuzz_replay; with --godot also godot; with
                --full also sanitized_all
-               threads tables editor_repeats large_meshes fuzz soak kills extremes; only when named:
+               threads tables editor_repeats large_meshes validator fuzz soak kills extremes; only when named:
                blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
@@ -81,7 +81,7 @@ is_wanted() {
 # shellcheck source=demo_project/install_packages.sh
 . demo_project/install_packages.sh
 packages=("${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
-if [ "$is_full" = yes ] && is_wanted large_meshes && ! command -v npm >/dev/null; then
+if [ "$is_full" = yes ] && { is_wanted large_meshes || is_wanted validator; } && ! command -v npm >/dev/null; then
     packages+=("${LARGE_MESH_PACKAGES[@]}")
 fi
 if [ "$is_full" = yes ] && is_wanted fuzz; then
@@ -334,6 +334,9 @@ part_tables() {
 part_large_meshes() {
     run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py
 }
+part_validator() {
+    run_part validator python3 tests/run_unittest.py tests/gltf/test_validator.py
+}
 part_soak() {
     run_part soak python3 tests/stability/run_soak.py bin/gnomon_tests
 }
@@ -374,6 +377,6 @@ if is_wanted godot_build && part_godot_build; then
     run_lanes "godot_addon" "godot_device godot_editor" "godot_masks godot_soak"
 fi
 if [ "$is_full" = yes ]; then
-    run_lanes "sanitized_all threads tables fuzz large_meshes soak extremes kills editor_repeats"
+    run_lanes "sanitized_all threads tables fuzz large_meshes validator soak extremes kills editor_repeats"
 fi
 finish

