@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/core/limits.h"
 #include "modules/core/log.h"
 #include "modules/core/png.h"
 #include "modules/main/commands.h"
@@ -37,6 +38,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	RenderRequest request;
 	request.scene = build_snapshot(r_scene, camera);
 	request.size_px = p_size_px;
+	request.antialiasing = *options.antialiasing;
 	request.technique_override = options.technique;
 	request.debug_view = options.debug_view;
 	request.truth = options.truth;
@@ -65,6 +67,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 
 void run(const CommonOptions &p_common) {
 	glm::uvec2 size_px = choose_size(options.size, options.scene);
+	options.antialiasing = choose_antialiasing(options.antialiasing, options.scene);
 	for (const std::string &path : { options.capture, options.dot, options.time }) {
 		if (!path.empty()) {
 			check_writable(path);
@@ -106,6 +109,10 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 			->check(CLI::Range(1u, 1000000u));
 	command->add_option("--capture", options.capture, "Writes the last frame as a PNG");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");
+	command->add_option("--antialiasing", options.antialiasing,
+				   "Draws the image so many times as wide and high, and makes it smaller; default: "
+				   "the project's, else 2")
+			->check(CLI::Range(1u, MAX_ANTIALIASING));
 	command->add_option("--camera", options.camera, "Default: the first");
 	add_stage_option(*command, r_common);
 	command->add_option("--technique", options.technique, "Replaces that of every light");

@@ -33,6 +33,9 @@ glm::uvec2 parse_size(const std::string &p_text);
 /// The size that the command line names, else [defaults] size of the scene's project, else 512x512.
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
+/// As above: antialiasing, 1..4, else 2.
+uint32_t choose_antialiasing(
+		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
 /// project's disabled modules are switched off. It is staged as the command line says.

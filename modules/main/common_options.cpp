@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const char *const DEFAULT_SIZE = "512x512";
+const uint32_t DEFAULT_ANTIALIASING = 2;
 
 const PropertyInfo *find_property(const std::string &p_name) {
 	if (const PropertyInfo *info = Light3D::get_property_list().find(p_name)) {
@@ -39,6 +40,24 @@ std::string list_properties() {
 		names += ", " + name;
 	}
 	return names;
+}
+
+/// From [defaults] of the project that a scene belongs to, or that the path is; nothing where that
+/// says nothing.
+std::optional<std::string> find_default(const fs::path &p_scene_path, const std::string &p_key) {
+	if (p_scene_path.empty()) {
+		fail("The scene's path is empty. Name a .gltf or .glb file, or a project's folder.");
+	}
+	std::error_code code;
+	const fs::path folder = fs::is_directory(p_scene_path, code)
+			? p_scene_path
+			: Project::find_folder(p_scene_path);
+	if (!fs::exists(folder / "project.cfg", code)) {
+		return std::nullopt;
+	}
+	const Project project = Project::load(folder);
+	const auto found = project.defaults.find(p_key);
+	return found == project.defaults.end() ? std::nullopt : std::optional(found->second);
 }
 
 } // namespace
@@ -64,23 +83,25 @@ glm::uvec2 parse_size(const std::string &p_text) {
 }
 
 glm::uvec2 choose_size(const std::optional<std::string> &p_text, const fs::path &p_scene_path) {
-	if (p_scene_path.empty()) {
-		fail("The scene's path is empty. Name a .gltf or .glb file, or a project's folder.");
+	const std::optional<std::string> from_project = find_default(p_scene_path, "size");
+	return parse_size(p_text ? *p_text : from_project.value_or(DEFAULT_SIZE));
+}
+
+uint32_t choose_antialiasing(
+		const std::optional<uint32_t> &p_option, const fs::path &p_scene_path) {
+	if (p_option) {
+		return *p_option;
 	}
-	if (p_text) {
-		return parse_size(*p_text);
+	const std::optional<std::string> text = find_default(p_scene_path, "antialiasing");
+	if (!text) {
+		return DEFAULT_ANTIALIASING;
 	}
-	std::error_code code;
-	const fs::path folder = fs::is_directory(p_scene_path, code)
-			? p_scene_path
-			: Project::find_folder(p_scene_path);
-	if (fs::exists(folder / "project.cfg", code)) {
-		const Project project = Project::load(folder);
-		if (const auto size = project.defaults.find("size"); size != project.defaults.end()) {
-			return parse_size(size->second);
-		}
+	uint32_t value = 0;
+	if (!parse_whole(*text, value) || value < 1 || value > MAX_ANTIALIASING) {
+		fail("The project of ", p_scene_path, ": antialiasing in [defaults] is \"", *text,
+				"\", must be 1..", MAX_ANTIALIASING, ". Correct project.cfg.");
 	}
-	return parse_size(DEFAULT_SIZE);
+	return value;
 }
 
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {

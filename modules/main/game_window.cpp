@@ -140,6 +140,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	FlyCamera fly_camera(start, scene_size_m * SPEED_PER_SCENE_SIZE);
 	RenderRequest request;
 	request.technique_override = p_options.technique;
+	request.antialiasing = p_options.antialiasing.value_or(1);
 	request.mode = RenderGraph::Mode::QUEUE;
 	const std::shared_ptr<const TruthMask> &truth = p_options.truth;
 	GameState state{ r_scene, request, truth != nullptr };

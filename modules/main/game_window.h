@@ -14,7 +14,8 @@ struct RunOptions {
 	bool is_headless = false;
 	uint32_t frame_count = 0; // 0 = one headless, until it is closed in a window
 	std::string capture;
-	std::optional<std::string> size; // none = the project's
+	std::optional<std::string> size;	  // none = the project's
+	std::optional<uint32_t> antialiasing; // none = the project's; 1..4
 	std::string camera;
 	std::string technique;
 	std::string debug_view;

@@ -90,7 +90,8 @@ RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
 }
 
 RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {
-	const RGTexture output = create_picture(p_image.graph, p_image.size_px);
+	const glm::uvec2 size_px = p_image.size_px / p_image.antialiasing;
+	const RGTexture output = create_picture(p_image.graph, size_px);
 	add_compute_pass(p_image.graph, "tone map",
 			p_image.device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} }),
 			{
@@ -98,7 +99,7 @@ RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {
 					PassBinding::read(RENDERER_BINDING_RADIANCE, p_radiance),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, output),
 			},
-			glm::uvec3(p_image.size_px, 1u));
+			size_px, shader::ToneMapPush{ p_image.antialiasing, 0, 0, 0 });
 	return output;
 }
 

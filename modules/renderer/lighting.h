@@ -15,7 +15,8 @@ struct LitImage {
 	RenderingDevice &device;
 	GBuffer gbuffer;
 	RGBuffer frame; // FrameConstants
-	glm::uvec2 size_px = glm::uvec2(0);
+	glm::uvec2 size_px = glm::uvec2(0); // as it is drawn
+	uint32_t antialiasing = 1;			// so many texels a side make a pixel
 	float exposure = 1.0f;
 };
 

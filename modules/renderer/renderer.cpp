@@ -23,6 +23,22 @@ void check_request(const RenderRequest &p_request, const RenderingDevice &p_devi
 		fail("Size is ", size_px.x, "x", size_px.y, ", must be 1x1..", limit_px, "x", limit_px,
 				". Choose another --size.");
 	}
+	if (p_request.antialiasing < 1 || p_request.antialiasing > MAX_ANTIALIASING) {
+		fail("Antialiasing is ", p_request.antialiasing, ", must be 1..", MAX_ANTIALIASING,
+				". Choose another --antialiasing.");
+	}
+	const uint32_t drawn_px = std::max(size_px.x, size_px.y) * p_request.antialiasing;
+	if (drawn_px > limit_px) {
+		fail("Size is ", size_px.x, "x", size_px.y, " with antialiasing ", p_request.antialiasing,
+				", must be at most ", limit_px / p_request.antialiasing, "x",
+				limit_px / p_request.antialiasing, ". Choose a smaller --size or --antialiasing.");
+	}
+}
+
+/// By which the image is drawn larger.
+uint32_t get_drawn_factor(const RenderRequest &p_request) {
+	return p_request.mask_light.empty() && p_request.debug_view.empty() ? p_request.antialiasing
+																		: 1;
 }
 
 /// True when the request names a light whose technique can be looked at.
@@ -46,9 +62,11 @@ struct Renderer::Frame {
 
 	Frame(Renderer &r_renderer, const RenderRequest &p_request, RenderResult &r_result) :
 			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
-			shadows(r_renderer.shadows, graph, result.plan, request.scene, request.size_px,
+			shadows(r_renderer.shadows, graph, result.plan, request.scene,
+					request.size_px * get_drawn_factor(request),
 					{ request.technique_override, request.may_leave_out, request.may_keep }),
-			image{ graph, r_renderer.device, {}, shadows.get_constants(), request.size_px,
+			image{ graph, r_renderer.device, {}, shadows.get_constants(),
+				request.size_px * get_drawn_factor(request), get_drawn_factor(request),
 				compute_exposure(*request.scene) } {}
 
 	/// The light whose intermediate images are shown: nothing of it is left out.
@@ -212,7 +230,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	uint32_t drawn_count = 0;
 	const GBuffer &gbuffer = frame.image.gbuffer =
 			add_gbuffer_pass(frame.graph, device, shadows.get_meshes(), materials, scene,
-					p_request.size_px, frame.image.frame, drawn_count);
+					frame.image.size_px, frame.image.frame, drawn_count);
 	result.plan.run("G-buffer");
 	if (drawn_count < scene.instances.size()) {
 		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),

@@ -28,6 +28,9 @@ struct OverlayVertex {
 struct RenderRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
+	/// 1..4: the image is drawn so many times as wide and high, its masks too, and each pixel is
+	/// the mean of what is shown there. Masks alone and debug views are drawn at their size.
+	uint32_t antialiasing = 1;
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
 	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" where

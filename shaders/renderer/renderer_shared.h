@@ -70,6 +70,15 @@ struct SHARED_ALIGN ExposurePush {
 };
 SHARED_SIZE(ExposurePush, 16);
 
+/// Push constants of tone_map.comp.
+struct SHARED_ALIGN ToneMapPush {
+	uint antialiasing; // 1..4: so many texels a side make a pixel
+	uint padding0;
+	uint padding1;
+	uint padding2;
+};
+SHARED_SIZE(ToneMapPush, 16);
+
 /// Push constants of debug_view.comp.
 struct SHARED_ALIGN DebugViewPush {
 	vec2 shown_range; // value shown black, value shown white

@@ -57,7 +57,7 @@ RULES = (
 def measure(scene, folder, size_px, technique=None, settings=(), words=()):
     """The frame's plan, and what --time says."""
     times = os.path.join(folder, "time.json")
-    command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan"]
+    command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan", "--antialiasing", "1"]
     # What is kept is in the plan of a later frame, what is drawn in the first one's.
     command += ["--time", times, "--frames", "4" if "--still" in words else "1", *words]
     if technique:

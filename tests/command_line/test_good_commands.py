@@ -189,6 +189,35 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(read_png_size(path), (48, 32))
 
+    def test_images_are_antialiased_as_the_project_or_the_option_says(self):
+        folder = self.path("project")
+        os.makedirs(folder)
+        for name in ("contact_box.gltf", "contact_box.bin"):
+            shutil.copy(os.path.join(os.path.dirname(CONTACT_BOX), name), folder)
+        scene = os.path.join(folder, "contact_box.gltf")
+
+        def capture(*words):
+            result = run("run", scene, "--headless", *SMALL, "--capture", self.path("a.png"), *words)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(read_png_size(self.path("a.png")), (32, 32))
+            with open(self.path("a.png"), "rb") as file:
+                return file.read()
+
+        images = [capture("--antialiasing", str(factor)) for factor in (1, 2, 3, 4)]
+        self.assertEqual(len(set(images)), 4)
+        self.assertEqual(capture(), images[1])
+        with open(os.path.join(folder, "project.cfg"), "w", encoding="utf-8") as file:
+            file.write("[project]\nname=\"Test\"\n[defaults]\nantialiasing=3\n")
+        self.assertEqual(capture(), images[2])
+        self.assertEqual(capture("--antialiasing", "1"), images[0])
+        self.assertEqual(capture("--debug-view", "mask"), capture("--debug-view", "mask", "--antialiasing", "1"))
+        with open(os.path.join(folder, "project.cfg"), "w", encoding="utf-8") as file:
+            file.write("[project]\nname=\"Test\"\n[defaults]\nantialiasing=9\n")
+        result = run("run", scene, "--headless", *SMALL)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('antialiasing in [defaults] is "9", must be 1..4', result.stderr)
+        self.assertEqual(run("run", scene, "--headless", "--antialiasing", "5").returncode, 2)
+
     def test_a_project_runs_its_start_scene(self):
         path = self.path("a.png")
         result = run("run", os.path.join(ROOT, "demo_project"), "--headless", *SMALL, "--capture", path)

@@ -44,6 +44,67 @@ TEST_CASE("[GPU][Renderer] a light makes the picture brighter, and its shadow da
 	CHECK_FALSE(with_shadow.plan.is_left_out("Light", "shadow"));
 }
 
+TEST_CASE(
+		"[GPU][Renderer] an antialiased image is the mean of a larger one, masks keep their size") {
+	const auto decode = [](uint8_t p_byte) {
+		const double value = p_byte / 255.0;
+		return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+	};
+	const auto encode = [](double p_linear) {
+		return 255 *
+				(p_linear <= 0.0031308 ? 12.92 * p_linear
+									   : 1.055 * std::pow(p_linear, 1 / 2.4) - 0.055);
+	};
+	RenderFixture fixture;
+	SmallScene scene;
+	RenderRequest request;
+	request.scene = scene.snap();
+	request.wants_image = true;
+	for (const uint32_t factor : { 2u, 3u, 4u }) {
+		CAPTURE(factor);
+		request.size_px = { 24, 20 };
+		request.antialiasing = factor;
+		const std::vector<uint8_t> found = fixture.renderer->render(request).image;
+		REQUIRE(found.size() == 24 * 20 * 4);
+		request.size_px *= factor;
+		request.antialiasing = 1;
+		const std::vector<uint8_t> larger = fixture.renderer->render(request).image;
+		double greatest = 0;
+		for (uint32_t byte = 0; byte < found.size(); ++byte) {
+			if (byte % 4 == 3) {
+				continue;
+			}
+			const glm::uvec2 pixel(byte / 4 % 24, byte / 4 / 24);
+			double sum = 0;
+			for (uint32_t y = 0; y < factor; ++y) {
+				for (uint32_t x = 0; x < factor; ++x) {
+					const glm::uvec2 place = pixel * factor + glm::uvec2(x, y);
+					sum += decode(larger[4 * (place.y * 24 * factor + place.x) + byte % 4]);
+				}
+			}
+			greatest = std::max(
+					greatest, std::abs(encode(sum / (factor * factor)) - double(found[byte])));
+		}
+		CHECK(greatest <= 1.5);
+	}
+	request.antialiasing = 4;
+	request.mask_light = scene.light->name;
+	request.wants_mask = true;
+	request.size_px = { 24, 20 };
+	CHECK(fixture.renderer->render(request).visibility.size() == 24 * 20);
+	request.mask_light = "";
+	request.wants_mask = false;
+	for (const uint32_t odd : { 0u, 5u }) {
+		request.antialiasing = odd;
+		CHECK_THROWS_WITH_AS(
+				fixture.renderer->render(request), doctest::Contains("must be 1..4"), Error);
+	}
+	request.antialiasing = 4;
+	request.size_px = { 8000, 4 };
+	CHECK_THROWS_WITH_AS(
+			fixture.renderer->render(request), doctest::Contains("with antialiasing 4"), Error);
+}
+
 TEST_CASE("[GPU][Renderer] a light whose range ends before the view is left out, unseen") {
 	RenderFixture fixture;
 	SmallScene scene;
