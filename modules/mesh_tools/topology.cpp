@@ -114,6 +114,7 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 	std::vector<double> areas(vertex_count, 0.0);
 	std::vector<bool> is_used(vertex_count, false); // by a face, not only by a degenerate triangle
 	r_topology.planes.resize(face_count);
+	const std::shared_ptr<const Mesh> source = p_mesh.source.mesh.lock();
 	// About a point of the mesh: far from the origin the terms would cancel digits away.
 	const glm::dvec3 centre =
 			vertex_count > 0 ? glm::dvec3(r_topology.welded_positions_node[0]) : glm::dvec3(0.0);
@@ -127,9 +128,8 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 		const double length = glm::length(cross);
 		r_topology.signed_volume_m3 += glm::dot(p0 - centre, cross) / 6;
 		r_topology.counts.zero_area_triangle_count += length > 0 ? 0 : 1;
-		const glm::dvec3 whole = p_mesh.source.mesh
-				? compute_cross(*p_mesh.source.mesh,
-						  p_mesh.source.triangles[r_topology.source_triangles[face]])
+		const glm::dvec3 whole = source
+				? compute_cross(*source, p_mesh.source.triangles[r_topology.source_triangles[face]])
 				: cross;
 		if (!(glm::length(whole) > 0)) {
 			continue;

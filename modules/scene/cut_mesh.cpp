@@ -9,10 +9,8 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <optional>
-#include <set>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 namespace gnomon {
 
@@ -622,6 +620,10 @@ struct CacheEntry {
 	}
 };
 
+using CutKey = decltype(make_key(std::declval<Mesh>(), std::declval<Material>()));
+std::mutex cache_mutex;
+std::map<CutKey, CacheEntry> cache;
+
 } // namespace
 
 CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
@@ -639,16 +641,23 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	if (!p_material || !p_material->is_cut_out()) {
 		return { p_mesh };
 	}
-	static std::mutex mutex;
-	static std::map<decltype(make_key(*p_mesh, *p_material)), CacheEntry> cache;
 	// Held while a mesh is cut: two threads would do the same work.
-	const std::lock_guard<std::mutex> lock(mutex);
+	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
 	if (entry.source.expired()) {
 		entry = { p_mesh, p_material, cut_mesh(p_mesh, *p_material) };
-		std::erase_if(cache, [](const auto &p_item) { return !p_item.second.is_used(); });
 	}
-	return cache.at(make_key(*p_mesh, *p_material)).cut;
+	return entry.cut;
+}
+
+void drop_unused_cut_meshes() {
+	const std::lock_guard<std::mutex> lock(cache_mutex);
+	std::erase_if(cache, [](const auto &p_item) { return !p_item.second.is_used(); });
+}
+
+size_t get_cut_mesh_count() {
+	const std::lock_guard<std::mutex> lock(cache_mutex);
+	return cache.size();
 }
 
 } // namespace gnomon

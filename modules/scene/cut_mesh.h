@@ -35,9 +35,14 @@ struct OutlineBudget {
 CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 		const OutlineBudget &p_budget = {});
 
-/// As cut_mesh, cached as long as the result or the mesh lives: materials that cut alike share it.
-/// For materials that are not cut out the mesh itself. From any thread.
+/// As cut_mesh, cached: materials that cut alike share it. For materials that are not cut out the
+/// mesh itself. From any thread.
 CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		const std::shared_ptr<const Material> &p_material);
+/// Frees what get_cut_mesh holds of meshes that are gone, and of materials that are gone or were
+/// changed, unless it is in use. Once a frame, from any thread.
+void drop_unused_cut_meshes();
+/// How many get_cut_mesh holds.
+size_t get_cut_mesh_count();
 
 } // namespace gnomon

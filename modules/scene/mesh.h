@@ -54,7 +54,7 @@ struct Mesh;
 /// Of a mesh that was cut out of another: in which of its triangles each one lies. Their planes are
 /// the source's, as rounding bends those of small triangles.
 struct MeshSource {
-	std::shared_ptr<const Mesh> mesh; // null: the mesh is its own
+	std::weak_ptr<const Mesh> mesh; // null: the mesh is its own
 	std::vector<uint32_t> triangles;
 };
 

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/scene/cut_mesh.h"
 
 namespace gnomon {
 
@@ -37,6 +38,7 @@ const GpuTopology &MeshStore::get_topology(
 }
 
 void MeshStore::collect_garbage() {
+	drop_unused_cut_meshes();
 	const auto is_gone = [](const auto &p_entry) { return p_entry.second.mesh.expired(); };
 	const size_t gone_count = std::erase_if(meshes, is_gone) + std::erase_if(topologies, is_gone) +
 			std::erase_if(derived, is_gone);

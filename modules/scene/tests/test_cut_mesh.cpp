@@ -126,7 +126,7 @@ TEST_CASE("[CutMesh] of a mesh as much is there as its alpha says, wrapped, mirr
 					CHECK(cut.block_size_px == 0);
 					CHECK(compute_area(*cut.mesh) / whole_area ==
 							doctest::Approx(sample_share(material, repeats, offset)).epsilon(0.01));
-					CHECK(cut.mesh->source.mesh == grid);
+					CHECK(cut.mesh->source.mesh.lock() == grid);
 				}
 			}
 		}
@@ -221,6 +221,33 @@ TEST_CASE("[CutMesh] materials that cut alike share a mesh; others and changed o
 	CHECK(get_cut_mesh(grid, changed).mesh != first.mesh);
 	CHECK(get_cut_mesh(grid, changed).content_hash != first.content_hash);
 	CHECK(first.content_hash != 0);
+}
+
+TEST_CASE("[CutMesh] what no scene has any more is freed") {
+	drop_unused_cut_meshes();
+	const size_t before = get_cut_mesh_count();
+	auto grid = make_grid(2, 1);
+	auto material =
+			std::make_shared<const Material>(make_material(make_wave_image({ 16, 16 }, 0.5)));
+	std::weak_ptr<const Mesh> cut = get_cut_mesh(grid, material).mesh;
+	drop_unused_cut_meshes();
+	CHECK(get_cut_mesh_count() == before + 1);
+	CHECK(!cut.expired());
+	SUBCASE("the mesh is gone") {
+		grid.reset();
+	}
+	SUBCASE("the material is gone") {
+		material.reset();
+	}
+	SUBCASE("the material is gone, and its mesh in use") {
+		const auto in_use = cut.lock();
+		material.reset();
+		drop_unused_cut_meshes();
+		CHECK(get_cut_mesh_count() == before + 1);
+	}
+	drop_unused_cut_meshes();
+	CHECK(get_cut_mesh_count() == before);
+	CHECK(cut.expired());
 }
 
 TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
