@@ -9,7 +9,7 @@ namespace gnomon {
 
 void SceneRays::follow(const Scene &p_scene) {
 	instances.clear();
-	std::map<uint64_t, std::unique_ptr<RayTree>> kept;
+	std::map<uint64_t, std::unique_ptr<RayTree>> used_trees;
 	for (MeshInstance3D *node : p_scene.find_nodes<MeshInstance3D>()) {
 		const glm::dmat4 world_from_node = node->compute_world_from_node();
 		const double determinant = glm::determinant(world_from_node);
@@ -25,11 +25,11 @@ void SceneRays::follow(const Scene &p_scene) {
 			instances.push_back({ node, mesh, world_from_node, glm::inverse(world_from_node),
 					transform_bounds(mesh->bounds_node, world_from_node), node->casts_shadow });
 			if (std::unique_ptr<RayTree> &tree = trees[mesh->id]) {
-				kept[mesh->id] = std::move(tree);
+				used_trees[mesh->id] = std::move(tree);
 			}
 		}
 	}
-	trees = std::move(kept);
+	trees = std::move(used_trees);
 }
 
 std::optional<SceneRays::Hit> SceneRays::find_nearest(const glm::dvec3 &p_origin_world,

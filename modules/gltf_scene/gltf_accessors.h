@@ -22,7 +22,7 @@ public:
 	/// A VEC3 of floats or of integers of 8 or 16 bits, normalized or not. Shared with the caller
 	/// as exporters like to let many primitives share one vertex array.
 	std::shared_ptr<const std::vector<glm::vec3>> read_vectors(size_t p_accessor_index);
-	/// Likewise of VEC2 to VEC4, not shared: other vertex attributes.
+	/// The same for VEC2 to VEC4, not shared: other vertex attributes.
 	/// p_fewest, p_most: components that are allowed. Those that are not there are 0, 0, 0, 1.
 	std::vector<glm::vec4> read_attribute(size_t p_accessor_index, int p_fewest, int p_most);
 	/// A SCALAR of unsigned integers, each below p_vertex_count.

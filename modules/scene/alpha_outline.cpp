@@ -1,5 +1,6 @@
 #include "modules/scene/alpha_outline.h"
 
+#include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/scene/loop_simplification.h"
 
@@ -430,6 +431,9 @@ uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed) {
 }
 
 float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv) {
+	if (!std::isfinite(p_uv.x) || !std::isfinite(p_uv.y)) {
+		return 0.0f;
+	}
 	const Image &image = *p_test.image;
 	const glm::dvec2 place(wrap(p_uv.x, p_test.wrap_u) * image.size_px.x,
 			wrap(p_uv.y, p_test.wrap_v) * image.size_px.y);
@@ -453,6 +457,7 @@ float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv) {
 }
 
 AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget) {
+	GNOMON_ASSERT(p_edge_budget >= 4, p_edge_budget, " edges are no square");
 	AlphaOutline outline;
 	outline.size = glm::ivec2(p_test.image->size_px) * UNITS;
 	// What is simplified may have many more edges before.

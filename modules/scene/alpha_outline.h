@@ -25,7 +25,7 @@ AlphaTest make_alpha_test(const Material &p_material);
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);
 
 /// Alpha at a place of an image, 0..1, as a sampler reads its first level. p_uv: 1 is the image's
-/// width and height. Beyond the image as its wrapping says.
+/// width and height. Beyond the image as its wrapping says; 0 where a coordinate is not finite.
 float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv);
 
 /// The region of a texture where its alpha is at least a cutoff, in one tile: the square 0..1 of
@@ -52,7 +52,7 @@ struct AlphaOutline {
 ///
 /// A mask with more edges than p_edge_budget, noise for instance, becomes a half-tone: of each
 /// block of texels a square hole or a square that has as much area as the mask has there. The
-/// blocks are as small as the budget allows.
+/// blocks are as small as the budget, at least 4, allows.
 AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget);
 
 } // namespace gnomon

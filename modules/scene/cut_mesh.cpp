@@ -234,7 +234,7 @@ struct TileCover {
 		farthest = std::max(
 				{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
 	}
-	/// Tiles of that size are few enough to be looked at one by one, and told apart in double.
+	/// Tiles of that size are few enough to be visited one by one, and distinct in double.
 	bool fits(double p_tile_size) const {
 		const double MOST_TILES = 1 << 20;
 		const double MOST_PLACES = double(uint64_t(1) << 40);

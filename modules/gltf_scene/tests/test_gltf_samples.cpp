@@ -70,9 +70,9 @@ TEST_CASE("[GltfSamples] every file of assimp-testmodels loads and saves, or is 
 				CHECK(find_difference(*scene, *load_gltf(folder.path / copy)) == "");
 			}
 			// For tests/gltf/test_validator.py.
-			if (const char *kept = std::getenv("GNOMON_SAVED_FOLDER")) {
-				save_gltf(*scene, fs::path(kept) / (std::to_string(loaded_count) + ".glb"));
-				std::ofstream(fs::path(kept) / (std::to_string(loaded_count) + ".txt"))
+			if (const char *saved = std::getenv("GNOMON_SAVED_FOLDER")) {
+				save_gltf(*scene, fs::path(saved) / (std::to_string(loaded_count) + ".glb"));
+				std::ofstream(fs::path(saved) / (std::to_string(loaded_count) + ".txt"))
 						<< entry.path().string();
 			}
 		} catch (const Error &error) {

@@ -14,8 +14,8 @@ struct DeviceReturn {
 };
 using TestDevice = std::unique_ptr<RenderingDevice, DeviceReturn>;
 
-/// What a test asks of its device. A new one has made no pipelines, and nobody has it afterwards:
-/// for tests that count pipelines, replace shaders or make a device fail.
+/// Which device a test gets. A new one has made no pipelines and is destroyed after the test: for
+/// tests that count pipelines, replace shaders or make a device fail.
 enum class DeviceChoice { ANY, NEW };
 
 /// A device under validation. Making pipelines is most of what tests would do, so one that a test

@@ -181,6 +181,9 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 			(sample_alpha(test, glm::dvec2(0)) >= test.cutoff));
 	for (const float odd : { NAN, INFINITY, 1e30f, -1e30f, 1e-38f }) {
 		CAPTURE(odd);
+		const float alpha = sample_alpha(test, glm::dvec2(odd, 0.5));
+		CHECK(alpha >= 0.0f);
+		CHECK(alpha <= 1.0f);
 		MeshAttributes attributes;
 		attributes.uvs[0] = { { 0, 0 }, { odd, 0 }, { 0, odd } };
 		cut_mesh(make_mesh("odd", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, {}, { 0, 1, 2 },

@@ -63,7 +63,7 @@ public:
 		// All casters, also those that the renderer culls.
 		for (const InstanceSnapshot &instance : p_scene.instances) {
 			if (instance.casts_shadow) {
-				casters.add_mesh(*get_topology(instance.mesh),
+				casters.add_mesh(*get_topology(instance.caster_mesh),
 						light_from_world * instance.world_from_node, space);
 			}
 		}
