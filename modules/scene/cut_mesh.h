@@ -2,6 +2,7 @@
 
 #include "modules/scene/material.h"
 #include "modules/scene/mesh.h"
+#include "modules/scene/outlined_texture.h"
 
 #include <cstdint>
 #include <memory>
@@ -20,12 +21,6 @@ struct CutMesh {
 	/// Of the alpha that cut it, which the mesh follows only as closely as its outline does; 0 of
 	/// one that is not cut.
 	uint64_t content_hash = 0;
-};
-
-/// Edges of a texture's outline, and of all outlines on one mesh, above which they are coarser.
-struct OutlineBudget {
-	uint32_t edges_per_tile = 1 << 14;
-	uint32_t edges_per_mesh = 1 << 20;
 };
 
 /// Cuts a mesh where its surface is not there: its alpha, that of the material times that of the

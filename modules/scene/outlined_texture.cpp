@@ -1,0 +1,134 @@
+#include "modules/scene/outlined_texture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+/// The image's first (-1) or last (1) column or row in place of all, where a part says so.
+std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_part_y) {
+	const glm::uvec2 size(
+			p_part_x == 0 ? p_image.size_px.x : 1, p_part_y == 0 ? p_image.size_px.y : 1);
+	std::vector<uint8_t> texels;
+	for (uint32_t y = 0; y < size.y; ++y) {
+		for (uint32_t x = 0; x < size.x; ++x) {
+			const uint8_t *texel = p_image.get_texel(p_part_x > 0 ? p_image.size_px.x - 1 : x,
+					p_part_y > 0 ? p_image.size_px.y - 1 : y);
+			texels.insert(texels.end(), texel, texel + 4);
+		}
+	}
+	return make_image(p_image.name, size, std::move(texels));
+}
+
+} // namespace
+
+void TileCover::add(const MeshTriangle &p_triangle) {
+	const glm::dvec2 low = glm::min(glm::min(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
+	const glm::dvec2 high =
+			glm::max(glm::max(p_triangle.uv[0], p_triangle.uv[1]), p_triangle.uv[2]);
+	const glm::dvec2 size = high - low;
+	area += std::abs(p_triangle.area) / 2;
+	box_area += size.x * size.y;
+	box_sides += size.x + size.y;
+	farthest = std::max(
+			{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
+}
+
+bool TileCover::fits(double p_tile_size) const {
+	const double MOST_TILES = 1 << 20;
+	const double MOST_PLACES = double(uint64_t(1) << 40);
+	return box_area / (p_tile_size * p_tile_size) + box_sides / p_tile_size <= MOST_TILES &&
+			farthest / p_tile_size <= MOST_PLACES;
+}
+
+OutlinedTexture::OutlinedTexture(
+		const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget) :
+		test(p_test) {
+	const double share = p_budget.edges_per_mesh / std::max(p_cover.area, 1.0);
+	edge_budget = std::bit_floor(
+			static_cast<uint32_t>(std::clamp(share, 4.0, double(p_budget.edges_per_tile))));
+	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP || p_test.wrap_v != TextureWrap::CLAMP;
+	while (repeats && (share * tile_size * tile_size < 4 || !p_cover.fits(tile_size))) {
+		tile_size *= 2;
+	}
+}
+
+std::vector<OutlinedTexture::Stretch> OutlinedTexture::list_stretches(
+		TextureWrap p_wrap, double p_minimum, double p_maximum) const {
+	std::vector<Stretch> stretches;
+	if (p_wrap == TextureWrap::CLAMP) {
+		if (p_minimum < 0) {
+			stretches.push_back({ -1, -std::exp2(std::ceil(std::log2(-p_minimum))), 0 });
+		}
+		if (p_maximum > 0 && p_minimum < 1) {
+			stretches.push_back({});
+		}
+		if (p_maximum > 1) {
+			stretches.push_back({ 1, 1, 1 + std::exp2(std::ceil(std::log2(p_maximum - 1))) });
+		}
+		return stretches;
+	}
+	const double first = std::floor(p_minimum / tile_size);
+	for (double tile = first; tile * tile_size < p_maximum; tile += 1) {
+		const bool is_odd = std::floor(tile / 2) * 2 != tile;
+		stretches.push_back({ 0, tile * tile_size, (tile + 1) * tile_size,
+				p_wrap == TextureWrap::MIRROR && is_odd });
+	}
+	return stretches;
+}
+
+const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
+	auto [found, is_new] = outlines.try_emplace({ p_part_x, p_part_y });
+	if (is_new) {
+		AlphaTest part = test;
+		std::shared_ptr<const Image> drawn_out;
+		if (p_part_x != 0 || p_part_y != 0) {
+			drawn_out = draw_out(*test.image, p_part_x, p_part_y);
+			part.image = drawn_out.get();
+		}
+		found->second = make_alpha_outline(part, tile_size > 1 ? 4 : edge_budget);
+		const double block = std::min(found->second.block_size_px * tile_size, double(INT32_MAX));
+		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));
+	}
+	return found->second;
+}
+
+std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
+		const glm::dvec2 &p_minimum, const glm::dvec2 &p_maximum) {
+	std::vector<Triangle> triangles;
+	const std::vector<Stretch> columns = list_stretches(test.wrap_u, p_minimum.x, p_maximum.x);
+	const std::vector<Stretch> rows = list_stretches(test.wrap_v, p_minimum.y, p_maximum.y);
+	const auto place = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
+		const double share = double(p_at) / p_size;
+		// Ends are exact, so that neighbours have them in common.
+		return p_stretch.is_mirrored ? p_stretch.end - share * (p_stretch.end - p_stretch.begin)
+									 : p_stretch.begin + share * (p_stretch.end - p_stretch.begin);
+	};
+	for (const Stretch &row : rows) {
+		for (const Stretch &column : columns) {
+			const AlphaOutline &outline = get_outline(column.part, row.part);
+			std::vector<glm::dvec2> uvs;
+			uvs.reserve(outline.points.size());
+			for (const glm::ivec2 &point : outline.points) {
+				uvs.emplace_back(place(column, point.x, outline.size.x),
+						place(row, point.y, outline.size.y));
+			}
+			for (size_t i = 0; i < outline.triangles.size(); i += 3) {
+				const Triangle corners = { uvs[outline.triangles[i]], uvs[outline.triangles[i + 1]],
+					uvs[outline.triangles[i + 2]] };
+				const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+				const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+				if (glm::all(glm::lessThanEqual(low, p_maximum)) &&
+						glm::all(glm::greaterThanEqual(high, p_minimum))) {
+					triangles.push_back(corners);
+				}
+			}
+		}
+	}
+	return triangles;
+}
+
+} // namespace gnomon

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "modules/scene/alpha_outline.h"
+#include "modules/scene/triangle_clip.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace gnomon {
+
+/// Edges of a texture's outline, and of all outlines on one mesh, above which they are coarser.
+struct OutlineBudget {
+	uint32_t edges_per_tile = 1 << 14;
+	uint32_t edges_per_mesh = 1 << 20;
+};
+
+/// How much of a texture's plane the triangles of a mesh cover, in tiles.
+struct TileCover {
+	double area = 0;
+	double box_area = 0; // of the boxes around them
+	double box_sides = 0;
+	double farthest = 0; // of their coordinates
+
+	void add(const MeshTriangle &p_triangle);
+	/// Tiles of that size are few enough to be visited one by one, and distinct in double.
+	bool fits(double p_tile_size) const;
+};
+
+/// What a texture leaves of a mesh: outlines for each part of the plane of its coordinates.
+class OutlinedTexture {
+public:
+	using Triangle = std::array<glm::dvec2, 3>;
+
+	OutlinedTexture(
+			const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget);
+
+	/// Those of the outline that may meet a box of coordinates.
+	std::vector<Triangle> list_triangles(const glm::dvec2 &p_minimum, const glm::dvec2 &p_maximum);
+	uint32_t get_block_size_px() const { return block_size_px; }
+
+private:
+	/// Of an axis: which part of the image covers a stretch of coordinates.
+	struct Stretch {
+		int part = 0; // 0: the image; -1, 1: its first or last texels, drawn out
+		double begin = 0, end = 1;
+		bool is_mirrored = false;
+	};
+
+	std::vector<Stretch> list_stretches(
+			TextureWrap p_wrap, double p_minimum, double p_maximum) const;
+	const AlphaOutline &get_outline(int p_part_x, int p_part_y);
+
+	AlphaTest test;
+	uint32_t edge_budget;
+	double tile_size = 1; // in tiles, where one outline stands for many
+	uint32_t block_size_px = 0;
+	std::map<std::pair<int, int>, AlphaOutline> outlines;
+};
+
+} // namespace gnomon

@@ -1,0 +1,153 @@
+#include "modules/scene/triangle_clip.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+namespace gnomon {
+
+namespace {
+
+double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
+	return p_a.x * p_b.y - p_a.y * p_b.x;
+}
+
+/// Above 0: to the left of the line from a to b.
+double compute_side(const glm::dvec2 &p_a, const glm::dvec2 &p_b, const glm::dvec2 &p_point) {
+	return cross(p_b - p_a, p_point - p_a);
+}
+
+} // namespace
+
+PositionBits to_position_bits(const glm::vec3 &p_position) {
+	return std::bit_cast<PositionBits>(p_position + 0.0f);
+}
+
+void MeshTriangle::set_up() {
+	for (int i = 0; i < 3; ++i) {
+		const int k = (i + 1) % 3;
+		MeshSide &side = sides[i];
+		side.is_turned = to_position_bits(position[k]) < to_position_bits(position[i]);
+		side.uv[0] = side.is_turned ? uv[k] : uv[i];
+		side.uv[1] = side.is_turned ? uv[i] : uv[k];
+		side.position[0] = side.is_turned ? position[k] : position[i];
+		side.position[1] = side.is_turned ? position[i] : position[k];
+	}
+	area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+}
+
+double MeshTriangle::compute_inside(int p_side, const glm::dvec2 &p_uv) const {
+	const MeshSide &side = sides[p_side];
+	const double left = compute_side(side.uv[0], side.uv[1], p_uv);
+	return side.is_turned != (area < 0) ? -left : left;
+}
+
+glm::vec3 MeshTriangle::compute_position(const glm::dvec2 &p_uv) const {
+	const glm::dvec2 offset = p_uv - uv[0];
+	const double b = cross(offset, uv[2] - uv[0]) / area;
+	const double c = cross(uv[1] - uv[0], offset) / area;
+	const glm::dvec3 origin(position[0]);
+	return glm::vec3(origin + (glm::dvec3(position[1]) - origin) * b +
+			(glm::dvec3(position[2]) - origin) * c);
+}
+
+ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm::dvec2, 3> &p_uvs) :
+		triangle(p_triangle) {
+	for (int i = 0; i < 3; ++i) {
+		const glm::dvec2 &a = p_uvs[i];
+		const glm::dvec2 &b = p_uvs[(i + 1) % 3];
+		Point &point = points.emplace_back();
+		point.uv = a;
+		const bool is_turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
+		lines.push_back({ -1, is_turned ? b : a, is_turned ? a : b });
+	}
+	for (int side = 0; side < 3 && !points.empty(); ++side) {
+		clip(side);
+	}
+}
+
+/// Above 0 inside of a side; 0 on it, which the point then remembers.
+double ClippedPiece::locate(int p_side, Point &r_point) const {
+	if (r_point.side == p_side || r_point.corner == p_side || r_point.corner == (p_side + 1) % 3) {
+		return 0;
+	}
+	const double inside = triangle.compute_inside(p_side, r_point.uv);
+	if (inside == 0 && r_point.corner < 0) {
+		if (r_point.side >= 0) { // on two sides: their corner
+			r_point.corner = r_point.side == (p_side + 1) % 3 ? r_point.side : p_side;
+			r_point.side = -1;
+		} else {
+			const MeshSide &side = triangle.sides[p_side];
+			const glm::dvec2 along = side.uv[1] - side.uv[0];
+			r_point.side = p_side;
+			r_point.share = glm::dot(r_point.uv - side.uv[0], along) / glm::dot(along, along);
+		}
+	}
+	return inside;
+}
+
+ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) const {
+	Point point;
+	if (p_line.side >= 0) {
+		point.corner = p_line.side == (p_side + 1) % 3 ? p_line.side : p_side;
+		point.uv = triangle.uv[point.corner];
+		return point;
+	}
+	const MeshSide &side = triangle.sides[p_side];
+	const glm::dvec2 along = side.uv[1] - side.uv[0];
+	const glm::dvec2 across = p_line.b - p_line.a;
+	point.side = p_side;
+	// Of the whole line: other sides may cut off what lies beyond this one's ends.
+	point.share = cross(p_line.a - side.uv[0], across) / cross(along, across);
+	point.uv = side.uv[0] + along * point.share;
+	return point;
+}
+
+/// Sutherland and Hodgman 1974, against one side.
+void ClippedPiece::clip(int p_side) {
+	const size_t count = points.size();
+	std::vector<double> inside(count);
+	for (size_t i = 0; i < count; ++i) {
+		inside[i] = locate(p_side, points[i]);
+	}
+	std::vector<Point> clipped;
+	std::vector<Line> clipped_lines;
+	const auto add = [&](const Point &p_point, const Line &p_line) {
+		clipped.push_back(p_point);
+		clipped_lines.push_back(p_line);
+	};
+	const Line along_side{ p_side };
+	for (size_t i = 0; i < count; ++i) {
+		const double next = inside[(i + 1) % count];
+		if (inside[i] >= 0) {
+			add(points[i], inside[i] == 0 && next < 0 ? along_side : lines[i]);
+		}
+		if (inside[i] > 0 && next < 0) {
+			add(cross_line(p_side, lines[i]), along_side);
+		} else if (inside[i] < 0 && next > 0) {
+			add(cross_line(p_side, lines[i]), lines[i]);
+		}
+	}
+	points = clipped.size() < 3 ? std::vector<Point>() : std::move(clipped);
+	lines = std::move(clipped_lines);
+}
+
+glm::vec3 ClippedPiece::get_position(const Point &p_point) const {
+	if (p_point.corner >= 0) {
+		return triangle.position[p_point.corner];
+	}
+	return p_point.side >= 0 ? triangle.sides[p_point.side].get_position(p_point.share)
+							 : triangle.compute_position(p_point.uv);
+}
+
+/// Twice.
+double ClippedPiece::compute_area() const {
+	double area = 0;
+	for (size_t i = 1; i + 1 < points.size(); ++i) {
+		area += cross(points[i].uv - points[0].uv, points[i + 1].uv - points[0].uv);
+	}
+	return area;
+}
+
+} // namespace gnomon
