@@ -8,20 +8,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <vector>
 
 namespace gnomon {
 
 namespace {
 
 const double CAMERA_FOV_RAD = 0.64;
+const double CAMERA_MARGIN = 1.12; // 1: what is framed touches the sides of a square image
 // Seen from the front, which looks along +z, a bit from the left and from above.
 const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
 // Over the camera's other shoulder, so that the shadow falls where it is seen.
 const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
 // In diagonals of the meshes' bounds.
-const double CAMERA_MARGIN = 1.25; // with its shadow the scene needs more room than its bounds
-const double LIGHT_DISTANCE = 2.0;
+// The largest light of a report, 0.3, is right from 5 of its radii on; a corner is 0.5 nearer.
+const double LIGHT_DISTANCE = 2.2;
 const double LIGHT_SIZE = 0.1;
 const double GROUND_HALF_WIDTH = 6.0;
 const double GROUND_HALF_HEIGHT = 0.05;
@@ -40,6 +43,30 @@ Bounds compute_bounds(const Scene &p_scene) {
 
 glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0, 1, 0)));
+}
+
+/// Where a light's shadow of the point falls on a plane y = p_ground_y below both.
+glm::dvec3 project_to_ground(
+		const glm::dvec3 &p_point, const glm::dvec3 &p_light, double p_ground_y) {
+	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
+}
+
+/// The nearest place from which a square image shows all points with the margin, for a camera that
+/// looks along -TO_CAMERA. Its up is y.
+glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points) {
+	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
+	const double slope = std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN;
+	// Seen where |x - place.x| <= slope * (place.z - z), and likewise y: each point bounds
+	// place.x + slope * place.z from below and place.x - slope * place.z from above.
+	glm::dvec2 least(-std::numeric_limits<double>::infinity());
+	glm::dvec2 greatest(std::numeric_limits<double>::infinity());
+	for (const glm::dvec3 &point : p_points) {
+		const glm::dvec3 view = glm::transpose(world_from_view) * point;
+		least = glm::max(least, glm::dvec2(view) + slope * view.z);
+		greatest = glm::min(greatest, glm::dvec2(view) - slope * view.z);
+	}
+	const glm::dvec2 z = (least - greatest) / (2 * slope);
+	return world_from_view * glm::dvec3(0.5 * (least + greatest), std::max(z.x, z.y));
 }
 
 /// A name that no node of the scene has.
@@ -83,6 +110,10 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode) {
 	const bool needs_camera = is_all || r_scene.find_nodes<Camera3D>().empty();
 	const bool needs_light = is_all || r_scene.find_nodes<Light3D>().empty();
 	const glm::dvec3 centre = 0.5 * (bounds.minimum + bounds.maximum);
+	std::vector<glm::dvec3> framed; // relative to the centre, which may be far from the origin
+	for (int corner = 0; corner < 8; ++corner) {
+		framed.push_back(bounds.get_corner(corner) - centre);
+	}
 	std::string added;
 	if (needs_light) {
 		auto ground = std::make_unique<MeshInstance3D>();
@@ -101,21 +132,26 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode) {
 
 		auto light = std::make_unique<Light3D>();
 		light->type = LightType::SPOT;
-		const glm::dvec3 place = centre + glm::normalize(TO_LIGHT) * (LIGHT_DISTANCE * size_m);
-		light->parent_from_node = look_at(place, centre);
+		const glm::dvec3 to_light = glm::normalize(TO_LIGHT) * (LIGHT_DISTANCE * size_m);
+		light->parent_from_node = look_at(centre + to_light, centre);
+		for (int corner = 0; corner < 8; ++corner) {
+			framed.push_back(
+					project_to_ground(framed[corner], to_light, bounds.minimum.y - centre.y));
+		}
 		light->inner_cone_rad = 0.5f;
 		light->outer_cone_rad = 0.8f;
-		light->intensity = static_cast<float>(1000.0 * std::max(size_m * size_m, 1e-6));
+		light->intensity = static_cast<float>(1200.0 * std::max(size_m * size_m, 1e-6));
 		light->properties["light_size"] = std::min(LIGHT_SIZE * size_m, MAX_LENGTH_M);
 		add_first(r_scene, std::move(light), "Stage light");
 		added = "a spot light and a ground";
 	}
 	if (needs_camera) {
 		auto camera = std::make_unique<Camera3D>();
-		const double distance = CAMERA_MARGIN * 0.5 * size_m / std::sin(CAMERA_FOV_RAD / 2);
-		camera->parent_from_node = look_at(centre + glm::normalize(TO_CAMERA) * distance, centre);
+		const glm::dvec3 to_camera = find_camera_place(framed);
+		camera->parent_from_node =
+				look_at(centre + to_camera, centre + to_camera - size_m * TO_CAMERA);
 		camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);
-		camera->near_m = static_cast<float>(1e-3 * distance);
+		camera->near_m = static_cast<float>(1e-3 * glm::length(to_camera));
 		add_first(r_scene, std::move(camera), "Stage camera");
 		added = added.empty() ? "a camera" : "a camera, " + added;
 	}

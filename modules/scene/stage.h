@@ -13,9 +13,10 @@ enum class StageMode { AUTO, ON, OFF };
 StageMode parse_stage_mode(const std::string &p_text, const std::string &p_object);
 
 /// Most models have neither camera nor light nor ground. Adds a perspective camera that frames the
-/// meshes, a spot light whose radius is a tenth of their diagonal, and, with the light, a ground
-/// below them that casts no shadow. The nodes are marked Node3D::is_staged and stand first. Returns
-/// one line that says what was added; empty where nothing was, as of a scene without meshes.
+/// meshes, and the shadow of a light that is added too, in a square or a wider image; a spot light
+/// whose radius is a tenth of the meshes' diagonal; and, with the light, a ground below them that
+/// casts no shadow. The nodes are marked Node3D::is_staged and stand first. Returns one line that
+/// says what was added; empty where nothing was, as of a scene without triangles.
 std::string stage_scene(Scene &r_scene, StageMode p_mode);
 
 } // namespace gnomon

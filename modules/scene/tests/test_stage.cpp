@@ -30,6 +30,26 @@ std::unique_ptr<Scene> make_model(
 	return scene;
 }
 
+/// Before the camera: x right, y up, -z its direction.
+glm::dvec3 find_seen(const SceneSnapshot &p_snapshot, const glm::dvec3 &p_point) {
+	return glm::transpose(p_snapshot.camera.world_from_camera) *
+			(p_point - p_snapshot.camera.position_world);
+}
+
+/// In a square image.
+void check_is_seen(const glm::dvec3 &p_seen, const Camera3D &p_camera) {
+	const double reach = -p_seen.z * std::tan(p_camera.vertical_fov_rad / 2);
+	CHECK(std::abs(p_seen.x) < reach);
+	CHECK(std::abs(p_seen.y) < reach);
+}
+
+void check_shadow_is_seen(const SceneSnapshot &p_snapshot, const Camera3D &p_camera,
+		const glm::dvec3 &p_caster, double p_ground_y) {
+	const glm::dvec3 light = p_snapshot.lights[0].position_world;
+	const glm::dvec3 ray = p_caster - light;
+	check_is_seen(find_seen(p_snapshot, light + ray * ((p_ground_y - light.y) / ray.y)), p_camera);
+}
+
 } // namespace
 
 TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and a ground") {
@@ -57,22 +77,55 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 				continue;
 			}
 			for (int corner = 0; corner < 8; ++corner) {
-				const glm::dvec3 seen = glm::transpose(snapshot->camera.world_from_camera) *
-						(instance.bounds_world.get_corner(corner) -
-								snapshot->camera.position_world);
-				const double reach = -seen.z * std::tan(camera.vertical_fov_rad / 2);
-				CHECK(std::abs(seen.x) < reach);
-				CHECK(std::abs(seen.y) < reach);
+				const glm::dvec3 seen =
+						find_seen(*snapshot, instance.bounds_world.get_corner(corner));
+				check_is_seen(seen, camera);
 				CHECK(-seen.z > camera.near_m);
+				check_shadow_is_seen(*snapshot, camera, instance.bounds_world.get_corner(corner),
+						scale * (3 - 2));
 				// Within the light's cone, and far from the light.
 				const glm::dvec3 to_corner = instance.bounds_world.get_corner(corner) -
 						snapshot->lights[0].position_world;
 				CHECK(glm::dot(glm::normalize(to_corner),
 							  snapshot->lights[0].get_direction_world()) >
 						std::cos(light.inner_cone_rad));
-				CHECK(glm::length(to_corner) > 5 * 0.1 * size_m);
+				CHECK(glm::length(to_corner) > 5 * 0.3 * size_m);
 			}
 		}
+	}
+}
+
+TEST_CASE("[Stage] the camera fills a square image with the model and its shadow") {
+	for (const glm::vec3 half : { glm::vec3(1, 3, 0.2f), glm::vec3(4, 0.1f, 1), glm::vec3(1) }) {
+		CAPTURE(half.x);
+		Scene scene;
+		add<MeshInstance3D>(scene, "Model")
+				.surfaces.push_back({ make_box_mesh("box", half), std::make_shared<Material>() });
+		stage_scene(scene, StageMode::AUTO);
+		const Camera3D &camera = *scene.find_nodes<Camera3D>()[0];
+		const auto snapshot = build_snapshot(scene, camera);
+		const glm::dvec3 light = snapshot->lights[0].position_world;
+		glm::dvec2 least(1), greatest(-1);
+		for (int corner = 0; corner < 16; ++corner) {
+			glm::dvec3 point = (corner & 1 ? 1.0 : -1.0) * glm::dvec3(half.x, 0, 0) +
+					(corner & 2 ? 1.0 : -1.0) * glm::dvec3(0, half.y, 0) +
+					(corner & 4 ? 1.0 : -1.0) * glm::dvec3(0, 0, half.z);
+			if (corner & 8) {
+				const glm::dvec3 ray = point - light;
+				point = light + ray * ((-half.y - light.y) / ray.y);
+			}
+			const glm::dvec3 seen = find_seen(*snapshot, point);
+			const glm::dvec2 place =
+					glm::dvec2(seen) / (-seen.z * std::tan(camera.vertical_fov_rad / 2));
+			least = glm::min(least, place);
+			greatest = glm::max(greatest, place);
+		}
+		const glm::dvec2 extent = greatest - least; // of 2
+		CHECK(std::max(extent.x, extent.y) > 1.7);
+		CHECK(std::max(extent.x, extent.y) < 1.9);
+		// In the middle, but for what perspective moves.
+		CHECK(std::abs(least.x + greatest.x) < 0.3);
+		CHECK(std::abs(least.y + greatest.y) < 0.3);
 	}
 }
 
