@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace gnomon {
@@ -77,7 +78,14 @@ fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const Glt
 	if (!decoded || decoded->empty() || decoded->find('\0') != std::string::npos) {
 		refuse("must be a path with valid % escapes");
 	}
-	const fs::path relative(*decoded);
+	fs::path relative(*decoded);
+	std::error_code code;
+	if (decoded->find('\\') != std::string::npos && !fs::exists(p_place.folder / relative, code)) {
+		// Converters write the paths of Windows, against the standard.
+		std::string separated = *decoded;
+		std::replace(separated.begin(), separated.end(), '\\', '/');
+		relative = separated;
+	}
 	if (relative.is_absolute()) {
 		refuse("must not be an absolute path");
 	}

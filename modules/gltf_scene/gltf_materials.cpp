@@ -174,6 +174,13 @@ Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextu
 				"has alphaMode BLEND: it is drawn and casts like MASK, where alpha is at least "
 				"0.5. Light goes through with KHR_materials_transmission.");
 	}
+	if (material.is_cut_out() && material.alpha < material.alpha_cutoff) {
+		r_messages.warn("invisible", path,
+				text("has an alpha of ", to_shortest(material.alpha), ", less than ",
+						to_shortest(material.alpha_cutoff),
+						": nothing of it is drawn. Raise it in baseColorFactor, or make it glass "
+						"with KHR_materials_transmission."));
+	}
 	if (const auto extras = find_object(written.extras, path + ".extras", r_messages)) {
 		read_extras(*extras, material);
 	}

@@ -362,6 +362,11 @@ TEST_CASE("[GltfTextures] alpha, cutoff and tangents are read") {
 	const auto blended = folder.load(json);
 	CHECK(get_surface(*blended).material->alpha_cutoff == 0.5f);
 	CHECK(GltfTestLog::contains(log.warnings, "materials[0] has alphaMode BLEND"));
+	CHECK_FALSE(GltfTestLog::contains(log.warnings, "nothing of it is drawn"));
+	material["pbrMetallicRoughness"]["baseColorFactor"] = { 1, 1, 1, 0.25 };
+	folder.load(json);
+	CHECK(GltfTestLog::contains(log.warnings,
+			"materials[0] has an alpha of 0.25, less than 0.5: nothing of it is drawn"));
 	material["alphaMode"] = "GLASS";
 	material["pbrMetallicRoughness"]["baseColorFactor"] = { 1, 1, 1, 7 };
 	const auto refused = folder.load(json);
@@ -370,6 +375,30 @@ TEST_CASE("[GltfTextures] alpha, cutoff and tangents are read") {
 	CHECK(GltfTestLog::contains(log.errors, "alphaMode is \"GLASS\", must be \"OPAQUE\""));
 	CHECK(GltfTestLog::contains(
 			log.errors, "baseColorFactor is an array of 4, must be four numbers"));
+}
+
+TEST_CASE("[GltfTextures] separators of Windows in a URI are understood, and lead nowhere else") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	std::filesystem::create_directory(folder.path / "skins");
+	folder.write("skins/wood.png", encode_small_png());
+	for (const char *uri : { ".\\wood a.png", "skins\\wood.png", "skins%5Cwood.png" }) {
+		CAPTURE(uri);
+		json["images"][0]["uri"] = uri;
+		CHECK(load_base_color(folder, json).image);
+	}
+	CHECK(log.errors.empty());
+	folder.write("with\\backslash.png", encode_small_png()); // a name of its own elsewhere
+	json["images"][0]["uri"] = "with\\backslash.png";
+	CHECK(load_base_color(folder, json).image);
+	for (const char *uri : { "..\\..\\wood.png", "\\wood.png", "skins\\absent.png" }) {
+		CAPTURE(uri);
+		log.errors.clear();
+		json["images"][0]["uri"] = uri;
+		CHECK_FALSE(load_base_color(folder, json).image);
+		CHECK(log.errors.size() == 1);
+	}
 }
 
 TEST_CASE("[GltfTextures] damaged images are refused or drawn, and never crash") {
