@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 
@@ -120,9 +121,11 @@ std::unique_ptr<Scene> load_scene(const fs::path &p_path, const CommonOptions &p
 	options.project_folder = place.project.folder;
 	options.find_technique_property = &find_added_light_property;
 	std::unique_ptr<Scene> scene = load_gltf(place.scene_path, options);
-	if (scene->find_nodes<MeshInstance3D>().empty()) {
-		fail("Scene ", place.scene_path,
-				" has no mesh. Add one in the program that wrote the file.");
+	const std::vector<MeshInstance3D *> meshes = scene->find_nodes<MeshInstance3D>();
+	if (std::all_of(meshes.begin(), meshes.end(),
+				[](const MeshInstance3D *p_mesh) { return p_mesh->compute_bounds().is_empty(); })) {
+		fail("Scene ", place.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
+				". Add some in the program that wrote the file.");
 	}
 	const std::string staged = stage_scene(*scene, parse_stage_mode(p_common.stage, "--stage"));
 	if (!staged.empty()) {
