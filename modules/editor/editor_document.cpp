@@ -79,7 +79,7 @@ void EditorDocument::open(const fs::path &p_file) {
 	options.project_folder = project.folder;
 	options.find_technique_property = &find_added_light_property;
 	std::unique_ptr<Scene> loaded = load_gltf(p_file, options);
-	const std::string staged = stage_scene(*loaded, stage);
+	staged = stage_scene(*loaded, stage);
 	if (!staged.empty()) {
 		log_info(staged, " Untick \"staged\" of what is to be saved with it.");
 	}
@@ -202,6 +202,16 @@ void EditorDocument::set_module_enabled(const std::string &p_name, bool p_is_ena
 		}
 	}
 	project.save_disabled_modules();
+}
+
+std::string EditorDocument::list_staged() const {
+	std::string names;
+	for (const Node3D *node : scene->find_nodes<Node3D>()) {
+		if (node->is_staged) {
+			names += (names.empty() ? "" : ", ") + node->name;
+		}
+	}
+	return names;
 }
 
 void EditorDocument::save() {

@@ -37,6 +37,11 @@ public:
 	/// Why there is nothing of the file: what is wrong with it. Empty: it was read. Such a document
 	/// is not saved, for the file would be lost; it is read anew once it has changed.
 	const std::string &get_failure() const { return failure; }
+	StageMode get_stage() const { return stage; }
+	/// What was added to the file's scene, in one line; empty: nothing.
+	const std::string &get_staged() const { return staged; }
+	/// The names of nodes that a save skips; empty: none.
+	std::string list_staged() const;
 	bool is_changed() const { return is_recovered || !history.is_saved(); }
 
 	/// Null: nothing.
@@ -106,6 +111,7 @@ private:
 	StageMode stage;
 	std::unique_ptr<Scene> scene;
 	std::string failure;
+	std::string staged;
 	UndoHistory history;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;

@@ -130,7 +130,8 @@ void EditorSession::run(EditorCommand p_command) {
 			break;
 		case EditorCommand::SAVE:
 			document.save();
-			context.say(text("Saved ", document.get_path().filename().string()));
+			context.say(text(
+					"Saved ", document.get_path().filename().string(), ".", describe_staged()));
 			break;
 		case EditorCommand::UNDO:
 			if (const std::string name = document.undo(); !name.empty()) {
@@ -159,8 +160,9 @@ void EditorSession::run(EditorCommand p_command) {
 			if (document.is_changed()) {
 				document.save();
 			}
-			start_program({ program.string(), "run", document.get_path().string() });
-			context.say("The game runs in a window of its own.");
+			start_program({ program.string(), "run", document.get_path().string(), "--stage",
+					get_stage_mode_name(document.get_stage()) });
+			context.say(text("The game runs in a window of its own.", describe_staged()));
 			break;
 		case EditorCommand::READ_PAGE:
 			read_page();
@@ -169,6 +171,12 @@ void EditorSession::run(EditorCommand p_command) {
 			is_closing = true;
 			break;
 	}
+}
+
+/// That a save skips what was staged, which may have been changed; empty where nothing is.
+std::string EditorSession::describe_staged() const {
+	const std::string names = document.list_staged();
+	return names.empty() ? "" : " Never saved while staged: " + names + ".";
 }
 
 /// With what the desktop shows such files.
@@ -228,7 +236,8 @@ EditorSession::Question EditorSession::make_closing_question() {
 		is_done = true;
 	};
 	return { "Save the changes?",
-		text(document.get_path().filename().string(), " has changes that are not saved."),
+		text(document.get_path().filename().string(), " has changes that are not saved.",
+				describe_staged()),
 		"Save and close", "Close without saving", save, drop, true };
 }
 

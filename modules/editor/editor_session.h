@@ -35,6 +35,7 @@ public:
 
 private:
 	void run(EditorCommand p_command);
+	std::string describe_staged() const;
 	void read_page();
 	void recover();
 	struct Question;

@@ -84,7 +84,9 @@ public:
 		context.error.sample_count = settings.sample_count;
 		context.wanted_tab = settings.tab;
 		if (document.get_failure().empty()) {
-			context.say(text("Opened ", document.get_path().filename().string()));
+			const std::string &staged = document.get_staged();
+			context.say(text("Opened ", document.get_path().filename().string(),
+					staged.empty() ? "" : ". ", staged));
 		} else {
 			context.wanted_tab = "Messages";
 		}

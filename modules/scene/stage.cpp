@@ -100,6 +100,10 @@ StageMode parse_stage_mode(const std::string &p_text, const std::string &p_objec
 	fail(p_object, " is \"", p_text, "\", must be auto, on or off.");
 }
 
+const char *get_stage_mode_name(StageMode p_mode) {
+	return p_mode == StageMode::AUTO ? "auto" : p_mode == StageMode::ON ? "on" : "off";
+}
+
 std::string stage_scene(Scene &r_scene, StageMode p_mode) {
 	const Bounds bounds = compute_bounds(r_scene);
 	const double size_m = bounds.get_diagonal();

@@ -11,6 +11,7 @@ namespace gnomon {
 enum class StageMode { AUTO, ON, OFF };
 /// "auto", "on" or "off"; another text is nothing of these: an Error that begins with p_object.
 StageMode parse_stage_mode(const std::string &p_text, const std::string &p_object);
+const char *get_stage_mode_name(StageMode p_mode);
 
 /// Most models have neither camera nor light nor ground. Adds a perspective camera that frames the
 /// meshes, and the shadow of a light that is added too, in a square or a wider image; a spot light

@@ -63,7 +63,7 @@ void draw_node(EditorContext &r_context, Node3D &r_node) {
 		renaming.begin(r_node);
 	}
 	ImGui::SameLine();
-	ImGui::TextDisabled("%s", r_node.get_class_name());
+	ImGui::TextDisabled("%s%s", r_node.is_staged ? "staged " : "", r_node.get_class_name());
 	if (is_open) {
 		for (const std::unique_ptr<Node3D> &child : r_node.children) {
 			draw_node(r_context, *child);

@@ -158,7 +158,9 @@ TEST_CASE("[Stage] staged is a property of such nodes alone, and can be taken of
 	CHECK_FALSE(list_node_properties(*scene->find_nodes<MeshInstance3D>().back()).find("staged"));
 	set_node_property(light, "staged", false);
 	CHECK_FALSE(light.is_staged);
-	CHECK(parse_stage_mode("off", "--stage") == StageMode::OFF);
+	for (const StageMode mode : { StageMode::AUTO, StageMode::ON, StageMode::OFF }) {
+		CHECK(parse_stage_mode(get_stage_mode_name(mode), "--stage") == mode);
+	}
 	CHECK_THROWS_WITH_AS(parse_stage_mode("maybe", "--stage"),
 			"--stage is \"maybe\", must be auto, on or off.", Error);
 }
