@@ -119,12 +119,13 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 }
 
-std::vector<ReportScene> load_scenes(const NamedFiles &p_files, const CommonOptions &p_common) {
+std::vector<ReportScene> load_scenes(
+		const NamedFiles &p_files, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	std::vector<ReportScene> scenes;
 	for (const auto &[name, path] : p_files) {
 		ReportScene scene = { name, nullptr, {} };
 		try {
-			scene.scene = load_scene(path, p_common);
+			scene.scene = load_scene(path, p_common, p_size_px);
 		} catch (const Error &error) {
 			log_error(error.what());
 			scene.failure = error.what();
@@ -139,9 +140,10 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	const std::optional<Report> old_report = load_old_report(p_arguments);
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);
-	const std::vector<ReportScene> scenes = load_scenes(selected.scenes, p_common);
+	const std::vector<ReportScene> scenes = load_scenes(selected.scenes, p_common, options.size_px);
 	if (options.has_sweep(PROJECT_SCENES_SWEEP)) {
-		options.stability_scenes = load_scenes(selected.stability_scenes, p_common);
+		options.stability_scenes =
+				load_scenes(selected.stability_scenes, p_common, options.size_px);
 	}
 	if (std::none_of(scenes.begin(), scenes.end(),
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {

@@ -76,7 +76,7 @@ void run(const CommonOptions &p_common) {
 	if (!truth_path.empty()) {
 		options.truth = RunPartRegistry::find(MASKS_PART)->load_truth(truth_path);
 	}
-	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common);
+	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common, size_px);
 	for (const std::string &setting : options.settings) {
 		apply_setting(*scene, nullptr, setting);
 	}

@@ -71,7 +71,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 			check_writable(path);
 		}
 	}
-	const std::unique_ptr<Scene> scene = load_scene(p_options.scene, p_common);
+	const std::unique_ptr<Scene> scene = load_scene(p_options.scene, p_common, size_px);
 	Light3D &light = choose_light(*scene, p_options.light);
 	const Camera3D &camera = choose_camera(*scene, p_options.camera);
 	for (const std::string &setting : p_options.settings) {

@@ -38,9 +38,10 @@ uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
-/// project's disabled modules are switched off. It is staged as the command line says.
+/// project's disabled modules are switched off. It is staged as the command line says, for an image
+/// of that size.
 std::unique_ptr<Scene> load_scene(
-		const std::filesystem::path &p_path, const CommonOptions &p_common);
+		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
 /// `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
 /// The camera of that name, or the first. None: an Error that says how to add one.

@@ -114,7 +114,8 @@ void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {
 			->check(CLI::IsMember({ "auto", "on", "off" }));
 }
 
-std::unique_ptr<Scene> load_scene(const fs::path &p_path, const CommonOptions &p_common) {
+std::unique_ptr<Scene> load_scene(
+		const fs::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	const ProjectScene place = find_project_scene(p_path);
 	disable_modules(place.project);
 	GltfLoadOptions options;
@@ -127,7 +128,8 @@ std::unique_ptr<Scene> load_scene(const fs::path &p_path, const CommonOptions &p
 		fail("Scene ", place.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
 				". Add some in the program that wrote the file.");
 	}
-	const std::string staged = stage_scene(*scene, parse_stage_mode(p_common.stage, "--stage"));
+	const std::string staged = stage_scene(
+			*scene, parse_stage_mode(p_common.stage, "--stage"), double(p_size_px.x) / p_size_px.y);
 	if (!staged.empty()) {
 		log_info(staged);
 	}

@@ -17,7 +17,7 @@ namespace gnomon {
 namespace {
 
 const double CAMERA_FOV_RAD = 0.64;
-const double CAMERA_MARGIN = 1.12; // 1: what is framed touches the sides of a square image
+const double CAMERA_MARGIN = 1.12; // 1: what is framed touches the sides of the image
 // Seen from the front, which looks along +z, a bit from the left and from above.
 const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
 // Over the camera's other shoulder, so that the shadow falls where it is seen.
@@ -51,13 +51,14 @@ glm::dvec3 project_to_ground(
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
 }
 
-/// The nearest place from which a square image shows all points with the margin, for a camera that
-/// looks along -TO_CAMERA. Its up is y.
-glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points) {
+/// The nearest place from which an image, square or narrower, shows all points with the margin, for
+/// a camera that looks along -TO_CAMERA. Its up is y.
+glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points, double p_aspect) {
 	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
-	const double slope = std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN;
-	// Seen where |x - place.x| <= slope * (place.z - z), and likewise y: each point bounds
-	// place.x + slope * place.z from below and place.x - slope * place.z from above.
+	const glm::dvec2 slope =
+			std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN * glm::dvec2(std::min(p_aspect, 1.0), 1.0);
+	// Seen where |x - place.x| <= slope.x * (place.z - z), and the same for y: each point bounds
+	// place.x + slope.x * place.z from below and place.x - slope.x * place.z from above.
 	glm::dvec2 least(-std::numeric_limits<double>::infinity());
 	glm::dvec2 greatest(std::numeric_limits<double>::infinity());
 	for (const glm::dvec3 &point : p_points) {
@@ -65,7 +66,7 @@ glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points) {
 		least = glm::max(least, glm::dvec2(view) + slope * view.z);
 		greatest = glm::min(greatest, glm::dvec2(view) - slope * view.z);
 	}
-	const glm::dvec2 z = (least - greatest) / (2 * slope);
+	const glm::dvec2 z = (least - greatest) / (2.0 * slope);
 	return world_from_view * glm::dvec3(0.5 * (least + greatest), std::max(z.x, z.y));
 }
 
@@ -104,7 +105,7 @@ const char *get_stage_mode_name(StageMode p_mode) {
 	return p_mode == StageMode::AUTO ? "auto" : p_mode == StageMode::ON ? "on" : "off";
 }
 
-std::string stage_scene(Scene &r_scene, StageMode p_mode) {
+std::string stage_scene(Scene &r_scene, StageMode p_mode, double p_aspect) {
 	const Bounds bounds = compute_bounds(r_scene);
 	const double size_m = bounds.get_diagonal();
 	if (p_mode == StageMode::OFF || !(size_m > 0) || !std::isfinite(size_m)) {
@@ -151,7 +152,7 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode) {
 	}
 	if (needs_camera) {
 		auto camera = std::make_unique<Camera3D>();
-		const glm::dvec3 to_camera = find_camera_place(framed);
+		const glm::dvec3 to_camera = find_camera_place(framed, p_aspect);
 		camera->parent_from_node =
 				look_at(centre + to_camera, centre + to_camera - size_m * TO_CAMERA);
 		camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);

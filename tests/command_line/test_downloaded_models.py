@@ -101,7 +101,10 @@ class DownloadedModels(CommandLineTest):
         self.assertGreater(len(receivers), 0.3 * SIZE_PX * SIZE_PX)
         self.assertGreater(sum(value > 0.99 for value in receivers), LEAST_SHARE * len(receivers))
         self.assertGreater(sum(value < 0.01 for value in receivers), LEAST_SHARE * len(receivers))
-        # The shadow lies within the image: it does not reach the lower half of a side.
+        self.check_sides(mask)
+
+    def check_sides(self, mask):
+        """The shadow lies within the image: it does not reach the lower half of a side."""
         for column in (0, mask.width - 1):
             for row in range(mask.height // 2, mask.height):
                 pixel = row * mask.width + column
@@ -112,6 +115,12 @@ class DownloadedModels(CommandLineTest):
         for name in ("BoxTextured.gltf", "BoxTextured0.bin", "CesiumLogoFlat.png"):
             shutil.copy(os.path.join(source, name), self.folder)
         self.check_model(self.path("BoxTextured.gltf"))
+        mask = self.path("narrow.exr")
+        result = run(
+            "visibility", self.path("BoxTextured.gltf"), "--technique", self.get_fallback(), "--out", mask, "--size", "48x96"
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_sides(load_mask(mask))
 
     def test_a_spider_of_many_nodes_whose_textures_have_paths_of_windows(self):
         path = self.convert("/OBJ/spider.obj", "spider.gltf")

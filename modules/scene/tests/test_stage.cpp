@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
 #include <cmath>
 
 using namespace gnomon;
@@ -95,13 +96,17 @@ TEST_CASE("[Stage] a model alone gets a camera that sees all of it, a light and 
 	}
 }
 
-TEST_CASE("[Stage] the camera fills a square image with the model and its shadow") {
-	for (const glm::vec3 half : { glm::vec3(1, 3, 0.2f), glm::vec3(4, 0.1f, 1), glm::vec3(1) }) {
+TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
+	for (int index = 0; index < 9; ++index) {
+		const glm::vec3 halves[] = { glm::vec3(1, 3, 0.2f), glm::vec3(4, 0.1f, 1), glm::vec3(1) };
+		const glm::vec3 half = halves[index % 3];
+		const double aspect = std::array{ 1.0, 0.4, 2.0 }[index / 3];
 		CAPTURE(half.x);
+		CAPTURE(aspect);
 		Scene scene;
 		add<MeshInstance3D>(scene, "Model")
 				.surfaces.push_back({ make_box_mesh("box", half), std::make_shared<Material>() });
-		stage_scene(scene, StageMode::AUTO);
+		stage_scene(scene, StageMode::AUTO, aspect);
 		const Camera3D &camera = *scene.find_nodes<Camera3D>()[0];
 		const auto snapshot = build_snapshot(scene, camera);
 		const glm::dvec3 light = snapshot->lights[0].position_world;
@@ -115,8 +120,9 @@ TEST_CASE("[Stage] the camera fills a square image with the model and its shadow
 				point = light + ray * ((-half.y - light.y) / ray.y);
 			}
 			const glm::dvec3 seen = find_seen(*snapshot, point);
-			const glm::dvec2 place =
-					glm::dvec2(seen) / (-seen.z * std::tan(camera.vertical_fov_rad / 2));
+			const glm::dvec2 place = glm::dvec2(seen) /
+					(-seen.z * std::tan(camera.vertical_fov_rad / 2)) /
+					glm::dvec2(std::min(aspect, 1.0), 1.0);
 			least = glm::min(least, place);
 			greatest = glm::max(greatest, place);
 		}
