@@ -50,16 +50,16 @@ public:
 
 	int64_t get_count() const { return int64_t(texel_count) + 4; }
 	bool is_beyond(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
+	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
 	int32_t get_place(int64_t p_node) const {
 		const int64_t end = int64_t(texel_count) * UNITS;
 		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
 	}
 	/// Alpha at a node is the mean of these two texels.
 	uint32_t get_texel(int64_t p_node, int p_side) const {
-		const bool is_border = p_node == 1 || p_node == get_count() - 2;
 		const int64_t first = p_node == 1 ? -1 : p_node - 2;
-		return wrap_texel(
-				first + (is_border ? p_side - (p_node == 1 ? 0 : 1) : 0), texel_count, wrap);
+		return wrap_texel(first + (is_border(p_node) ? p_side - (p_node == 1 ? 0 : 1) : 0),
+				texel_count, wrap);
 	}
 
 private:
@@ -106,6 +106,10 @@ const int CORNER_Y[] = { 0, 0, 1, 1 };
 int ContourFinder::get_alpha(int64_t p_x, int64_t p_y) const {
 	if (columns.is_beyond(p_x) || rows.is_beyond(p_y)) {
 		return -1;
+	}
+	if (!columns.is_border(p_x) && !rows.is_border(p_y)) { // at a texel's centre
+		return 4 *
+				image.get_texel(static_cast<uint32_t>(p_x - 2), static_cast<uint32_t>(p_y - 2))[3];
 	}
 	int sum = 0;
 	for (const int side_y : { 0, 1 }) {
@@ -327,36 +331,36 @@ bool fill(std::vector<PolygonLoop> p_loops, uint32_t p_edge_budget, AlphaOutline
 	return count == 0 || !r_outline.triangles.empty();
 }
 
-/// Adds the squares of one block; p_share: of its area, that is there.
+const uint32_t ONE_HOLE_EDGES = 8; // of a tile with a hole
+
+/// Of each block of texels a square or a square hole that has as much area as the mask has there.
 class HalfTone {
 public:
 	HalfTone(const AlphaTest &p_test, uint32_t p_block_size_px) :
-			test(p_test), block(p_block_size_px),
+			test(p_test), block(p_block_size_px), size(glm::ivec2(p_test.image->size_px) * UNITS),
 			count((p_test.image->size_px + block - 1u) / block) {}
 
-	uint32_t count_edges() const {
-		uint32_t edges = 0;
-		for (uint32_t y = 0; y < count.y; ++y) {
-			for (uint32_t x = 0; x < count.x; ++x) {
-				edges += has_square(compute_share(x, y)) ? 4 : 0;
-			}
-		}
-		return edges;
-	}
-	AlphaOutline make() const;
+	bool is_one_block() const { return count == glm::uvec2(1); }
+	/// Nothing: more than so many edges.
+	std::optional<std::vector<PolygonLoop>> find(size_t p_most_edges) const;
 
 private:
-	static bool has_square(double p_share) { return p_share > 0 && p_share < 1; }
-	double compute_share(uint32_t p_x, uint32_t p_y) const;
+	/// Of a block's area, that is there.
+	double compute_share(const glm::uvec2 &p_block) const;
+	PolygonLoop make_square(const glm::uvec2 &p_block, double p_share) const;
+	glm::ivec2 get_corner(const glm::ivec2 &p_block) const {
+		return glm::min(p_block * static_cast<int32_t>(block) * UNITS, size);
+	}
 
 	const AlphaTest &test;
 	uint32_t block;
+	glm::ivec2 size; // of the tile in units
 	glm::uvec2 count;
 };
 
-double HalfTone::compute_share(uint32_t p_x, uint32_t p_y) const {
+double HalfTone::compute_share(const glm::uvec2 &p_block) const {
 	const Image &image = *test.image;
-	const glm::uvec2 begin = glm::uvec2(p_x, p_y) * block;
+	const glm::uvec2 begin = p_block * block;
 	const glm::uvec2 end = glm::min(begin + block, image.size_px);
 	uint32_t inside = 0;
 	for (uint32_t y = begin.y; y < end.y; ++y) {
@@ -367,50 +371,56 @@ double HalfTone::compute_share(uint32_t p_x, uint32_t p_y) const {
 	return double(inside) / (double(end.x - begin.x) * (end.y - begin.y));
 }
 
-AlphaOutline HalfTone::make() const {
-	AlphaOutline outline;
-	const glm::ivec2 size = glm::ivec2(test.image->size_px) * UNITS;
-	const int32_t pitch = static_cast<int32_t>(block) * UNITS;
-	const auto add_corners = [&](const glm::ivec2 &p_begin, const glm::ivec2 &p_end) {
-		const uint32_t first = static_cast<uint32_t>(outline.points.size());
-		for (int corner = 0; corner < 4; ++corner) {
-			outline.points.push_back({ CORNER_X[corner] ? p_end.x : p_begin.x,
-					CORNER_Y[corner] ? p_end.y : p_begin.y });
-		}
-		return first;
-	};
-	const auto add_quad = [&](uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t p_d) {
-		outline.triangles.insert(outline.triangles.end(), { p_a, p_b, p_c, p_a, p_c, p_d });
-	};
+PolygonLoop HalfTone::make_square(const glm::uvec2 &p_block, double p_share) const {
+	const glm::ivec2 begin = get_corner(glm::ivec2(p_block));
+	const glm::ivec2 end = get_corner(glm::ivec2(p_block) + 1);
+	const bool is_hole = p_share >= 0.5;
+	const glm::dvec2 half =
+			glm::dvec2(end - begin) * 0.5 * std::sqrt(is_hole ? 1 - p_share : p_share);
+	const glm::ivec2 middle = (begin + end) / 2;
+	const glm::ivec2 inner = glm::max(glm::ivec2(glm::round(half)), 1);
+	PolygonLoop loop;
+	for (int corner = 0; corner < 4; ++corner) {
+		loop.push_back(
+				middle + inner * glm::ivec2(CORNER_X[corner] ? 1 : -1, CORNER_Y[corner] ? 1 : -1));
+	}
+	if (is_hole) {
+		std::reverse(loop.begin(), loop.end());
+	}
+	return loop;
+}
+
+std::optional<std::vector<PolygonLoop>> HalfTone::find(size_t p_most_edges) const {
+	std::vector<PolygonLoop> loops;
+	std::vector<uint8_t> texels; // one for each block
 	for (uint32_t y = 0; y < count.y; ++y) {
 		for (uint32_t x = 0; x < count.x; ++x) {
-			const double share = compute_share(x, y);
-			const glm::ivec2 begin = glm::ivec2(x, y) * pitch;
-			const glm::ivec2 end = glm::min(begin + pitch, size);
-			const glm::dvec2 half =
-					glm::dvec2(end - begin) * 0.5 * std::sqrt(share < 0.5 ? share : 1 - share);
-			const glm::ivec2 middle = (begin + end) / 2;
-			const glm::ivec2 inner = glm::max(glm::ivec2(glm::round(half)), 1);
-			if (share >= 0.5) {
-				const uint32_t outer = add_corners(begin, end);
-				if (share == 1) {
-					add_quad(outer, outer + 1, outer + 2, outer + 3);
-					continue;
-				}
-				const uint32_t hole = add_corners(middle - inner, middle + inner);
-				for (uint32_t side = 0; side < 4; ++side) {
-					const uint32_t next = (side + 1) % 4;
-					add_quad(outer + side, outer + next, hole + next, hole + side);
-				}
-			} else if (share > 0) {
-				const uint32_t square = add_corners(middle - inner, middle + inner);
-				add_quad(square, square + 1, square + 2, square + 3);
+			const double share = compute_share({ x, y });
+			texels.insert(texels.end(), { 0, 0, 0, static_cast<uint8_t>(share >= 0.5 ? 255 : 0) });
+			if (share > 0 && share < 1) {
+				loops.push_back(make_square({ x, y }, share));
 			}
-			outline.edge_count += has_square(share) ? 4 : 0;
+			if (4 * loops.size() > p_most_edges) {
+				return std::nullopt;
+			}
 		}
 	}
-	outline.block_size_px = block;
-	return outline;
+	// Blocks that are there, with or without a hole, have a border in common.
+	const auto blocks = make_image(test.image->name, count, std::move(texels));
+	AlphaTest is_there;
+	is_there.image = blocks.get();
+	auto borders = SquareFinder(is_there).find(p_most_edges - 4 * loops.size());
+	if (!borders) {
+		return std::nullopt;
+	}
+	for (PolygonLoop &border : *borders) {
+		for (glm::ivec2 &point : border) {
+			const glm::ivec2 corner = (point + UNITS / 2) / UNITS;
+			point = get_corner(corner) + (point - corner * UNITS); // parted as SquareFinder does
+		}
+		loops.push_back(std::move(border));
+	}
+	return loops;
 }
 
 } // namespace
@@ -477,14 +487,17 @@ AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget)
 			}
 		}
 	}
-	if (!is_filled) {
-		uint32_t block = 2;
-		while (HalfTone(p_test, block).count_edges() > p_edge_budget) {
-			block *= 2;
+	for (uint32_t block = 2; !is_filled; block *= 2) {
+		const HalfTone half_tone(p_test, block);
+		const uint32_t most_edges =
+				half_tone.is_one_block() ? std::max(p_edge_budget, ONE_HOLE_EDGES) : p_edge_budget;
+		const auto squares = half_tone.find(most_edges);
+		AlphaOutline tried = outline;
+		tried.block_size_px = block;
+		is_filled = squares && fill(*squares, most_edges, tried);
+		if (is_filled) {
+			outline = std::move(tried);
 		}
-		const glm::ivec2 size = outline.size;
-		outline = HalfTone(p_test, block).make();
-		outline.size = size;
 	}
 	int64_t twice_area = 0;
 	for (size_t i = 0; i < outline.triangles.size(); i += 3) {

@@ -52,7 +52,7 @@ struct AlphaOutline {
 ///
 /// A mask with more edges than p_edge_budget, noise for instance, becomes a half-tone: of each
 /// block of texels a square hole or a square that has as much area as the mask has there. The
-/// blocks are as small as the budget, at least 4, allows.
+/// blocks are as small as the budget, at least 4, allows; a tile that is one hole has 8 edges.
 AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget);
 
 } // namespace gnomon

@@ -8,6 +8,10 @@ namespace gnomon {
 
 namespace {
 
+/// A line that is longer, in points, grows by doubling: each trial looks at all its points, and a
+/// straight border of a large image has thousands.
+const uint32_t MOST_SINGLE_STEPS = 64;
+
 double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
 	const glm::dvec2 along(p_b - p_a);
 	const glm::dvec2 offset(p_point - p_a);
@@ -25,6 +29,8 @@ struct Chain {
 	/// Of those between two, the farthest from the line; p_end is above p_begin and may be beyond
 	/// the loop's end.
 	uint32_t find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const;
+	/// Of the longest line from a point that has all between within the tolerance.
+	uint32_t find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const;
 	void keep(uint32_t p_point) { is_left[p_point % loop->size()] = 1; }
 	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
 };
@@ -42,22 +48,31 @@ uint32_t Chain::find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distan
 	return farthest;
 }
 
+uint32_t Chain::find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const {
+	uint32_t end = p_begin + 1;
+	bool is_growing = true;
+	for (uint32_t step = 1; step > 0 && end < p_end;) {
+		const uint32_t tried = std::min(end + step, p_end);
+		double distance = 0;
+		find_farthest(p_begin, tried, distance);
+		const bool fits = distance <= p_tolerance;
+		end = fits ? tried : end;
+		is_growing = is_growing && fits;
+		if (!is_growing) {
+			step /= 2;
+		} else if (end - p_begin >= MOST_SINGLE_STEPS) {
+			step *= 2;
+		}
+	}
+	return end;
+}
+
 /// Each line as long as it may be, one after another: about a quarter fewer lines than halving at
 /// the farthest point (Douglas and Peucker 1973) leaves.
 void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
-	uint32_t begin = p_begin;
-	while (begin < p_end) {
-		uint32_t end = begin + 1;
-		double distance = 0;
-		while (end < p_end) {
-			find_farthest(begin, end + 1, distance);
-			if (distance > p_tolerance) {
-				break;
-			}
-			++end;
-		}
-		keep(end);
-		begin = end;
+	for (uint32_t begin = p_begin; begin < p_end;) {
+		begin = find_line_end(begin, p_end, p_tolerance);
+		keep(begin);
 	}
 }
 

@@ -176,6 +176,39 @@ TEST_CASE(
 	}
 }
 
+TEST_CASE("[AlphaOutline] a half-tone has few triangles where all is there") {
+	std::minstd_rand random(7);
+	for (const uint32_t budget : { 4u, 8u, 256u, 1000u }) {
+		CAPTURE(budget);
+		const auto image = make_alpha_image({ 321, 203 }, [&](const glm::uvec2 &p_texel) {
+			const bool is_noise = p_texel.x < 100 && p_texel.y < 100;
+			return is_noise ? double(random() % 2) : p_texel.x < 300 ? 1.0 : 0.0;
+		});
+		AlphaTest test;
+		test.image = image.get();
+		test.is_nearest = true;
+		const AlphaOutline half_tone = make_alpha_outline(test, budget);
+		CHECK(half_tone.block_size_px > 1);
+		CHECK(half_tone.edge_count <= std::max(budget, 8u));
+		CHECK(half_tone.triangles.size() / 3 <= 2 * std::max(budget, 8u));
+		const AlphaOutline exact = make_alpha_outline(test, 100000);
+		CHECK(exact.block_size_px == 0);
+		CHECK(std::abs(compute_area(half_tone) - compute_area(exact)) < 0.01);
+	}
+}
+
+TEST_CASE("[AlphaOutline] straight borders of a large image are single lines") {
+	const auto image = make_alpha_image(
+			{ 8192, 64 }, [](const glm::uvec2 &p_texel) { return p_texel.y / 8 % 2 ? 0.9 : 0.1; });
+	AlphaTest test;
+	test.image = image.get();
+	test.wrap_u = test.wrap_v = TextureWrap::CLAMP;
+	const AlphaOutline outline = make_alpha_outline(test, 20000);
+	CHECK(outline.block_size_px == 0);
+	CHECK(outline.edge_count == 16);
+	CHECK(compute_area(outline) == doctest::Approx(0.5).epsilon(0.01));
+}
+
 TEST_CASE("[AlphaOutline] tiles that repeat meet at their borders") {
 	const auto image = make_alpha_image({ 16, 12 }, [&](const glm::uvec2 &p_texel) {
 		return 0.5 + 0.5 * std::sin(p_texel.x * 0.9) * std::cos(p_texel.y * 0.8 + 1);
