@@ -15,6 +15,9 @@ namespace gnomon {
 
 namespace {
 
+const double CUTOFF_OF_NOTHING = 2; // no texel has so much alpha
+const double CUTOFF_STEPS = 32;		// an outline of 2048 x 2048 texels takes a tenth of a second
+
 /// Cuts the triangles one after another. Those that are whole wait until it is known where their
 /// neighbours' cuts meet their sides.
 class MeshCutter {
@@ -60,25 +63,35 @@ MeshCutter::MeshCutter(
 	if (texture.image) {
 		for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
 			const MeshTriangle read = read_triangle(triangle);
-			if (std::isfinite(read.area)) {
+			if (read.has_area()) {
 				cover.add(read);
 			}
 		}
 	}
 }
 
-/// Of the texture's alpha: at least that is there.
+/// Of the texture's alpha: at least that is there. In steps where vertex colours decide, as each
+/// has an outline of its own.
 double MeshCutter::compute_cutoff(const uint32_t *p_corners) const {
-	double alpha = material.alpha;
+	double vertex_alpha = 1;
 	if (!mesh.attributes.colors.empty()) {
 		double sum = 0;
 		for (int corner = 0; corner < 3; ++corner) {
 			sum += mesh.attributes.colors[p_corners[corner]].w;
 		}
-		alpha *= sum / 3;
+		vertex_alpha = sum / 3;
 	}
+	const double alpha = material.alpha * vertex_alpha;
 	const double cutoff = make_alpha_test(material).cutoff;
-	return cutoff <= 0 ? 0.0 : alpha > 0 ? cutoff / alpha : 2.0;
+	if (cutoff <= 0) {
+		return 0;
+	}
+	if (!(alpha >= cutoff)) {
+		return CUTOFF_OF_NOTHING;
+	}
+	const double share = cutoff / alpha;
+	return vertex_alpha == 1 ? share
+							 : std::max(std::round(share * CUTOFF_STEPS), 1.0) / CUTOFF_STEPS;
 }
 
 MeshTriangle MeshCutter::read_triangle(uint32_t p_triangle) const {
@@ -107,14 +120,15 @@ OutlinedTexture &MeshCutter::get_texture(double p_cutoff) {
 
 void MeshCutter::cut_triangle(uint32_t p_triangle) {
 	const double cutoff = compute_cutoff(&mesh.indices[3 * size_t(p_triangle)]);
+	if (cutoff > 1) {
+		return;
+	}
 	if (!texture.image) {
-		if (cutoff <= 1) {
-			whole.push_back(p_triangle);
-		}
+		whole.push_back(p_triangle);
 		return;
 	}
 	const MeshTriangle triangle = read_triangle(p_triangle);
-	if (triangle.area == 0 || !std::isfinite(triangle.area)) { // all of it shows one line of texels
+	if (!triangle.has_area()) {
 		const glm::dvec2 middle = (triangle.uv[0] + triangle.uv[1] + triangle.uv[2]) / 3.0;
 		if (std::isfinite(middle.x + middle.y) &&
 				sample_alpha(make_alpha_test(material), middle) >= cutoff) {
@@ -124,9 +138,7 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 	}
 	std::vector<ClippedPiece> pieces;
 	double area = 0;
-	for (const OutlinedTexture::Triangle &corners : get_texture(cutoff).list_triangles(
-				 glm::min(glm::min(triangle.uv[0], triangle.uv[1]), triangle.uv[2]),
-				 glm::max(glm::max(triangle.uv[0], triangle.uv[1]), triangle.uv[2]))) {
+	for (const OutlinedTexture::Triangle &corners : get_texture(cutoff).list_triangles(triangle)) {
 		ClippedPiece piece(triangle, corners);
 		if (!piece.get_points().empty()) {
 			area += std::abs(piece.compute_area());

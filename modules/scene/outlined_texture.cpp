@@ -23,6 +23,26 @@ std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_
 	return make_image(p_image.name, size, std::move(texels));
 }
 
+/// Whether all corners of a convex polygon are outside of one side of a triangle.
+template <size_t COUNT>
+bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COUNT> &p_corners) {
+	for (int side = 0; side < 3; ++side) {
+		if (std::all_of(p_corners.begin(), p_corners.end(), [&](const glm::dvec2 &p_corner) {
+				return p_triangle.compute_inside(side, p_corner) < 0;
+			})) {
+			return true;
+		}
+	}
+	return false;
+}
+
+// What a triangle that is thin and long shows of a tile's outline is little, but each of its edges
+// is looked at: so many tiles of its length weigh as much as one that it covers.
+const double LONG_TILES_OF_ONE = 4;
+const double LEAST_EDGES = 4; // of a tile's outline
+// To see that a triangle does not meet a tile of its box is cheap.
+const double TESTS_OF_ONE_TILE = 4;
+
 } // namespace
 
 void TileCover::add(const MeshTriangle &p_triangle) {
@@ -32,26 +52,28 @@ void TileCover::add(const MeshTriangle &p_triangle) {
 	const glm::dvec2 size = high - low;
 	area += std::abs(p_triangle.area) / 2;
 	box_area += size.x * size.y;
-	box_sides += size.x + size.y;
+	long_sides += std::max(size.x - 1, 0.0) + std::max(size.y - 1, 0.0);
 	farthest = std::max(
 			{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
 }
 
-bool TileCover::fits(double p_tile_size) const {
-	const double MOST_TILES = 1 << 20;
+bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
 	const double MOST_PLACES = double(uint64_t(1) << 40);
-	return box_area / (p_tile_size * p_tile_size) + box_sides / p_tile_size <= MOST_TILES &&
-			farthest / p_tile_size <= MOST_PLACES;
+	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
+			long_sides / p_tile_size <= p_most_tiles && farthest / p_tile_size <= MOST_PLACES;
 }
 
 OutlinedTexture::OutlinedTexture(
 		const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget) :
 		test(p_test) {
-	const double share = p_budget.edges_per_mesh / std::max(p_cover.area, 1.0);
+	const double tile_count = p_cover.area + p_cover.long_sides / LONG_TILES_OF_ONE;
+	const double share = p_budget.edges_per_mesh / std::max(tile_count, 1.0);
 	edge_budget = std::bit_floor(
-			static_cast<uint32_t>(std::clamp(share, 4.0, double(p_budget.edges_per_tile))));
+			static_cast<uint32_t>(std::clamp(share, LEAST_EDGES, double(p_budget.edges_per_tile))));
 	const bool repeats = p_test.wrap_u != TextureWrap::CLAMP || p_test.wrap_v != TextureWrap::CLAMP;
-	while (repeats && (share * tile_size * tile_size < 4 || !p_cover.fits(tile_size))) {
+	const double most_tiles = p_budget.edges_per_mesh / LEAST_EDGES;
+	while (repeats &&
+			(share * tile_size * tile_size < LEAST_EDGES || !p_cover.fits(tile_size, most_tiles))) {
 		tile_size *= 2;
 	}
 }
@@ -89,7 +111,8 @@ const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
 			drawn_out = draw_out(*test.image, p_part_x, p_part_y);
 			part.image = drawn_out.get();
 		}
-		found->second = make_alpha_outline(part, tile_size > 1 ? 4 : edge_budget);
+		found->second = make_alpha_outline(
+				part, tile_size > 1 ? static_cast<uint32_t>(LEAST_EDGES) : edge_budget);
 		const double block = std::min(found->second.block_size_px * tile_size, double(INT32_MAX));
 		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));
 	}
@@ -97,10 +120,13 @@ const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
 }
 
 std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
-		const glm::dvec2 &p_minimum, const glm::dvec2 &p_maximum) {
+		const MeshTriangle &p_triangle) {
+	const auto &[a, b, c] = p_triangle.uv;
+	const glm::dvec2 minimum = glm::min(glm::min(a, b), c);
+	const glm::dvec2 maximum = glm::max(glm::max(a, b), c);
 	std::vector<Triangle> triangles;
-	const std::vector<Stretch> columns = list_stretches(test.wrap_u, p_minimum.x, p_maximum.x);
-	const std::vector<Stretch> rows = list_stretches(test.wrap_v, p_minimum.y, p_maximum.y);
+	const std::vector<Stretch> columns = list_stretches(test.wrap_u, minimum.x, maximum.x);
+	const std::vector<Stretch> rows = list_stretches(test.wrap_v, minimum.y, maximum.y);
 	const auto place = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
 		const double share = double(p_at) / p_size;
 		// Ends are exact, so that neighbours have them in common.
@@ -109,6 +135,12 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 	};
 	for (const Stretch &row : rows) {
 		for (const Stretch &column : columns) {
+			const std::array<glm::dvec2, 4> tile = { { { column.begin, row.begin },
+					{ column.end, row.begin }, { column.end, row.end },
+					{ column.begin, row.end } } };
+			if (is_outside(p_triangle, tile)) {
+				continue;
+			}
 			const AlphaOutline &outline = get_outline(column.part, row.part);
 			std::vector<glm::dvec2> uvs;
 			uvs.reserve(outline.points.size());
@@ -121,8 +153,9 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 					uvs[outline.triangles[i + 2]] };
 				const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
 				const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-				if (glm::all(glm::lessThanEqual(low, p_maximum)) &&
-						glm::all(glm::greaterThanEqual(high, p_minimum))) {
+				if (glm::all(glm::lessThanEqual(low, maximum)) &&
+						glm::all(glm::greaterThanEqual(high, minimum)) &&
+						!is_outside(p_triangle, corners)) {
 					triangles.push_back(corners);
 				}
 			}

@@ -20,13 +20,13 @@ struct OutlineBudget {
 /// How much of a texture's plane the triangles of a mesh cover, in tiles.
 struct TileCover {
 	double area = 0;
-	double box_area = 0; // of the boxes around them
-	double box_sides = 0;
-	double farthest = 0; // of their coordinates
+	double box_area = 0;   // of the boxes around them
+	double long_sides = 0; // of those boxes, beyond one tile each
+	double farthest = 0;   // of their coordinates
 
 	void add(const MeshTriangle &p_triangle);
 	/// Tiles of that size are few enough to be visited one by one, and distinct in double.
-	bool fits(double p_tile_size) const;
+	bool fits(double p_tile_size, double p_most_tiles) const;
 };
 
 /// What a texture leaves of a mesh: outlines for each part of the plane of its coordinates.
@@ -37,8 +37,8 @@ public:
 	OutlinedTexture(
 			const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget);
 
-	/// Those of the outline that may meet a box of coordinates.
-	std::vector<Triangle> list_triangles(const glm::dvec2 &p_minimum, const glm::dvec2 &p_maximum);
+	/// Those of the outline that may meet a triangle of the mesh.
+	std::vector<Triangle> list_triangles(const MeshTriangle &p_triangle);
 	uint32_t get_block_size_px() const { return block_size_px; }
 
 private:

@@ -9,6 +9,9 @@ namespace gnomon {
 
 namespace {
 
+/// Of a triangle, its width against its corners' coordinates: several thousand roundings.
+const double THINNEST = 1e-12;
+
 double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
@@ -35,6 +38,16 @@ void MeshTriangle::set_up() {
 		side.position[1] = side.is_turned ? position[i] : position[k];
 	}
 	area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+	double longest = 0;
+	double farthest = 0;
+	for (const MeshSide &side : sides) {
+		longest = std::max(longest, glm::length(side.uv[1] - side.uv[0]));
+		farthest = std::max({ farthest, std::abs(side.uv[0].x), std::abs(side.uv[0].y),
+				std::abs(side.uv[1].x), std::abs(side.uv[1].y) });
+	}
+	if (std::abs(area) < THINNEST * longest * farthest) {
+		area = 0;
+	}
 }
 
 double MeshTriangle::compute_inside(int p_side, const glm::dvec2 &p_uv) const {
@@ -45,8 +58,9 @@ double MeshTriangle::compute_inside(int p_side, const glm::dvec2 &p_uv) const {
 
 glm::vec3 MeshTriangle::compute_position(const glm::dvec2 &p_uv) const {
 	const glm::dvec2 offset = p_uv - uv[0];
-	const double b = cross(offset, uv[2] - uv[0]) / area;
-	const double c = cross(uv[1] - uv[0], offset) / area;
+	// Inside, but for rounding.
+	const double b = std::clamp(cross(offset, uv[2] - uv[0]) / area, 0.0, 1.0);
+	const double c = std::clamp(cross(uv[1] - uv[0], offset) / area, 0.0, 1.0 - b);
 	const glm::dvec3 origin(position[0]);
 	return glm::vec3(origin + (glm::dvec3(position[1]) - origin) * b +
 			(glm::dvec3(position[2]) - origin) * c);
@@ -64,6 +78,14 @@ ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm:
 	}
 	for (int side = 0; side < 3 && !points.empty(); ++side) {
 		clip(side);
+	}
+	const bool is_finite = std::all_of(points.begin(), points.end(),
+			[](const Point &p_point) { return std::isfinite(p_point.uv.x + p_point.uv.y); });
+	if (!is_finite) { // rounding made lines parallel that cross: next to nothing is left
+		points.clear();
+	}
+	for (Point &point : points) {
+		point.share = std::clamp(point.share, 0.0, 1.0);
 	}
 }
 
@@ -110,6 +132,9 @@ void ClippedPiece::clip(int p_side) {
 	std::vector<double> inside(count);
 	for (size_t i = 0; i < count; ++i) {
 		inside[i] = locate(p_side, points[i]);
+	}
+	if (std::all_of(inside.begin(), inside.end(), [](double p_inside) { return p_inside >= 0; })) {
+		return;
 	}
 	std::vector<Point> clipped;
 	std::vector<Line> clipped_lines;

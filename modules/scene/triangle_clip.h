@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -36,9 +37,13 @@ struct MeshTriangle {
 	glm::dvec2 uv[3];
 	glm::vec3 position[3];
 	MeshSide sides[3]; // from corner i to i + 1
-	double area = 0;   // twice, in the texture's coordinates; negative: mirrored
+	/// Twice, in the texture's coordinates; negative: mirrored. 0 where it is so thin that rounding
+	/// decides.
+	double area = 0;
 
 	void set_up();
+	/// Else all of it shows one line of texels, or none.
+	bool has_area() const { return std::isfinite(area) && area != 0; }
 	/// Above 0 inside, for each of the sides.
 	double compute_inside(int p_side, const glm::dvec2 &p_uv) const;
 	glm::vec3 compute_position(const glm::dvec2 &p_uv) const;

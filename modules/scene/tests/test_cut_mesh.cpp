@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
 
 using namespace gnomon;
 
@@ -210,6 +211,55 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 	REQUIRE(many.mesh);
 	CHECK(many.block_size_px > 8);
 	CHECK(many.mesh->get_triangle_count() < 12u * small.edges_per_mesh);
+}
+
+TEST_CASE("[CutMesh] triangles that are thin in their coordinates stay within the mesh's budget") {
+	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
+	const OutlineBudget small = { 1 << 10, 1 << 14 };
+	const auto cut_thin = [&](const std::vector<glm::vec2> &p_uvs) {
+		MeshAttributes attributes;
+		attributes.uvs[0] = p_uvs;
+		const auto thin = make_mesh(
+				"thin", { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, {}, { 0, 1, 2 }, attributes);
+		const auto cut = cut_mesh(thin, material, small).mesh;
+		return std::pair(cut ? cut->get_triangle_count() : 0, cut ? compute_area(*cut) : 0.0);
+	};
+	const double whole_area = compute_area(*make_grid(1, 1)) / 2;
+	for (const std::vector<glm::vec2> &uvs : {
+				 std::vector<glm::vec2>{ { 0, 0 }, { 100, 100 }, { 100, 100.001f } },
+				 std::vector<glm::vec2>{ { 0, 0 }, { 4000, 4000 }, { 4000, 4000.001f } },
+				 std::vector<glm::vec2>{ { 0, 0 }, { 2e5f, 0 }, { 2e5f, 0.001f } },
+				 std::vector<glm::vec2>{ { 0, 0 }, { 1e35f, 0 }, { 0, 1e27f } },
+				 // So thin that rounding decides which side of it is which.
+				 std::vector<glm::vec2>{ { 0, 1e-44f }, { 40, -6e15f }, { 0, 7e-36f } },
+				 std::vector<glm::vec2>{ { 1e-44f, 0 }, { 1e-38f, 1e-43f }, { 0, 1e20f } },
+		 }) {
+		CAPTURE(uvs[1].x);
+		CAPTURE(uvs[1].y);
+		const auto [triangle_count, area] = cut_thin(uvs);
+		CHECK(triangle_count <= 12 * small.edges_per_mesh);
+		CHECK(area <= whole_area * 1.0001);
+	}
+}
+
+TEST_CASE("[CutMesh] vertex alphas that are nearly alike cut alike") {
+	const Material material = make_material(make_wave_image({ 24, 24 }, 0.6));
+	const auto cut_with = [&](float p_alpha) {
+		const auto grid = make_grid(1, 1);
+		MeshAttributes attributes = grid->attributes;
+		attributes.colors.assign(4, glm::vec4(1, 1, 1, p_alpha));
+		return cut_mesh(
+				make_mesh("grid", grid->positions_node, {}, grid->indices, attributes), material)
+				.mesh;
+	};
+	CHECK(cut_with(0.9f)->positions_node == cut_with(0.901f)->positions_node);
+	CHECK(cut_with(1.0f)->positions_node ==
+			cut_mesh(make_grid(1, 1), material).mesh->positions_node);
+	CHECK(compute_area(*cut_with(0.6f)) < compute_area(*cut_with(0.9f)));
+	// Of what is nowhere, however near it is.
+	CHECK(cut_with(0.499f) == nullptr);
+	CHECK(cut_with(NAN) == nullptr);
+	CHECK(cut_with(-1.0f) == nullptr);
 }
 
 TEST_CASE("[CutMesh] materials that cut alike share a mesh; others and changed ones do not") {
