@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Writes small forms of scenes as inputs of the glTF fuzz target.
+"""Writes seeds of fuzz targets into a folder.
 
-    make_seeds.py SCENE... FOLDER
+    make_seeds.py scenes SCENE... FOLDER   of gltf: small forms of scenes
+    make_seeds.py textures FOLDER          of gltf: a card with images of every kind, whole and broken
+    make_seeds.py cut_mesh FOLDER          of cut_mesh: meshes, materials and masks
 
 Each .gltf or .glb scene becomes FOLDER/<name>.gltf, with its buffer inside, and FOLDER/<name>.glb: all that the file
-says, but no accessor of more than a few elements, so that mutations hit what matters.
+says, but no accessor of more than a few elements, so that mutations hit what matters. Images are left out; the cards
+have them.
 """
 
 import base64
@@ -12,6 +15,8 @@ import json
 import os
 import struct
 import sys
+
+import seed_images
 
 COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 INDEX_FORMATS = {5121: "B", 5123: "<H", 5125: "<I"}
@@ -89,23 +94,260 @@ def build_glb(document, packed):
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
 
-def main():
-    if len(sys.argv) < 3:
-        print("ERROR: usage: make_seeds.py SCENE... FOLDER", file=sys.stderr)
-        return 2
-    for path in sys.argv[1:-1]:
-        name = os.path.join(sys.argv[-1], os.path.splitext(os.path.basename(path))[0])
+def write_both(document, packed, name):
+    """As name.glb and name.gltf; the buffer is in either."""
+    if packed:
+        document["buffers"] = [{"byteLength": len(packed)}]
+    with open(name + ".glb", "wb") as file:
+        file.write(build_glb(document, packed))
+    write_gltf(document, packed, name)
+
+
+def write_gltf(document, packed, name):
+    if packed:
+        document["buffers"] = [{"byteLength": len(packed), "uri": make_data_uri("application/octet-stream", packed)}]
+    with open(name + ".gltf", "w", encoding="utf-8") as file:
+        json.dump(document, file, separators=(",", ":"))
+
+
+def make_data_uri(media_type, data):
+    return "data:%s;base64,%s" % (media_type, base64.b64encode(data).decode())
+
+
+def write_scenes(paths, folder):
+    for path in paths:
         document, buffers = read_scene(path)
         packed = shrink(document, buffers)
-        if packed:
-            document["buffers"] = [{"byteLength": len(packed)}]
-        with open(name + ".glb", "wb") as file:
-            file.write(build_glb(document, packed))
-        if packed:
-            uri = "data:application/octet-stream;base64," + base64.b64encode(packed).decode()
-            document["buffers"][0]["uri"] = uri
-        with open(name + ".gltf", "w", encoding="utf-8") as file:
-            json.dump(document, file, separators=(",", ":"))
+        write_both(document, packed, os.path.join(folder, os.path.splitext(os.path.basename(path))[0]))
+
+
+CLAMP, MIRROR, REPEAT = 33071, 33648, 10497
+NEAREST, LINEAR = 9728, 9729
+MIPMAP_FILTERS = (9984, 9985, 9986, 9987)
+
+
+class Card:
+    """A quad that shows an image, with two sets of coordinates and vertex colours, before a camera."""
+
+    def __init__(self):
+        self.packed = bytearray()
+        self.document = {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 3]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+            "meshes": [{"primitives": [{"attributes": {}, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}],
+            "images": [{}],
+            "accessors": [],
+            "bufferViews": [],
+        }
+        corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        floats = {
+            "POSITION": [(x - 0.5, y - 0.5, 0) for x, y in corners],
+            "TEXCOORD_0": [(2.5 * x - 1, 1 - y) for x, y in corners],
+            "TEXCOORD_1": [(x / 2, y) for x, y in corners],
+            "COLOR_0": [(1, x, y, 1 - x / 4) for x, y in corners],
+        }
+        for name, values in floats.items():
+            data = b"".join(struct.pack("<%df" % len(value), *value) for value in values)
+            self.primitive["attributes"][name] = self.add_accessor(data, 5126, "VEC%d" % len(values[0]), 4)
+        self.primitive["indices"] = self.add_accessor(struct.pack("<6H", 0, 1, 2, 0, 2, 3), 5123, "SCALAR", 6)
+
+    @property
+    def primitive(self):
+        return self.document["meshes"][0]["primitives"][0]
+
+    @property
+    def material(self):
+        return self.document["materials"][0]
+
+    @property
+    def base_color(self):
+        return self.material["pbrMetallicRoughness"]["baseColorTexture"]
+
+    def add_view(self, data):
+        views = self.document["bufferViews"]
+        views.append({"buffer": 0, "byteOffset": len(self.packed), "byteLength": len(data)})
+        self.packed += data + bytes(-len(data) % 4)
+        return len(views) - 1
+
+    def add_accessor(self, data, component_type, kind, count):
+        accessor = {"bufferView": self.add_view(data), "componentType": component_type, "type": kind, "count": count}
+        self.document["accessors"].append(accessor)
+        return len(self.document["accessors"]) - 1
+
+    def set_image(self, data, media_type, is_inside=True):
+        """Inside: in a buffer view; else as a data URI."""
+        self.document["images"][0] = (
+            {"bufferView": self.add_view(data), "mimeType": media_type}
+            if is_inside
+            else {"uri": make_data_uri(media_type, data)}
+        )
+
+    def mask(self, cutoff):
+        self.material.update({"alphaMode": "MASK", "alphaCutoff": cutoff})
+
+
+def make_masked_card():
+    card = Card()
+    card.set_image(seed_images.make_leaf_png(), "image/png")
+    card.mask(0.5)
+    card.document["samplers"] = [
+        {"wrapS": wrap, "wrapT": CLAMP, "magFilter": NEAREST if wrap == CLAMP else LINEAR, "minFilter": min_filter}
+        for wrap in (MIRROR, CLAMP, REPEAT)
+        for min_filter in (NEAREST, LINEAR, *MIPMAP_FILTERS)
+    ]
+    card.document["textures"][0]["sampler"] = 0
+    return card
+
+
+def make_blended_card():
+    """Two sets of coordinates, moved, and each kind of texture."""
+    card = Card()
+    card.set_image(seed_images.make_leaf_png(), "image/png", is_inside=False)
+    transform = {"offset": [0.25, -1], "rotation": 0.7, "scale": [2, -1.5], "texCoord": 1}
+    card.base_color.update({"texCoord": 1, "extensions": {"KHR_texture_transform": transform}})
+    card.material.update({
+        "alphaMode": "BLEND",
+        "normalTexture": {"index": 0, "scale": 0.5},
+        "occlusionTexture": {"index": 0, "texCoord": 1, "strength": 0.5},
+        "emissiveTexture": {"index": 0},
+        "emissiveFactor": [1, 0.5, 0],
+        "doubleSided": True,
+    })
+    card.document["extensionsUsed"] = ["KHR_texture_transform"]
+    return card
+
+
+def make_transparent_card():
+    card = Card()
+    card.set_image(seed_images.make_jpeg(), "image/jpeg", is_inside=False)
+    card.mask(0.25)
+    card.material["extensions"] = {
+        "KHR_materials_transmission": {"transmissionFactor": 0.5},
+        "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 1, "attenuationColor": [1, 0.5, 0]},
+    }
+    return card
+
+
+def make_card_of(image, media_type):
+    card = Card()
+    card.set_image(image, media_type)
+    card.mask(0.5)
+    return card
+
+
+def make_wrong_reference_card():
+    card = make_masked_card()
+    card.document["textures"][0]["sampler"] = 99
+    card.document["textures"].append({"source": 7})
+    card.material["emissiveTexture"] = {"index": 1}
+    card.material["occlusionTexture"] = {"index": 5}
+    return card
+
+
+def make_card_without_coordinates():
+    card = make_masked_card()
+    card.base_color["texCoord"] = 1
+    del card.primitive["attributes"]["TEXCOORD_1"]
+    del card.document["textures"][0]["sampler"]
+    return card
+
+
+def make_card_without_image():
+    """It has neither uri nor bufferView; another texture has no source."""
+    card = Card()
+    card.document["textures"].append({})
+    card.material["emissiveTexture"] = {"index": 1}
+    return card
+
+
+def write_textures(folder):
+    cards = {
+        "card_mask": make_masked_card(),
+        "card_blend": make_blended_card(),
+        "card_transmission": make_transparent_card(),
+        "card_jpeg_grey": make_card_of(seed_images.make_jpeg(1), "image/jpeg"),
+        "card_wrong_references": make_wrong_reference_card(),
+        "card_without_coordinates": make_card_without_coordinates(),
+        "card_without_image": make_card_without_image(),
+        "card_png_huge": make_card_of(seed_images.make_huge_png(), "image/png"),
+        "card_png_truncated": make_card_of(seed_images.make_truncated_png(), "image/png"),
+        "card_png_animated": make_card_of(seed_images.make_animated_png(), "image/png"),
+        "card_jpeg_truncated": make_card_of(seed_images.make_truncated_jpeg(), "image/jpeg"),
+        "card_gif_animated": make_card_of(seed_images.make_animated_gif(), "image/gif"),
+        "card_webp_animated": make_card_of(seed_images.make_animated_webp(), "image/webp"),
+    }
+    for name, card in cards.items():
+        path = os.path.join(folder, name)
+        if name in ("card_mask", "card_blend"):
+            write_both(card.document, bytes(card.packed), path)
+        else:
+            write_gltf(card.document, bytes(card.packed), path)
+
+
+IDENTITY = (1, 0, 0, 1, 0, 0)
+WRAPS = {"clamp": 0, "repeat": 1, "mirror": 2}
+FEWEST_EDGES = 4
+
+
+def build_cut(uvs, positions=None, alphas=None, size=(8, 8), texels=None, wraps=("repeat", "repeat"), nearest=False,
+        blend=False, cutoff=0.5, alpha=1.0, transform=IDENTITY, edges=(1024, 16384)):  # fmt: skip
+    """The bytes that cut_mesh_fuzz.cpp reads: triangles whose corners are the vertices in their order."""
+    count = len(uvs) // 3 * 3
+    positions = positions or [(float(i % 3 == 1), float(i % 3 == 2), float(i // 3)) for i in range(count)]
+    texels = texels or [min(255, 31 * abs(x - 3) + 31 * abs(y - 4)) for y in range(size[1]) for x in range(size[0])]
+    data = bytes([blend, WRAPS[wraps[0]], WRAPS[wraps[1]], nearest, 0])
+    data += struct.pack("<8f", cutoff, alpha, *transform)
+    data += bytes([(most // FEWEST_EDGES).bit_length() - 1 for most in edges])
+    data += bytes([1, alphas is not None, count - 1, count // 3 - 1])
+    for index in range(count):
+        data += struct.pack("<5f", *positions[index], *uvs[index])
+        data += struct.pack("<f", alphas[index]) if alphas else b""
+    return data + bytes(range(count)) + bytes(size) + bytes(texels)
+
+
+def write_cuts(folder):
+    nan, infinity = float("nan"), float("inf")
+    triangle = [(0, 0), (1, 0), (0, 1)]
+    noise = [(37 * i * i + 11 * i) % 256 for i in range(24 * 24)]
+    cuts = {
+        "plain": build_cut(triangle),
+        "nearest": build_cut(
+            [(0, 0), (2, 0), (2, 2), (0, 0), (2, 2), (0, 2)], nearest=True, wraps=("repeat", "mirror")
+        ),
+        "clamped": build_cut([(-1, -2), (3, 0), (0, 4)], wraps=("clamp", "clamp")),
+        "one_axis_clamped": build_cut([(-1.5, -2), (3, 0.5), (0, 4)], wraps=("mirror", "clamp")),
+        "turned": build_cut(triangle, transform=(0.8, 0.3, -0.2, 1.1, 0.1, 0.4), blend=True),
+        "vertex_alphas": build_cut(2 * triangle, alphas=[1, 0.5, 0.9, 0.7, nan, 1]),
+        "noise": build_cut([(0, 0), (40, 0), (0, 40)], size=(24, 24), texels=noise, edges=(64, 1024)),
+        "many_tiles": build_cut([(0, 0), (1000, 0), (0, 900)], edges=(64, 4096)),
+        "sliver": build_cut([(0, 0), (500, 500), (500, 500.001)], edges=(64, 1024)),
+        "not_finite": build_cut([(0, 0), (nan, 0), (0, 1), (0, 0), (infinity, 0), (0, 1)]),
+        "far": build_cut([(1e20, 0), (3e38, 1), (0, -3e38)], positions=[(3e38, 0, 0), (0, -3e38, 1e-45), (0, 0, 1)]),
+        "no_area": build_cut([(0.1, 0.1), (0.1, 0.1), (0.1, 0.1)]),
+        "one_texel": build_cut(triangle, size=(1, 1), texels=[128], cutoff=0.501, alpha=0.999),
+        "without_image": build_cut(triangle, size=(0, 0), texels=[], alphas=[1, 0, 1]),
+    }
+    for name, data in cuts.items():
+        with open(os.path.join(folder, name), "wb") as file:
+            file.write(data)
+
+
+def main():
+    arguments = sys.argv[1:]
+    if len(arguments) > 2 and arguments[0] == "scenes":
+        write_scenes(arguments[1:-1], arguments[-1])
+    elif len(arguments) == 2 and arguments[0] == "textures":
+        write_textures(arguments[1])
+    elif len(arguments) == 2 and arguments[0] == "cut_mesh":
+        write_cuts(arguments[1])
+    else:
+        print("ERROR: usage: make_seeds.py scenes SCENE... FOLDER, or textures or cut_mesh FOLDER", file=sys.stderr)
+        return 2
     return 0
 
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Runs the fuzz targets that `scons fuzz=yes` has built.
 
-    run_fuzz.py [--seconds N] [--jobs N] [TARGET]...
+    run_fuzz.py [--seconds N] [--jobs N] [--limit-s N] [TARGET]...
 
 Each target runs for N seconds (default: $FUZZ_SECONDS, else 600), as many at once as there are jobs (default: one a
-core). What it learns stays in build/fuzz/<target>/corpus, where the next run goes on; what goes wrong (crash-*, leak-*,
+core). An input may take as long as the limit (default: 10 s; longer where other programs have the cores). What a
+target learns stays in build/fuzz/<target>/corpus, where the next run goes on; what goes wrong (crash-*, leak-*,
 timeout-*, oom-*) in build/fuzz/<target>/findings, beside the log. A target passes when it ran and has no new finding.
 The last line is "N passed, N failed, N skipped".
 """
@@ -18,12 +19,12 @@ import sys
 import fuzz_targets
 
 MAX_INPUT_BYTES = 1 << 16
-LIMIT_S = 10  # of one input
+LIMIT_S = 10  # of one input, unless --limit-s says otherwise
 MEMORY_MIB = 2048
 GRACE_S = 120
 
 
-def run_target(target, seconds):
+def run_target(target, seconds, limit_s):
     """(has passed, what to print)"""
     program = os.path.join(fuzz_targets.ROOT, "bin", "fuzz_" + target.name)
     if not os.path.isfile(program):
@@ -34,7 +35,8 @@ def run_target(target, seconds):
     os.makedirs(findings, exist_ok=True)
     before = set(os.listdir(findings))
     command = [program, learned, target.corpus, "-max_total_time=%d" % seconds, "-max_len=%d" % MAX_INPUT_BYTES]
-    command += ["-timeout=%d" % LIMIT_S, "-rss_limit_mb=%d" % MEMORY_MIB, "-malloc_limit_mb=%d" % (MEMORY_MIB // 2)]
+    command += ["-timeout=%d" % limit_s, "-report_slow_units=%d" % limit_s]
+    command += ["-rss_limit_mb=%d" % MEMORY_MIB, "-malloc_limit_mb=%d" % (MEMORY_MIB // 2)]
     command += ["-artifact_prefix=%s/" % findings, "-print_final_stats=1"]
     if target.dictionary:
         command.append("-dict=" + target.dictionary)
@@ -62,17 +64,19 @@ def main():
     parser = argparse.ArgumentParser(description="Runs the fuzz targets.")
     parser.add_argument("--seconds", type=int, default=int(os.environ.get("FUZZ_SECONDS", "600")))
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--limit-s", type=int, default=LIMIT_S)
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     arguments = parser.parse_args()
     targets = fuzz_targets.find_targets()
     unknown = sorted(set(arguments.targets) - {target.name for target in targets})
-    if unknown or arguments.seconds < 1 or arguments.jobs < 1:
+    if unknown or min(arguments.seconds, arguments.jobs, arguments.limit_s) < 1:
         names = ", ".join(target.name for target in targets)
-        parser.error("seconds and jobs must be above 0, targets some of %s" % names)
+        parser.error("seconds, jobs and limit must be above 0, targets some of %s" % names)
     wanted = [target for target in targets if not arguments.targets or target.name in arguments.targets]
     passed = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for has_passed, told in pool.map(lambda target: run_target(target, arguments.seconds), wanted):
+        runs = pool.map(lambda target: run_target(target, arguments.seconds, arguments.limit_s), wanted)
+        for has_passed, told in runs:
             passed += has_passed
             print(told, flush=True)
     print("%d passed, %d failed, 0 skipped" % (passed, len(wanted) - passed))

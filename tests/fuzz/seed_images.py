@@ -1,0 +1,95 @@
+"""Small images of every kind that a glTF file may name, whole, cut short and of the wrong kind, as bytes."""
+
+import struct
+import zlib
+
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+def build_chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def build_header(width, height):
+    """Of a PNG image with red, green, blue and alpha of 8 bits."""
+    return build_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
+
+
+def pack_rows(width, height, alphas):
+    texels = [bytes((200, 40 * (i % 5), 90, alpha)) for i, alpha in enumerate(alphas)]
+    return zlib.compress(b"".join(b"\0" + b"".join(texels[y * width :][:width]) for y in range(height)))
+
+
+def build_png(width, height, alphas, before=b"", after=b""):
+    """before, after: chunks on either side of its rows."""
+    rows = build_chunk(b"IDAT", pack_rows(width, height, alphas))
+    return PNG_SIGNATURE + build_header(width, height) + before + rows + after + build_chunk(b"IEND", b"")
+
+
+def make_leaf_png():
+    """8 x 8 texels, with a round hole whose border has alphas between."""
+    alphas = [min(255, max(0, ((x - 3) ** 2 + (y - 4) ** 2 - 4) * 60)) for y in range(8) for x in range(8)]
+    return build_png(8, 8, alphas)
+
+
+def make_animated_png():
+    """Two frames; a reader that does not know its chunks shows the first."""
+    alphas = [255, 0, 128, 64]
+    control = struct.pack(">IIIIHHBB", 2, 2, 0, 0, 1, 10, 0, 0)
+    before = build_chunk(b"acTL", struct.pack(">II", 2, 0)) + build_chunk(b"fcTL", struct.pack(">I", 0) + control)
+    after = build_chunk(b"fcTL", struct.pack(">I", 1) + control)
+    after += build_chunk(b"fdAT", struct.pack(">I", 2) + pack_rows(2, 2, alphas[::-1]))
+    return build_png(2, 2, alphas, before, after)
+
+
+def make_huge_png(width=20000, height=20000):
+    """A header that is in order, and next to no rows."""
+    rows = build_chunk(b"IDAT", zlib.compress(bytes(100)))
+    return PNG_SIGNATURE + build_header(width, height) + rows + build_chunk(b"IEND", b"")
+
+
+def make_truncated_png():
+    png = make_leaf_png()
+    return png[: len(png) * 2 // 3]
+
+
+def make_jpeg(component_count=3):
+    """8 x 8 texels of one colour: baseline, each block a constant and an end of block of one bit."""
+
+    def build_segment(marker, data):
+        return struct.pack(">BBH", 0xFF, marker, len(data) + 2) + data
+
+    components = range(1, component_count + 1)
+    frame = struct.pack(">BHHB", 8, 8, 8, component_count) + b"".join(bytes((i, 0x11, 0)) for i in components)
+    one_code = bytes([1] + 15 * [0]) + b"\0"  # of one bit: 0
+    scan = bytes([component_count]) + b"".join(bytes((i, 0)) for i in components) + bytes((0, 63, 0))
+    return (
+        b"\xff\xd8"
+        + build_segment(0xDB, b"\0" + 64 * b"\1")
+        + build_segment(0xC0, frame)
+        + build_segment(0xC4, b"\x00" + one_code)
+        + build_segment(0xC4, b"\x10" + one_code)
+        + build_segment(0xDA, scan)
+        + bytes([0xFF >> 2 * component_count])
+        + b"\xff\xd9"
+    )
+
+
+def make_truncated_jpeg():
+    """It ends within its tables."""
+    return make_jpeg()[:120]
+
+
+def make_animated_gif():
+    """Two frames of one texel."""
+    pixel = b"\x2c" + struct.pack("<HHHHB", 0, 0, 1, 1, 0) + b"\x02\x02\x44\x01\x00"
+    control = b"\x21\xf9\x04\x04\x0a\x00\x00\x00"
+    loop = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
+    header = b"GIF89a" + struct.pack("<HHBBB", 1, 1, 0x80, 0, 0) + b"\xff\0\0\0\xff\0"
+    return header + loop + control + pixel + control + pixel + b"\x3b"
+
+
+def make_animated_webp():
+    """Its header, and no frame."""
+    body = b"WEBPVP8X" + struct.pack("<IIHBHB", 10, 0x02, 7, 0, 7, 0) + b"ANIM" + struct.pack("<IIH", 6, 0, 0)
+    return b"RIFF" + struct.pack("<I", len(body)) + body
