@@ -40,6 +40,7 @@ bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COU
 // is looked at: so many tiles of its length weigh as much as one that it covers.
 const double LONG_TILES_OF_ONE = 4;
 const double LEAST_EDGES = 4; // of a tile's outline
+const int64_t ROW_COUNT = 64;
 // To see that a triangle does not meet a tile of its box is cheap.
 const double TESTS_OF_ONE_TILE = 4;
 
@@ -102,8 +103,39 @@ std::vector<OutlinedTexture::Stretch> OutlinedTexture::list_stretches(
 	return stretches;
 }
 
-const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
-	auto [found, is_new] = outlines.try_emplace({ p_part_x, p_part_y });
+void OutlinedTexture::Tile::fill_rows() {
+	rows.resize(ROW_COUNT);
+	const auto find_row = [&](int32_t p_y) {
+		return std::min(int64_t(p_y) * ROW_COUNT / outline.size.y, ROW_COUNT - 1);
+	};
+	for (uint32_t first = 0; first < outline.triangles.size(); first += 3) {
+		const auto [low, high] = std::minmax({ outline.points[outline.triangles[first]].y,
+				outline.points[outline.triangles[first + 1]].y,
+				outline.points[outline.triangles[first + 2]].y });
+		for (int64_t row = find_row(low); row <= find_row(high); ++row) {
+			rows[row].push_back(first);
+		}
+	}
+}
+
+std::vector<uint32_t> OutlinedTexture::Tile::list_triangles(
+		double p_minimum, double p_maximum) const {
+	// One more on either side, whatever rounding did.
+	const auto find_row = [](double p_place, int64_t p_more) {
+		const double row = std::floor(std::clamp(p_place, 0.0, 1.0) * ROW_COUNT);
+		return std::clamp<int64_t>(static_cast<int64_t>(row) + p_more, 0, ROW_COUNT - 1);
+	};
+	std::vector<uint32_t> triangles;
+	for (int64_t row = find_row(p_minimum, -1); row <= find_row(p_maximum, 1); ++row) {
+		triangles.insert(triangles.end(), rows[row].begin(), rows[row].end());
+	}
+	std::sort(triangles.begin(), triangles.end());
+	triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+	return triangles;
+}
+
+const OutlinedTexture::Tile &OutlinedTexture::get_tile(int p_part_x, int p_part_y) {
+	auto [found, is_new] = tiles.try_emplace({ p_part_x, p_part_y });
 	if (is_new) {
 		AlphaTest part = test;
 		std::shared_ptr<const Image> drawn_out;
@@ -111,9 +143,11 @@ const AlphaOutline &OutlinedTexture::get_outline(int p_part_x, int p_part_y) {
 			drawn_out = draw_out(*test.image, p_part_x, p_part_y);
 			part.image = drawn_out.get();
 		}
-		found->second = make_alpha_outline(
+		AlphaOutline &outline = found->second.outline;
+		outline = make_alpha_outline(
 				part, tile_size > 1 ? static_cast<uint32_t>(LEAST_EDGES) : edge_budget);
-		const double block = std::min(found->second.block_size_px * tile_size, double(INT32_MAX));
+		found->second.fill_rows();
+		const double block = std::min(outline.block_size_px * tile_size, double(INT32_MAX));
 		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));
 	}
 	return found->second;
@@ -135,22 +169,26 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 	};
 	for (const Stretch &row : rows) {
 		for (const Stretch &column : columns) {
-			const std::array<glm::dvec2, 4> tile = { { { column.begin, row.begin },
+			const std::array<glm::dvec2, 4> box = { { { column.begin, row.begin },
 					{ column.end, row.begin }, { column.end, row.end },
 					{ column.begin, row.end } } };
-			if (is_outside(p_triangle, tile)) {
+			if (is_outside(p_triangle, box)) {
 				continue;
 			}
-			const AlphaOutline &outline = get_outline(column.part, row.part);
-			std::vector<glm::dvec2> uvs;
-			uvs.reserve(outline.points.size());
-			for (const glm::ivec2 &point : outline.points) {
-				uvs.emplace_back(place(column, point.x, outline.size.x),
-						place(row, point.y, outline.size.y));
-			}
-			for (size_t i = 0; i < outline.triangles.size(); i += 3) {
-				const Triangle corners = { uvs[outline.triangles[i]], uvs[outline.triangles[i + 1]],
-					uvs[outline.triangles[i + 2]] };
+			const Tile &tile = get_tile(column.part, row.part);
+			const AlphaOutline &outline = tile.outline;
+			const double height = row.end - row.begin;
+			const double low_place = (minimum.y - row.begin) / height;
+			const double high_place = (maximum.y - row.begin) / height;
+			for (const uint32_t first : row.is_mirrored
+							? tile.list_triangles(1 - high_place, 1 - low_place)
+							: tile.list_triangles(low_place, high_place)) {
+				Triangle corners;
+				for (uint32_t corner = 0; corner < 3; ++corner) {
+					const glm::ivec2 &point = outline.points[outline.triangles[first + corner]];
+					corners[corner] = { place(column, point.x, outline.size.x),
+						place(row, point.y, outline.size.y) };
+				}
 				const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
 				const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
 				if (glm::all(glm::lessThanEqual(low, maximum)) &&

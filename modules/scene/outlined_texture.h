@@ -49,15 +49,25 @@ private:
 		bool is_mirrored = false;
 	};
 
+	/// An outline, and the triangles, by their first corners, that meet each of some rows of it.
+	struct Tile {
+		AlphaOutline outline;
+		std::vector<std::vector<uint32_t>> rows;
+
+		void fill_rows();
+		/// Those that may meet a range of the tile's height, 0..1, in their order.
+		std::vector<uint32_t> list_triangles(double p_minimum, double p_maximum) const;
+	};
+
 	std::vector<Stretch> list_stretches(
 			TextureWrap p_wrap, double p_minimum, double p_maximum) const;
-	const AlphaOutline &get_outline(int p_part_x, int p_part_y);
+	const Tile &get_tile(int p_part_x, int p_part_y);
 
 	AlphaTest test;
 	uint32_t edge_budget;
 	double tile_size = 1; // in tiles, where one outline stands for many
 	uint32_t block_size_px = 0;
-	std::map<std::pair<int, int>, AlphaOutline> outlines;
+	std::map<std::pair<int, int>, Tile> tiles;
 };
 
 } // namespace gnomon
