@@ -260,9 +260,8 @@ void GltfChecker::check_bytes() const {
 				"interpolation with mip maps");
 	});
 	check_elements(root, "textures", [&](const GltfObject &p_texture) {
-		check_reference(
-				p_texture, "sampler", count("samplers"), "repetition and interpolation are used");
-		check_reference(p_texture, "source", count("images"), "no image is used");
+		check_reference(p_texture, "sampler", count("samplers"), "repetition with interpolation");
+		check_reference(p_texture, "source", count("images"), "no image");
 	});
 }
 

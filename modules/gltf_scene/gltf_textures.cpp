@@ -51,8 +51,12 @@ Texture GltfTextures::read(
 	const tinygltf::Texture &written = model.textures[p_index];
 	GltfMessages &messages = root.get_messages();
 	if (written.source < 0) {
-		messages.report(messages.describe(text("textures[", p_index, "].source"),
-				"is missing, must name a PNG or JPEG image; the texture is skipped."));
+		const GltfObject read_texture = root.get_element("textures", p_index);
+		if (!read_texture.find("source")) { // else the check of the document has reported it
+			messages.report(messages.describe(read_texture.path_of("source"),
+					"is missing, must name a PNG or JPEG image; no image is used. Export the file "
+					"again with images of these kinds."));
+		}
 		return texture;
 	}
 	texture.image = load_image(static_cast<size_t>(written.source));
@@ -117,20 +121,23 @@ std::shared_ptr<const Image> GltfTextures::decode(size_t p_index, const GltfObje
 		}
 		file = buffers.load_uri(p_image, uri->get_ref<const std::string &>());
 		bytes = file;
-	} else {
+	} else if (p_image.find("bufferView")) {
 		const size_t view = p_image.require_index("bufferView", model.bufferViews.size());
 		bytes = buffers.load_view(model, view);
+	} else {
+		messages.fail(p_image.get_path(),
+				"has neither uri nor bufferView, must have one of them. Export the file again.");
 	}
-	std::string damage;
+	std::string loss;
 	std::shared_ptr<const Image> image;
 	try {
 		image = decode_image(
-				bytes, make_name(p_image.get_text("name"), text("Image ", p_index)), damage);
+				bytes, make_name(p_image.get_text("name"), text("Image ", p_index)), loss);
 	} catch (const Error &error) {
 		messages.fail(p_image.get_path(), error.what());
 	}
-	if (!damage.empty()) {
-		messages.report(messages.describe(p_image.get_path(), damage));
+	if (!loss.empty()) {
+		messages.report(messages.describe(p_image.get_path(), loss));
 	}
 	texel_count += uint64_t(image->size_px.x) * image->size_px.y;
 	if (texel_count > MAX_ALL_TEXELS) {

@@ -7,6 +7,7 @@
 
 #include <csetjmp>
 #include <cstring>
+#include <string_view>
 
 namespace gnomon {
 
@@ -15,6 +16,21 @@ namespace {
 const uint8_t PNG_SIGNATURE[] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
 const uint8_t JPEG_SIGNATURE[] = { 0xff, 0xd8, 0xff };
 const char NEXT_STEP[] = "Export the image again.";
+const png_byte ANIMATION_CHUNK[] = "acTL"; // APNG 1.0; before the first frame
+
+/// Of kinds that extensions of glTF allow, and of animations.
+struct ImageKind {
+	std::string_view name;
+	size_t offset_bytes; // of the signature
+	std::string_view signature;
+};
+const ImageKind UNREAD_KINDS[] = {
+	{ "a GIF", 0, "GIF8" },
+	{ "a WebP", 8, "WEBP" },
+	{ "a KTX", 1, "KTX " },
+	{ "a DDS", 0, "DDS " },
+	{ "an AVIF", 4, "ftypavif" },
+};
 
 template <size_t COUNT>
 bool begins_with(std::span<const uint8_t> p_bytes, const uint8_t (&p_signature)[COUNT]) {
@@ -55,9 +71,15 @@ struct PngReader {
 		if (setjmp(png_jmpbuf(png))) {
 			return false;
 		}
-		png_set_user_limits(png, MAX_IMAGE_SIZE_PX, MAX_IMAGE_SIZE_PX);
+		// The sizes that are allowed are checked later, with a message that names them.
+		png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+		png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, ANIMATION_CHUNK, 1);
 		png_read_info(png, info);
 		return true;
+	}
+	bool is_animated() {
+		png_unknown_chunkp chunks = nullptr;
+		return png_get_unknown_chunks(png, info, &chunks) > 0;
 	}
 	bool read_rows(uint8_t *const *p_rows) {
 		if (setjmp(png_jmpbuf(png))) {
@@ -88,7 +110,8 @@ private:
 	static void ignore_warning(png_structp, png_const_charp) {}
 };
 
-std::shared_ptr<const Image> decode_png(std::span<const uint8_t> p_bytes, std::string p_name) {
+std::shared_ptr<const Image> decode_png(
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
 	PngReader reader(p_bytes);
 	if (!reader.read_header()) {
 		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
@@ -104,11 +127,15 @@ std::shared_ptr<const Image> decode_png(std::span<const uint8_t> p_bytes, std::s
 	if (!reader.read_rows(rows.data())) {
 		fail("is a PNG image that cannot be read: ", reader.problem, ". ", NEXT_STEP);
 	}
+	if (reader.is_animated()) {
+		r_loss = "is an animated PNG image, of which the first frame is shown. Export it as one "
+				 "image.";
+	}
 	return make_image(std::move(p_name), size_px, std::move(texels));
 }
 
 std::shared_ptr<const Image> decode_jpeg(
-		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_damage) {
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
 	struct Decoder {
 		tjhandle handle = tjInitDecompress();
 		Decoder() {
@@ -140,7 +167,7 @@ std::shared_ptr<const Image> decode_jpeg(
 		if (tjGetErrorCode(decoder.handle) != TJERR_WARNING) {
 			refuse();
 		}
-		r_damage = text("is a damaged JPEG image, of which a part is shown: ",
+		r_loss = text("is a damaged JPEG image, of which a part is shown: ",
 				tjGetErrorStr2(decoder.handle), ". ", NEXT_STEP);
 	}
 	return make_image(std::move(p_name), size_px, std::move(texels));
@@ -149,14 +176,21 @@ std::shared_ptr<const Image> decode_jpeg(
 } // namespace
 
 std::shared_ptr<const Image> decode_image(
-		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_damage) {
+		std::span<const uint8_t> p_bytes, std::string p_name, std::string &r_loss) {
 	if (begins_with(p_bytes, PNG_SIGNATURE)) {
-		return decode_png(p_bytes, std::move(p_name));
+		return decode_png(p_bytes, std::move(p_name), r_loss);
 	}
 	if (begins_with(p_bytes, JPEG_SIGNATURE)) {
-		return decode_jpeg(p_bytes, std::move(p_name), r_damage);
+		return decode_jpeg(p_bytes, std::move(p_name), r_loss);
 	}
-	fail("is no PNG or JPEG image. Convert it to one of them.");
+	const std::string_view bytes(reinterpret_cast<const char *>(p_bytes.data()), p_bytes.size());
+	for (const ImageKind &kind : UNREAD_KINDS) {
+		if (bytes.size() > kind.offset_bytes &&
+				bytes.substr(kind.offset_bytes).starts_with(kind.signature)) {
+			fail("is ", kind.name, " image, must be PNG or JPEG. Convert it to one of them.");
+		}
+	}
+	fail("is ", p_bytes.empty() ? "empty" : "no image", ", must be PNG or JPEG. ", NEXT_STEP);
 }
 
 } // namespace gnomon

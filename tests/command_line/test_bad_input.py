@@ -6,7 +6,10 @@ import struct
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [FOLDER, os.path.join(os.path.dirname(FOLDER), "fuzz")]
+import make_seeds  # noqa: E402
+import seed_images  # noqa: E402
 from command_line_case import CONTACT_BOX, ROOT, SMALL, CommandLineTest, load_json, run  # noqa: E402
 
 
@@ -150,6 +153,54 @@ class AbsurdLightValues(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("gone", result.stderr)
         self.assertIn("WARNING", result.stderr)
+
+
+class BadImages(CommandLineTest):
+    """Reported with one error line; the scene is drawn without the image, or with what can be read of it."""
+
+    def compute_card_errors(self, card):
+        make_seeds.write_gltf(card.document, bytes(card.packed), self.path("changed"))
+        result = self.compute_mask(self.path("changed.gltf"))
+        self.assert_mask(result)
+        return [line for line in result.stderr.splitlines() if line.startswith("ERROR: ")]
+
+    def assert_reported(self, card, *words):
+        errors = self.compute_card_errors(card)
+        self.assertEqual(len(errors), 1, errors)
+        for word in ("changed.gltf", *words):
+            self.assertIn(word, errors[0])
+
+    def test_images_that_cannot_be_read(self):
+        for name, image, words in (
+            ("huge", seed_images.make_huge_png(), ("has 20000 x 20000 pixels, must have 1..16384", "Make it smaller")),
+            ("cut PNG", seed_images.make_truncated_png(), ("is a PNG image that cannot be read", "Export the")),
+            ("cut JPEG", seed_images.make_truncated_jpeg(), ("is a JPEG image that cannot be read", "Export the")),
+            ("GIF", seed_images.make_animated_gif(), ("is a GIF image, must be PNG or JPEG", "Convert it")),
+            ("WebP", seed_images.make_animated_webp(), ("is a WebP image, must be PNG or JPEG", "Convert it")),
+            ("text", b"hello", ("is no image, must be PNG or JPEG", "Export the image")),
+        ):
+            with self.subTest(name):
+                card = make_seeds.make_card_of(image, "image/png")
+                self.assert_reported(card, "images[0] " + words[0], words[1], "drawn without a texture")
+
+    def test_an_animated_png_shows_its_first_frame(self):
+        card = make_seeds.make_card_of(seed_images.make_animated_png(), "image/png")
+        self.assert_reported(card, "images[0] is an animated PNG image, of which the first frame is shown")
+
+    def test_an_image_without_source_is_named(self):
+        card = make_seeds.Card()
+        self.assert_reported(card, "images[0] has neither uri nor bufferView", "Export the file again")
+
+    def test_a_sampler_out_of_range_is_named_and_a_missing_one_is_the_default(self):
+        card = make_seeds.make_masked_card()
+        card.document["textures"][0]["sampler"] = 99
+        self.assert_reported(card, "textures[0].sampler is 99, must be 0..17; repetition with interpolation is used")
+        del card.document["textures"][0]["sampler"]
+        self.assertEqual(self.compute_card_errors(card), [])
+
+    def test_missing_texture_coordinates_are_named(self):
+        card = make_seeds.make_card_without_coordinates()
+        self.assert_reported(card, "meshes[0].primitives[0].attributes has no TEXCOORD_1", "Unwrap the mesh")
 
 
 class BadArguments(CommandLineTest):

@@ -7,6 +7,7 @@
 #include <turbojpeg.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -16,6 +17,10 @@ namespace {
 
 const std::vector<uint8_t> TEXELS = { 255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30,
 	40 };
+
+std::vector<uint8_t> to_bytes(std::string_view p_text) {
+	return { p_text.begin(), p_text.end() };
+}
 
 std::vector<uint8_t> encode_small_png() {
 	return encode_png({ 2, 2 }, 4, TEXELS);
@@ -71,6 +76,25 @@ const MeshInstance3D::Surface &get_surface(const Scene &p_scene) {
 
 Texture load_base_color(const GltfTestFolder &p_folder, const Json &p_json) {
 	return get_surface(*p_folder.load(p_json)).material->base_color_texture;
+}
+
+void write_big_endian(uint32_t p_number, uint8_t *r_bytes) {
+	for (int byte = 0; byte < 4; ++byte) {
+		r_bytes[byte] = static_cast<uint8_t>(p_number >> (24 - 8 * byte));
+	}
+}
+
+/// Writes the checksum of a chunk, which begins with its length.
+void sign_png_chunk(std::vector<uint8_t> &r_bytes, size_t p_chunk) {
+	const size_t length_bytes = r_bytes[p_chunk + 3];
+	uint32_t crc = 0xffffffffu;
+	for (size_t index = p_chunk + 4; index < p_chunk + 8 + length_bytes; ++index) {
+		crc ^= r_bytes[index];
+		for (int bit = 0; bit < 8; ++bit) {
+			crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+		}
+	}
+	write_big_endian(~crc, &r_bytes[p_chunk + 8 + length_bytes]);
 }
 
 std::string get_decode_error(const std::vector<uint8_t> &p_bytes) {
@@ -214,8 +238,13 @@ TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene lo
 	cut.resize(50);
 	const std::vector<std::pair<std::vector<uint8_t>, std::string>> bad = {
 		{ huge, "cannot be read" }, { cut, "PNG image that cannot be read: it ends too early" },
-		{ {}, "no PNG or JPEG image" },
-		{ { 'G', 'I', 'F', '8', '9', 'a', 0, 0 }, "no PNG or JPEG image" },
+		{ {}, "is empty, must be PNG or JPEG. Export" },
+		{ { 'P', 'N', 'G' }, "is no image, must be PNG or JPEG. Export" },
+		{ to_bytes("GIF89a"), "is a GIF image, must be PNG or JPEG. Convert" },
+		{ to_bytes("RIFF1234WEBPVP8X"), "is a WebP image, must be PNG or JPEG. Convert" },
+		{ to_bytes("RIFF1234WAVE"), "is no image, must be" },
+		{ to_bytes("\xabKTX 20\xbb"), "is a KTX image" }, { to_bytes("DDS |"), "is a DDS image" },
+		{ to_bytes("1234ftypavif"), "is an AVIF image" },
 		{ { 0xff, 0xd8, 0xff, 0xe0, 0 }, "JPEG image that cannot be read" }
 	};
 	for (const auto &[bytes, words] : bad) {
@@ -233,7 +262,8 @@ TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene lo
 		{ { { "uri", 3 } }, "images[0].uri is 3" },
 		{ { { "uri", "data:image/png,abc" } }, "no base64" },
 		{ { { "bufferView", 99 } }, "images[0].bufferView is 99" },
-		{ Json::object(), "images[0].bufferView is missing" }
+		{ Json::object(),
+				"images[0] has neither uri nor bufferView, must have one of them. Export" }
 	};
 	for (const auto &[image, words] : bad_images) {
 		CAPTURE(words);
@@ -248,27 +278,73 @@ TEST_CASE("[GltfTextures] images that cannot be read are named, and the scene lo
 TEST_CASE("[GltfTextures] a size that no device takes is refused before memory is taken") {
 	// A real header with its checksum, and no rows.
 	std::vector<uint8_t> png = encode_png({ 1, 1 }, 4, std::vector<uint8_t>(4));
-	const auto set_size = [&](uint32_t p_width, uint32_t p_height) {
-		const uint32_t sizes[] = { p_width, p_height };
-		for (size_t index = 0; index < 8; ++index) {
-			png[16 + index] = static_cast<uint8_t>(sizes[index / 4] >> (24 - 8 * (index % 4)));
-		}
-		uint32_t crc = 0xffffffffu;
-		for (size_t index = 12; index < 29; ++index) {
-			crc ^= png[index];
-			for (int bit = 0; bit < 8; ++bit) {
-				crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
-			}
-		}
-		for (size_t index = 0; index < 4; ++index) {
-			png[29 + index] = static_cast<uint8_t>(~crc >> (24 - 8 * index));
-		}
-	};
-	set_size(16384, 16384);
-	CHECK(get_decode_error(png).find("has 16384 x 16384 pixels, must have 1..16384") !=
-			std::string::npos);
-	set_size(20000, 2);
-	CHECK(get_decode_error(png).find("PNG image that cannot be read") != std::string::npos);
+	const size_t header = 8;
+	const std::vector<std::pair<uint32_t, uint32_t>> sizes = { { 16384, 16384 }, { 20000, 20000 },
+		{ 20000, 2 }, { 1, 0x7fffffff } };
+	for (const auto &[width_px, height_px] : sizes) {
+		write_big_endian(width_px, &png[header + 8]);
+		write_big_endian(height_px, &png[header + 12]);
+		sign_png_chunk(png, header);
+		CHECK(get_decode_error(png) ==
+				text("has ", width_px, " x ", height_px,
+						" pixels, must have 1..16384 on each side and at most 67108864 in all. "
+						"Make it smaller."));
+	}
+}
+
+TEST_CASE(
+		"[GltfTextures] of an animated PNG image the first frame is shown, and that is reported") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	const Json json = make_textured(folder);
+	std::vector<uint8_t> png = encode_small_png();
+	std::vector<uint8_t> chunk(20);
+	write_big_endian(8, chunk.data());
+	std::memcpy(&chunk[4], "acTL", 4);
+	write_big_endian(2, &chunk[8]); // frames
+	sign_png_chunk(chunk, 0);
+	const size_t header_end = 33;
+	png.insert(png.begin() + header_end, chunk.begin(), chunk.end());
+	folder.write("wood a.png", png);
+	const Texture texture = load_base_color(folder, json);
+	REQUIRE(texture.image);
+	CHECK(texture.image->texels == TEXELS);
+	CHECK(log.errors.size() == 1);
+	CHECK(GltfTestLog::contains(
+			log.errors, "images[0] is an animated PNG image, of which the first frame is shown."));
+}
+
+TEST_CASE("[GltfTextures] a wrong reference is reported once, with what is used instead") {
+	GltfTestFolder folder;
+	GltfTestLog log;
+	Json json = make_textured(folder);
+	json["samplers"] = Json::parse("[{}]");
+	json["textures"] = Json::parse(R"([{"source": 0, "sampler": 9}, {"source": 5}, {}])");
+	json["materials"][0]["emissiveTexture"] = { { "index", 1 } };
+	json["materials"][0]["occlusionTexture"] = { { "index", 2 } };
+	CHECK(load_base_color(folder, json).image);
+	CHECK(log.errors.size() == 3);
+	for (const char *words :
+			{ "textures[0].sampler is 9, must be 0..0; repetition with interpolation is used.",
+					"textures[1].source is 5, must be 0..0; no image is used.",
+					"textures[2].source is missing, must name a PNG or JPEG image" }) {
+		CAPTURE(words);
+		CHECK(GltfTestLog::contains(log.errors, words));
+	}
+	// Without samplers and without a sampler all is in order.
+	log.errors.clear();
+	json.erase("samplers");
+	json["textures"] = Json::parse(R"([{"source": 0}])");
+	json["materials"][0].erase("emissiveTexture");
+	json["materials"][0].erase("occlusionTexture");
+	const Texture texture = load_base_color(folder, json);
+	CHECK(texture.wrap_u == TextureWrap::REPEAT);
+	CHECK(texture.mip_filter == MipFilter::LINEAR);
+	CHECK(log.errors.empty());
+	json["textures"][0]["sampler"] = 0;
+	CHECK(load_base_color(folder, json).image);
+	CHECK(GltfTestLog::contains(log.errors,
+			"textures[0].sampler is 0, must be absent, as there is nothing to refer to"));
 }
 
 TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong ones are named") {
@@ -329,11 +405,11 @@ TEST_CASE("[GltfTextures] samplers, coordinates and transforms are read; wrong o
 	CHECK(get_surface(*other).material->base_color_texture.uv_set == 0);
 	CHECK(get_surface(*other).mesh->attributes.uvs[0] ==
 			std::vector<glm::vec2>(3, glm::vec2(0.0f)));
-	for (const char *words : { "baseColorTexture.texCoord is 2, must be one of 0, 1",
-				 "samplers[0].wrapS is 7", "samplers[0].magFilter is \"x\"",
-				 "textures[1].source is 5, must be 0..0", "textures[1].sampler is 9",
-				 "textures[1].source is missing", "emissiveTexture.index is 44",
-				 "occlusionTexture is \"x\"", "has no TEXCOORD_0" }) {
+	for (const char *words :
+			{ "baseColorTexture.texCoord is 2, must be one of 0, 1", "samplers[0].wrapS is 7",
+					"samplers[0].magFilter is \"x\"", "textures[1].source is 5, must be 0..0",
+					"textures[1].sampler is 9", "emissiveTexture.index is 44",
+					"occlusionTexture is \"x\"", "has no TEXCOORD_0" }) {
 		CAPTURE(words);
 		CHECK(GltfTestLog::contains(log.errors, words));
 	}
