@@ -10,12 +10,29 @@ static func load_scene(path: String) -> Node3D:
 	if document.append_from_file(path, state) != OK:
 		return null
 	var root: Node3D = document.generate_scene(state)
+	_finish_textures(root, path.get_file().get_basename())
 	var described: Array = state.json.extensions.KHR_lights_punctual.lights
 	for node: Dictionary in state.json.nodes:
 		var reference: Dictionary = node.get("extensions", {}).get("KHR_lights_punctual", {})
 		if not reference.is_empty():
 			_add_shadow(root.find_child(node.name, true, false), described[int(reference.light)])
 	return root
+
+
+## Mip levels, which GLTFDocument does not make: without them Godot draws other pixels of leaves than `gnomon`.
+## And names of the file's own: GLTFDocument numbers textures, and an export to the same folder overwrites those of its name.
+static func _finish_textures(root: Node3D, stem: String) -> void:
+	var finished: Array[ImageTexture] = []
+	for node: MeshInstance3D in root.find_children("*", "MeshInstance3D", true, false):
+		for surface in node.mesh.get_surface_count():
+			var material := node.mesh.surface_get_material(surface) as BaseMaterial3D
+			var texture := material.albedo_texture as ImageTexture if material != null else null
+			if texture != null and texture not in finished:
+				finished.append(texture)
+				texture.resource_name = "%s_%s" % [stem, texture.resource_name]
+				var image := texture.get_image()
+				image.generate_mipmaps()
+				texture.set_image(image)
 
 
 static func _add_shadow(light: Light3D, described: Dictionary) -> void:

@@ -3,14 +3,15 @@ extends Node
 ##   godot --path demo_project/godot res://study/runner.tscn -- out=DIR size=800 cases=omni/box/edge_count,...
 ## Of each case: LIGHT_CASTER_TECHNIQUE.f32, the mask (float32, rows from the top, -1: no receiver), and once for each
 ## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn, and
-## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file. Without cases: all, and the
-## lights Spot, Omni and Sun of the glTF files of scenes=PATH,...
+## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file. Without cases: all, with
+## file_lights=PATH.gltf/LIGHT,... those lights of glTF files, and cut_out_lights, alike, with a technique that draws maps too.
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
 const TECHNIQUES: Array[String] = ["edge_count", "pcss", "penumbra_fins", "shadow_volume"]
+const CUT_OUT_TECHNIQUES: Array[String] = ["edge_count", "pcss"]
 
-var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": "", "scenes": ""})
+var _options := StudyOptions.new({"out": "res://out", "size": "800", "cases": "", "file_lights": "", "cut_out_lights": ""})
 
 
 func _ready() -> void:
@@ -30,9 +31,13 @@ func _list_cases() -> PackedStringArray:
 		for caster in StudyScene.CASTERS:
 			for technique in TECHNIQUES:
 				cases.append("%s/%s/%s" % [light, caster, technique])
-	for scene in [IMPORTED] + Array(_options.text("scenes").split(",", false)):
-		for light in IMPORTED_LIGHTS:
-			cases.append("%s/%s/edge_count" % [scene, light])
+	for light in IMPORTED_LIGHTS:
+		cases.append("%s/%s/edge_count" % [IMPORTED, light])
+	for light in _options.text("file_lights").split(",", false):
+		cases.append("%s/edge_count" % light)
+	for light in _options.text("cut_out_lights").split(",", false):
+		for technique in CUT_OUT_TECHNIQUES:
+			cases.append("%s/%s" % [light, technique])
 	return cases
 
 
@@ -52,8 +57,21 @@ func _run_case(case: String) -> void:
 		shadow = scene.shadow
 	add_child(scene)
 	shadow.technique = parts[2]
+	var shadows := scene.find_children("Shadow", "GnomonShadow3D", true, false)
+	for other: Node3D in shadows:
+		other.visible = other == shadow
+	await _wait_for_casters(shadow)
 	var reader := MaskReader.new(shadow)
 	_options.store_values("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
+	for other: Node3D in shadows:
+		other.visible = true  # `gnomon` reads no files with hidden nodes
 	GltfExport.save(scene, _options.path(stem + ".gltf"))
 	scene.queue_free()
 	await get_tree().process_frame
+
+
+## Meshes of many triangles cast some frames after they appear.
+func _wait_for_casters(shadow: Node3D) -> void:
+	await RenderingServer.frame_post_draw
+	while shadow.count_pending_casters() > 0:
+		await RenderingServer.frame_post_draw
