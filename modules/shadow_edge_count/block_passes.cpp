@@ -123,6 +123,7 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 	constants.face_count = p_capacities.face_count;
 	constants.most_cut_faces = p_capacities.cut_face_count;
 	constants.interpolation = p_settings.interpolation;
+	constants.most_bundles = p_capacities.get_bundle_count();
 	constants.most_edges = p_settings.disc_radius > 0 ? p_capacities.edge_count : 0;
 	return constants;
 }

@@ -24,6 +24,10 @@ uint32_t CountCapacities::get_bundle_count() const {
 	return (edge_count + EDGE_COUNT_BUNDLE_SIZE - 1) / EDGE_COUNT_BUNDLE_SIZE;
 }
 
+uint32_t CountCapacities::get_bundle_group_count() const {
+	return (get_bundle_count() + EDGE_COUNT_BUNDLES_PER_GROUP - 1) / EDGE_COUNT_BUNDLES_PER_GROUP;
+}
+
 CountCapacities choose_capacities(
 		uint32_t p_view_count, glm::uvec2 p_map_size_px, const CountCasters &p_casters) {
 	CountCapacities capacities;
@@ -82,8 +86,8 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	words = make("edge words", wanted.word_count, sizeof(uint32_t));
 	blocks = make("edge blocks", wanted.block_count, sizeof(uint32_t));
 	edges = make("edges", wanted.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
-	bundles = make("bundles", wanted.get_bundle_count(), sizeof(shader::CountEdgeBundle),
-			Format::RGBA32_SFLOAT);
+	bundles = make("bundles", wanted.get_bundle_count() + wanted.get_bundle_group_count(),
+			sizeof(shader::CountEdgeBundle), Format::RGBA32_SFLOAT);
 	const uint64_t view_count = wanted.view_count;
 	heads = make(
 			"face lists", view_count * wanted.texels_per_view, sizeof(uint32_t), Format::R32_UINT);

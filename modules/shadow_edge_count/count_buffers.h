@@ -19,6 +19,7 @@ struct CountCapacities {
 	uint32_t block_count = 0;
 	bool operator==(const CountCapacities &) const = default;
 	uint32_t get_bundle_count() const;
+	uint32_t get_bundle_group_count() const;
 };
 
 /// Room for all faces and edges. For nodes of face lists as many as there may be, where that is

@@ -74,6 +74,13 @@ void add_edge_passes(
 					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
 					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
 			{ p_passes.capacities.get_bundle_count(), 1, 1 });
+	add_compute_pass(r_graph, "bound bundles",
+			p_device.get_compute_pipeline(
+					{ "bound bundles", "shadow_edge_count/bound_bundles.comp", {} }),
+			{ PassBinding::constants(FIND_BINDING_LIGHT, p_passes.constants),
+					PassBinding::read(FIND_BINDING_TOTALS, buffers.totals),
+					PassBinding::write(FIND_BINDING_BUNDLES, buffers.bundles, Content::UPDATE) },
+			{ p_passes.capacities.get_bundle_group_count(), 1, 1 });
 }
 
 /// A compute pass whose size is in a buffer.

@@ -254,9 +254,9 @@ void ShadowEdgeCount::get_debug_views(std::vector<DebugView> &r_views) const {
 std::vector<std::string> ShadowEdgeCount::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name : { "caster_faces.comp", "mark_edges.comp", "list_edges.comp",
-				 "bound_edges.comp", "list_cut_faces.comp", "clear_faces.comp", "list_faces.comp",
-				 "retry_faces.comp", "receiver_boxes.comp", "resolve_even.comp",
-				 "filter_blocks.comp" }) {
+				 "bound_edges.comp", "bound_bundles.comp", "list_cut_faces.comp",
+				 "clear_faces.comp", "list_faces.comp", "retry_faces.comp", "receiver_boxes.comp",
+				 "resolve_even.comp", "filter_blocks.comp" }) {
 		files.push_back(text("shadow_edge_count/", name));
 	}
 	for (const char *name : { "list_blocks.comp", "resolve_plain.comp", "resolve_smooth.comp",

@@ -174,24 +174,51 @@ shared uint block_solids[BLOCKS_PER_TILE];
 shared uint blocks_have_room[BLOCKS_PER_TILE];
 shared uint blocks_are_smooth[BLOCKS_PER_TILE];
 
-/// Puts bundles from r_next on into wanted_bundles, until all are tested or there may be no room, and
+bool may_use_bundle(BoxPair p_pair, uint p_bundle) {
+	const CountEdgeBundle bundle = load_count_bundle(p_bundle);
+	return may_use_bundle(p_pair.near, bundle) || (p_pair.count > 1u && may_use_bundle(p_pair.far, bundle));
+}
+
+/// Puts bundles from r_next on, whole groups, into wanted_bundles, until all are tested or there may be no room, and
 /// returns how many.
 uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
+	const uint size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
+	const uint group_count = (p_bundle_count + size - 1u) / size;
 	uint count = 0u;
+	bool has_room = true;
 	do {
-		const uint bundle = r_next + gl_SubgroupInvocationID;
-		const CountEdgeBundle loaded = load_count_bundle(bundle < p_bundle_count ? bundle : 0u);
-		const bool is_wanted = bundle < p_bundle_count &&
-				(may_use_bundle(p_pair.near, loaded) || (p_pair.count > 1u && may_use_bundle(p_pair.far, loaded)));
-		const uvec4 wanted = subgroup_ballot(is_wanted);
-		if (is_wanted) {
-			wanted_bundles[count + subgroupBallotExclusiveBitCount(wanted)] = bundle;
-		}
-		count += subgroupBallotBitCount(wanted);
-		r_next += GROUP_SIZE;
+		const uint first_group = r_next / size;
+		const uint group = first_group + gl_SubgroupInvocationID;
+		const bool is_group = group < group_count;
+		const bool is_group_wanted =
+				is_group && may_use_bundle(p_pair, is_group ? light.most_bundles + group : 0u);
+		uvec4 groups = subgroup_ballot(is_group_wanted);
+		r_next += GROUP_SIZE * size;
+		do {
+			const bool is_there = subgroupBallotBitCount(groups) != 0u;
+			const uint lane = is_there ? subgroupBallotFindLSB(groups) : 0u;
+			groups[lane / 32u] &= ~(1u << (lane & 31u));
+			has_room = count + size <= MOST_WANTED;
+			if (is_there && !has_room) {
+				r_next = (first_group + lane) * size; // from here on the next time
+				groups = uvec4(0u);
+			}
+			uint first = (first_group + lane) * size;
+			const uint end = is_there && has_room ? min(first + size, p_bundle_count) : 0u;
+			do {
+				const uint bundle = first + gl_SubgroupInvocationID;
+				const bool is_wanted = bundle < end && may_use_bundle(p_pair, bundle < end ? bundle : 0u);
+				const uvec4 wanted = subgroup_ballot(is_wanted);
+				if (is_wanted) {
+					wanted_bundles[count + subgroupBallotExclusiveBitCount(wanted)] = bundle;
+				}
+				count += subgroupBallotBitCount(wanted);
+				first += GROUP_SIZE;
+				++iteration_count;
+			} while (first < end);
+		} while (subgroupBallotBitCount(groups) != 0u);
 		++iteration_count;
-	} while (r_next < p_bundle_count && count + GROUP_SIZE <= MOST_WANTED &&
-			iteration_count < MOST_ITERATIONS);
+	} while (r_next < p_bundle_count && has_room && iteration_count < MOST_ITERATIONS);
 	sync_subgroup_memory();
 	return count;
 }

@@ -39,6 +39,8 @@ struct SHARED_ALIGN CountEdgeBundle {
 };
 SHARED_SIZE(CountEdgeBundle, 32);
 #define EDGE_COUNT_BUNDLE_SIZE 32
+// Behind the bundles of a light stand the bounds of so many bundles each.
+#define EDGE_COUNT_BUNDLES_PER_GROUP 32
 
 // Edges are found 32 to a word, 64 words to a block, so that the list has their own order.
 #define EDGE_COUNT_EDGES_PER_WORD 32
@@ -55,6 +57,7 @@ SHARED_SIZE(CountEdgeBundle, 32);
 #define FIND_BINDING_EDGES 7
 #define FIND_BINDING_TOTALS 8
 #define FIND_BINDING_BUNDLES 9
+#define FIND_BINDING_LIGHT 10
 
 /// An edge between welded vertices, a -> b as its first face winds.
 struct SHARED_ALIGN CountMeshEdge {
@@ -137,8 +140,8 @@ struct SHARED_ALIGN CountLightConstants {
 	uint most_edges; // that the light's list may have; 0 where its size is 0
 	float interpolation; // of how many R an edge may move between a block's receivers, see EDGE_COUNT_BLOCKS_SMOOTH
 	uint most_cut_faces; // that the list of faces that may cut the light's disc may have
-	uint padding0;
-	uint padding1;
+	uint most_bundles; // behind so many begin the bounds of groups of them
+	uint padding;
 };
 SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
