@@ -35,22 +35,39 @@ TexelRows find_rows(uint p_face, uint p_level) {
 			uintBitsToFloat(faces[p_face].b.xyz), uintBitsToFloat(faces[p_face].c.xyz));
 }
 
-void add_texel(uint p_face, ivec2 p_texel) {
-	const uvec2 size_px = light.views[push.view].map_size_px;
-	const uint index = (push.view * size_px.y + uint(p_texel.y)) * size_px.x + uint(p_texel.x);
-	const uint node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], 1u);
-	if (node < light.node_capacity) {
-		nodes[push.view * light.node_capacity + node] =
-				uvec2(p_face, atomicExchange(heads[index], node + 1u));
+void add_texel(uint p_face, uint p_head, uint p_node, bool p_is_there) {
+	const bool has_room = p_is_there && p_node < light.node_capacity;
+	if (has_room) {
+		nodes[push.view * light.node_capacity + p_node] = uvec2(p_face, atomicExchange(heads[p_head], p_node + 1u));
 	}
 }
 
-void add_rows(uint p_face, TexelRows p_rows, int p_first, int p_step) {
-	for (int y = p_first; y <= p_rows.last_row; y += p_step) {
+uint find_head(int p_row, int p_column) {
+	const uvec2 size_px = light.views[push.view].map_size_px;
+	return (push.view * size_px.y + uint(p_row)) * size_px.x + uint(p_column);
+}
+
+void add_small_face(uint p_face, TexelRows p_rows) {
+	for (int y = p_rows.first_row; y <= p_rows.last_row; ++y) {
 		const ivec2 columns = find_columns(p_rows, y);
 		for (int x = columns.x; x <= columns.y; ++x) {
-			add_texel(p_face, ivec2(x, y));
+			const uint node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], 1u);
+			add_texel(p_face, find_head(y, x), node, true);
 		}
+	}
+}
+
+/// Takes the nodes of a row at once, and extends the lists of four texels one behind the other: GPUs take long to
+/// answer, and a large face has thousands of texels.
+void add_row(uint p_face, int p_row, ivec2 p_columns) {
+	const uint head = find_head(p_row, p_columns.x);
+	const uint count = uint(max(p_columns.y - p_columns.x + 1, 0));
+	const uint node = atomicAdd(totals[EDGE_COUNT_TOTAL_NODES + push.view], count);
+	for (uint i = 0u; i < count; i += 4u) {
+		add_texel(p_face, head + i, node + i, true);
+		add_texel(p_face, head + i + 1u, node + i + 1u, i + 1u < count);
+		add_texel(p_face, head + i + 2u, node + i + 2u, i + 2u < count);
+		add_texel(p_face, head + i + 3u, node + i + 3u, i + 3u < count);
 	}
 }
 
@@ -66,12 +83,14 @@ void main() {
 		if (rows.last_row - rows.first_row >= LARGE_ROWS) {
 			large_faces[atomicAdd(large_count, 1u)] = face;
 		} else {
-			add_rows(face, rows, rows.first_row, 1);
+			add_small_face(face, rows);
 		}
 	}
 	barrier();
 	for (uint i = 0u; i < large_count; ++i) {
 		const TexelRows rows = find_rows(large_faces[i], level);
-		add_rows(large_faces[i], rows, rows.first_row + int(gl_LocalInvocationID.x), FACE_LIST_GROUP_SIZE);
+		for (int y = rows.first_row + int(gl_LocalInvocationID.x); y <= rows.last_row; y += FACE_LIST_GROUP_SIZE) {
+			add_row(large_faces[i], y, find_columns(rows, y));
+		}
 	}
 }
