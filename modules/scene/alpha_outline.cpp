@@ -14,9 +14,8 @@ namespace gnomon {
 namespace {
 
 const int32_t UNITS = AlphaOutline::UNITS_PER_TEXEL;
-// The first leaves curves within an eighth of a texel; the others are for masks that have more
-// edges than their budget.
-const int32_t TOLERANCES[] = { UNITS / 8, UNITS / 2, UNITS };
+// For masks that have more edges than their budget.
+const double COARSE_TOLERANCES_PX[] = { 0.5, 1.0 };
 const double ALPHA_SUM_OF_ONE = 4 * 255.0;
 const float BLEND_CUTOFF = 0.5f;
 
@@ -466,7 +465,8 @@ float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv) {
 	return static_cast<float>(alpha / 255.0);
 }
 
-AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget) {
+AlphaOutline make_alpha_outline(
+		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px) {
 	GNOMON_ASSERT(p_edge_budget >= 4, p_edge_budget, " edges are no square");
 	AlphaOutline outline;
 	outline.size = glm::ivec2(p_test.image->size_px) * UNITS;
@@ -475,16 +475,20 @@ AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget)
 	const auto loops =
 			p_test.is_nearest ? SquareFinder(p_test).find(most) : ContourFinder(p_test).find(most);
 	bool is_filled = false;
-	if (loops) {
-		for (const int32_t tolerance : TOLERANCES) {
-			AlphaOutline tried = outline;
-			is_filled = fill(
-					p_test.is_nearest ? *loops : simplify_loops(*loops, tolerance, outline.size),
-					p_edge_budget, tried);
-			if (is_filled) {
-				outline = std::move(tried);
-				break;
-			}
+	std::vector<double> tolerances_px = { p_tolerance_px };
+	for (const double coarse_px : COARSE_TOLERANCES_PX) {
+		if (coarse_px > p_tolerance_px) {
+			tolerances_px.push_back(coarse_px);
+		}
+	}
+	for (size_t i = 0; loops && !is_filled && i < tolerances_px.size(); ++i) {
+		AlphaOutline tried = outline;
+		const bool keeps_squares = p_test.is_nearest && tolerances_px[i] < 0.5;
+		const int32_t tolerance = static_cast<int32_t>(std::lround(tolerances_px[i] * UNITS));
+		is_filled = fill(keeps_squares ? *loops : simplify_loops(*loops, tolerance, outline.size),
+				p_edge_budget, tried);
+		if (is_filled) {
+			outline = std::move(tried);
 		}
 	}
 	for (uint32_t block = 2; !is_filled; block *= 2) {

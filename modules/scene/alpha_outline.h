@@ -46,13 +46,16 @@ struct AlphaOutline {
 };
 
 /// The contour by marching squares through texels' centres: crossings are interpolated, a saddle is
-/// decided by the mean of its four; simplified to a quarter of a texel without crossings. At the
-/// tile's border it is closed, at the same places on either side where the texture repeats. Of a
-/// nearest sampler the squares of its texels.
+/// decided by the mean of its four; simplified without crossings to within p_tolerance_px, texels.
+/// At the tile's border it is closed, at the same places on either side where the texture repeats.
+/// Of a nearest sampler the squares of its texels, simplified where the tolerance is half of one or
+/// more.
 ///
-/// A mask with more edges than p_edge_budget, noise for instance, becomes a half-tone: of each
-/// block of texels a square hole or a square that has as much area as the mask has there. The
-/// blocks are as small as the budget, at least 4, allows; a tile that is one hole has 8 edges.
-AlphaOutline make_alpha_outline(const AlphaTest &p_test, uint32_t p_edge_budget);
+/// A mask with more edges than p_edge_budget is simplified further, to at most a texel. One that
+/// still has more, noise for instance, becomes a half-tone: of each block of texels a square hole
+/// or a square that has as much area as the mask has there. The blocks are as small as the budget,
+/// at least 4, allows; a tile that is one hole has 8 edges.
+AlphaOutline make_alpha_outline(
+		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px = 0.125);
 
 } // namespace gnomon

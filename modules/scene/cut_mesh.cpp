@@ -1,6 +1,7 @@
 #include "modules/scene/cut_mesh.h"
 
 #include "modules/core/files.h"
+#include "modules/scene/cut_levels.h"
 #include "modules/scene/outlined_texture.h"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ const double CUTOFF_STEPS = 32;		// an outline of 2048 x 2048 texels takes a ten
 /// neighbours' cuts meet their sides.
 class MeshCutter {
 public:
-	MeshCutter(const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget);
+	MeshCutter(const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget,
+			double p_tolerance_px);
 	/// Null: nothing is there. The triangles' source is the mesh.
 	std::shared_ptr<const Mesh> cut(const std::shared_ptr<const Mesh> &p_mesh);
 	bool is_whole() const { return whole.size() * 3 == mesh.indices.size(); }
@@ -43,6 +45,7 @@ private:
 	const Material &material;
 	const Texture &texture;
 	OutlineBudget budget;
+	double tolerance_px;
 	TileCover cover;
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
@@ -56,10 +59,11 @@ private:
 	std::vector<uint32_t> sources;
 };
 
-MeshCutter::MeshCutter(
-		const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget) :
+MeshCutter::MeshCutter(const Mesh &p_mesh, const Material &p_material,
+		const OutlineBudget &p_budget, double p_tolerance_px) :
 		mesh(p_mesh),
-		material(p_material), texture(p_material.base_color_texture), budget(p_budget) {
+		material(p_material), texture(p_material.base_color_texture), budget(p_budget),
+		tolerance_px(p_tolerance_px) {
 	if (texture.image) {
 		for (uint32_t triangle = 0; triangle < mesh.get_triangle_count(); ++triangle) {
 			const MeshTriangle read = read_triangle(triangle);
@@ -115,7 +119,7 @@ OutlinedTexture &MeshCutter::get_texture(double p_cutoff) {
 	}
 	AlphaTest test = make_alpha_test(material);
 	test.cutoff = static_cast<float>(p_cutoff);
-	return textures.try_emplace(p_cutoff, test, cover, budget).first->second;
+	return textures.try_emplace(p_cutoff, test, cover, budget, tolerance_px).first->second;
 }
 
 void MeshCutter::cut_triangle(uint32_t p_triangle) {
@@ -280,8 +284,8 @@ std::map<CutKey, CacheEntry> cache;
 } // namespace
 
 CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
-		const OutlineBudget &p_budget) {
-	MeshCutter cutter(*p_mesh, p_material, p_budget);
+		const OutlineBudget &p_budget, double p_tolerance_px) {
+	MeshCutter cutter(*p_mesh, p_material, p_budget, p_tolerance_px);
 	CutMesh result;
 	result.mesh = cutter.cut(p_mesh);
 	result.block_size_px = cutter.get_block_size_px();
@@ -298,7 +302,12 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
 	if (entry.source.expired()) {
-		entry = { p_mesh, p_material, cut_mesh(p_mesh, *p_material) };
+		CutMesh cut = cut_mesh(p_mesh, *p_material);
+		if (cut.mesh && cut.mesh != p_mesh && cut.block_size_px == 0 &&
+				p_material->base_color_texture.image) {
+			cut.levels = std::make_shared<const CutLevels>(p_mesh, *p_material, cut.mesh);
+		}
+		entry = { p_mesh, p_material, std::move(cut) };
 	}
 	return entry.cut;
 }

@@ -226,13 +226,65 @@ bool part(std::vector<Chain> &r_chains) {
 	return has_parted;
 }
 
-/// The points that are left of a chain, moved by at most p_tolerance so that each line has as much
-/// of the loop on one side as on the other: chords of a curve alone make what is round smaller.
-/// Points on the rectangle's border stay, as those of the next tile do.
+bool is_on_border(const glm::ivec2 &p_point, const glm::ivec2 &p_size) {
+	return p_point.x == 0 || p_point.y == 0 || p_point.x == p_size.x || p_point.y == p_size.y;
+}
+
+/// A point moved by at most p_most, if it is not on the rectangle's border: those stay, as those of
+/// the next tile do.
+glm::ivec2 move_point(const glm::ivec2 &p_point, const glm::dvec2 &p_shift, double p_most,
+		const glm::ivec2 &p_size) {
+	const double length = glm::length(p_shift);
+	const glm::dvec2 shift = p_shift * (length > p_most ? p_most / length : 1.0);
+	return is_on_border(p_point, p_size)
+			? p_point
+			: glm::clamp(p_point + glm::ivec2(glm::round(shift)), glm::ivec2(1), p_size - 1);
+}
+
+/// Of a line on the right: outwards.
+glm::dvec2 find_normal(const glm::ivec2 &p_from, const glm::ivec2 &p_to) {
+	const glm::dvec2 along(p_to - p_from);
+	return glm::dvec2(along.y, -along.x) / std::max(glm::length(along), 1.0);
+}
+
+int64_t compute_twice_area(const PolygonLoop &p_loop) {
+	int64_t area = 0;
+	for (size_t i = 0; i < p_loop.size(); ++i) {
+		area += compute_turn(glm::ivec2(0), p_loop[i], p_loop[(i + 1) % p_loop.size()]);
+	}
+	return area;
+}
+
+/// Moves all points by one distance, at most p_most, so that the loop has an area.
+void restore_area(
+		int64_t p_twice_area, double p_most, const glm::ivec2 &p_size, PolygonLoop &r_loop) {
+	const size_t count = r_loop.size();
+	std::vector<glm::dvec2> ways(count); // outwards; along both lines' normals by 1
+	double change = 0;					 // of the area, for a distance of 1
+	for (size_t i = 0; i < count; ++i) {
+		const glm::ivec2 &before = r_loop[(i + count - 1) % count];
+		const glm::ivec2 &after = r_loop[(i + 1) % count];
+		const glm::dvec2 sum = find_normal(before, r_loop[i]) + find_normal(r_loop[i], after);
+		if (is_on_border(r_loop[i], p_size) || glm::dot(sum, sum) < 0.5) { // or a spike
+			continue;
+		}
+		ways[i] = sum * 2.0 / glm::dot(sum, sum);
+		change += 0.5 * glm::dot(ways[i], glm::dvec2(after.y - before.y, before.x - after.x));
+	}
+	const double missing = 0.5 * double(p_twice_area - compute_twice_area(r_loop));
+	const double distance = change > 0 ? std::clamp(missing / change, -p_most, p_most) : 0.0;
+	for (size_t i = 0; i < count; ++i) {
+		r_loop[i] = move_point(r_loop[i], ways[i] * distance, p_most, p_size);
+	}
+}
+
+/// The points that are left of a chain, moved by at most twice p_tolerance so that each line has as
+/// much of the loop on one side as on the other: chords of a curve alone make what is round
+/// smaller. What lines that end on the rectangle's border lack, the others get.
 PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
 	struct Line {
-		glm::dvec2 normal; // to the right: outwards
-		double offset;	   // along it
+		glm::dvec2 normal;
+		double offset; // along it
 	};
 	std::vector<uint32_t> left;
 	for (uint32_t point = 0; point < p_chain.loop->size(); ++point) {
@@ -251,14 +303,12 @@ PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &
 			twice_area +=
 					compute_turn(p_chain.get(begin), p_chain.get(point), p_chain.get(point + 1));
 		}
-		const glm::dvec2 along(p_chain.get(end) - p_chain.get(begin));
-		const double length = glm::length(along);
-		const glm::dvec2 normal = glm::dvec2(along.y, -along.x) / length;
-		lines.push_back({ normal, double(twice_area) / 2 / length });
+		const double length = glm::length(glm::dvec2(p_chain.get(end) - p_chain.get(begin)));
+		lines.push_back({ find_normal(p_chain.get(begin), p_chain.get(end)),
+				double(twice_area) / 2 / length });
 	}
 	PolygonLoop moved;
 	for (size_t i = 0; i < count; ++i) {
-		const glm::ivec2 &point = p_chain.get(left[i]);
 		const Line &before = lines[(i + count - 1) % count];
 		const Line &after = lines[i];
 		glm::dvec2 shift = (before.normal * before.offset + after.normal * after.offset) * 0.5;
@@ -268,14 +318,9 @@ PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &
 							after.offset * before.normal.x - before.offset * after.normal.x) /
 					turn;
 		}
-		const double length = glm::length(shift);
-		shift *= length > p_tolerance ? p_tolerance / length : 1.0;
-		const bool is_on_border =
-				point.x == 0 || point.y == 0 || point.x == p_size.x || point.y == p_size.y;
-		moved.push_back(is_on_border ? point
-									 : glm::clamp(point + glm::ivec2(glm::round(shift)),
-											   glm::ivec2(1), p_size - 1));
+		moved.push_back(move_point(p_chain.get(left[i]), shift, p_tolerance, p_size));
 	}
+	restore_area(compute_twice_area(*p_chain.loop), p_tolerance, p_size, moved);
 	return moved;
 }
 

@@ -170,6 +170,17 @@ std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_position
 	return tangents;
 }
 
+double Bounds::compute_way_out(const glm::dvec3 &p_point, const glm::dvec3 &p_way) const {
+	double nearest = 1e300;
+	for (int axis = 0; axis < 3; ++axis) {
+		const double side = p_way[axis] > 0 ? maximum[axis] : minimum[axis];
+		if (p_way[axis] != 0) {
+			nearest = std::min(nearest, (side - p_point[axis]) / p_way[axis]);
+		}
+	}
+	return std::max(nearest, 0.0);
+}
+
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source) {
 	Bounds bounds;
 	for (int corner = 0; corner < 8; ++corner) {

@@ -32,6 +32,8 @@ struct Bounds {
 	double compute_distance(const glm::dvec3 &p_point) const {
 		return glm::distance(p_point, glm::clamp(p_point, minimum, maximum));
 	}
+	/// From a point inside along a unit vector to where that leaves the box; 0 outside of it.
+	double compute_way_out(const glm::dvec3 &p_point, const glm::dvec3 &p_way) const;
 	/// Length of the diagonal; 0 when empty.
 	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
 };

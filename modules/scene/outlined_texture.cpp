@@ -64,9 +64,10 @@ bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
 			long_sides / p_tile_size <= p_most_tiles && farthest / p_tile_size <= MOST_PLACES;
 }
 
-OutlinedTexture::OutlinedTexture(
-		const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget) :
-		test(p_test) {
+OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCover &p_cover,
+		const OutlineBudget &p_budget, double p_tolerance_px) :
+		test(p_test),
+		tolerance_px(p_tolerance_px) {
 	const double tile_count = p_cover.area + p_cover.long_sides / LONG_TILES_OF_ONE;
 	const double share = p_budget.edges_per_mesh / std::max(tile_count, 1.0);
 	edge_budget = std::bit_floor(
@@ -144,8 +145,8 @@ const OutlinedTexture::Tile &OutlinedTexture::get_tile(int p_part_x, int p_part_
 			part.image = drawn_out.get();
 		}
 		AlphaOutline &outline = found->second.outline;
-		outline = make_alpha_outline(
-				part, tile_size > 1 ? static_cast<uint32_t>(LEAST_EDGES) : edge_budget);
+		outline = make_alpha_outline(part,
+				tile_size > 1 ? static_cast<uint32_t>(LEAST_EDGES) : edge_budget, tolerance_px);
 		found->second.fill_rows();
 		const double block = std::min(outline.block_size_px * tile_size, double(INT32_MAX));
 		block_size_px = std::max(block_size_px, static_cast<uint32_t>(block));

@@ -34,8 +34,9 @@ class OutlinedTexture {
 public:
 	using Triangle = std::array<glm::dvec2, 3>;
 
-	OutlinedTexture(
-			const AlphaTest &p_test, const TileCover &p_cover, const OutlineBudget &p_budget);
+	/// p_tolerance_px: see make_alpha_outline.
+	OutlinedTexture(const AlphaTest &p_test, const TileCover &p_cover,
+			const OutlineBudget &p_budget, double p_tolerance_px);
 
 	/// Those of the outline that may meet a triangle of the mesh.
 	std::vector<Triangle> list_triangles(const MeshTriangle &p_triangle);
@@ -64,6 +65,7 @@ private:
 	const Tile &get_tile(int p_part_x, int p_part_y);
 
 	AlphaTest test;
+	double tolerance_px;
 	uint32_t edge_budget;
 	double tile_size = 1; // in tiles, where one outline stands for many
 	uint32_t block_size_px = 0;

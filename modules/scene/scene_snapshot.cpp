@@ -3,6 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/limits.h"
+#include "modules/scene/cut_levels.h"
 #include "modules/scene/cut_mesh.h"
 
 #include <algorithm>
@@ -142,6 +143,21 @@ struct TreeReader {
 	}
 };
 
+/// Of an instance that is cut out, the level of detail that suits a light; else what it casts.
+std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instance,
+		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
+	if (!p_instance.caster_levels) {
+		return p_instance.caster_mesh;
+	}
+	const glm::dmat3 axes(p_instance.world_from_node);
+	const double scale =
+			std::max({ glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]) });
+	const double radius = p_light.compute_widest_image(p_instance.bounds_world, p_scene_bounds);
+	const CutLevels &levels = *p_instance.caster_levels;
+	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(radius / scale));
+	return mesh ? mesh : p_instance.caster_mesh;
+}
+
 } // namespace
 
 glm::dmat3 compute_orientation(
@@ -174,6 +190,7 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 	const CutMesh cut = get_cut_mesh(instance.mesh, instance.material);
 	instance.casts_shadow = cut.mesh != nullptr;
 	instance.caster_mesh = cut.mesh ? cut.mesh : instance.mesh;
+	instance.caster_levels = cut.levels;
 	instance.outline_block_size_px = cut.block_size_px;
 	instance.outline_hash = cut.content_hash;
 	instance.node_name = p_node_name;
@@ -210,6 +227,22 @@ void LightSnapshot::decide_settings(double p_scene_size_m) {
 	};
 	decide_width("penumbra_outer_width", penumbra_outer_width_m, is_outer_width_derived);
 	decide_width("penumbra_inner_width", penumbra_inner_width_m, is_inner_width_derived);
+}
+
+double LightSnapshot::compute_widest_image(const Bounds &p_caster, const Bounds &p_scene) const {
+	double widest = 0;
+	for (int index = 0; index < 8; ++index) {
+		const glm::dvec3 corner = p_caster.get_corner(index);
+		const glm::dvec3 from_light = corner - position_world;
+		const double distance = glm::length(from_light);
+		const bool is_directional = type == LightType::DIRECTIONAL;
+		const glm::dvec3 way =
+				is_directional || distance <= 0 ? get_direction_world() : from_light / distance;
+		const double beyond = p_scene.compute_way_out(corner, way);
+		const double share = is_directional ? beyond : beyond / std::max(distance + beyond, 1e-300);
+		widest = std::max(widest, get_disc_radius() * share);
+	}
+	return widest;
 }
 
 uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
@@ -262,17 +295,34 @@ const LightSnapshot *SceneSnapshot::find_light(const std::string &p_name) const 
 
 std::shared_ptr<const SceneSnapshot> SceneSnapshot::select_casters(
 		const LightSnapshot &p_light) const {
-	const auto casts_other = [&](const InstanceSnapshot &p_instance) {
-		return p_instance.casts_shadow && (p_instance.layers & p_light.caster_layers) == 0;
-	};
-	if (std::none_of(instances.begin(), instances.end(), casts_other)) {
-		return nullptr;
-	}
-	auto selected = std::make_shared<SceneSnapshot>(*this);
-	for (InstanceSnapshot &instance : selected->instances) {
-		instance.casts_shadow = instance.casts_shadow && !casts_other(instance);
+	std::shared_ptr<SceneSnapshot> selected;
+	const Bounds bounds = compute_bounds();
+	for (size_t index = 0; index < instances.size(); ++index) {
+		const InstanceSnapshot &instance = instances[index];
+		if (!instance.casts_shadow) {
+			continue;
+		}
+		const bool casts = (instance.layers & p_light.caster_layers) != 0;
+		const std::shared_ptr<const Mesh> mesh =
+				casts ? choose_caster_mesh(instance, p_light, bounds) : instance.caster_mesh;
+		if (casts && mesh == instance.caster_mesh) {
+			continue;
+		}
+		if (!selected) {
+			selected = std::make_shared<SceneSnapshot>(*this);
+		}
+		selected->instances[index].casts_shadow = casts;
+		selected->instances[index].caster_mesh = mesh;
 	}
 	return selected;
+}
+
+Bounds SceneSnapshot::compute_bounds() const {
+	Bounds bounds;
+	for (const InstanceSnapshot &instance : instances) {
+		bounds.add(instance.bounds_world);
+	}
+	return bounds;
 }
 
 Bounds SceneSnapshot::compute_caster_bounds() const {

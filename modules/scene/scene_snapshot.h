@@ -52,14 +52,20 @@ struct LightSnapshot : LightSettings {
 	/// Reads the properties that every light has. A value out of range is an Error that names the
 	/// light. p_scene_size_m: S.
 	void decide_settings(double p_scene_size_m);
+	/// Radius of the widest image of the light's disc, in metres, that a receiver within p_scene
+	/// sees on a caster within p_caster: half as wide as its penumbra, there.
+	double compute_widest_image(const Bounds &p_caster, const Bounds &p_scene) const;
 	/// Of all that the light's exact shadow depends on: type, place, range, cone and size.
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
+
+class CutLevels;
 
 struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> mesh;
 	/// What casts its shadow: the mesh, or what a cut-out material leaves of it (cut_mesh.h).
 	std::shared_ptr<const Mesh> caster_mesh;
+	std::shared_ptr<const CutLevels> caster_levels; // see CutMesh::levels
 	std::shared_ptr<const Material> material;
 	std::string node_name; // for messages
 	glm::dmat4 world_from_node = glm::dmat4(1.0);
@@ -104,13 +110,16 @@ struct SceneSnapshot {
 	}
 	/// Node to camera-relative space, composed in double.
 	glm::mat4 get_camera_relative_from_node(const InstanceSnapshot &p_instance) const;
-	/// The same scene, in which only those cast a shadow that are on the light's layers; null where
-	/// that are all.
+	/// The same scene, in which only those cast a shadow that are on the light's layers, and what
+	/// is cut out does so with the outlines that suit the light's penumbrae; null where that is
+	/// this scene.
 	std::shared_ptr<const SceneSnapshot> select_casters(const LightSnapshot &p_light) const;
 	/// Null: no light has that name.
 	const LightSnapshot *find_light(const std::string &p_name) const;
 	/// Of all that casts a shadow; empty without casters.
 	Bounds compute_caster_bounds() const;
+	/// Of all instances; empty without any.
+	Bounds compute_bounds() const;
 };
 
 /// Reads the tree. The camera is p_camera. Nodes with a transform that is not finite are an Error

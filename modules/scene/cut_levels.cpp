@@ -1,0 +1,98 @@
+#include "modules/scene/cut_levels.h"
+
+#include "modules/scene/cut_mesh.h"
+#include "modules/scene/triangle_clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+// Measured on trees, fences and single leaves: what an outline adds to the error of a penumbra
+// stays below 0.002 where its radius is so many times the tolerance. That is the greatest radius of
+// a scene; most of its receivers see less. Above a quarter of a texel those decide that touch their
+// caster, whose penumbra no light makes wide.
+const double RADII_PER_TOLERANCE = 80;
+const double RADII_PER_COARSE_TOLERANCE = 350;
+const double COARSE_TOLERANCE_PX = 0.25;
+// Where a tile repeats on a triangle, what its outline lacks repeats too, and does not average out.
+const double REPEATED_TEXELS = 2;
+
+/// The longest that a texel is on a triangle: the greatest singular value of the change of place
+/// with the texel; times REPEATED_TEXELS where the triangle shows more texels than there are. 0
+/// where all of it shows one line of texels.
+double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t p_triangle) {
+	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[p_texture.uv_set];
+	const glm::dmat3x2 transform(p_texture.transform);
+	glm::dvec2 texels[3];
+	glm::dvec3 places[3];
+	for (int corner = 0; corner < 3; ++corner) {
+		const uint32_t index = p_mesh.indices[3 * size_t(p_triangle) + corner];
+		const glm::dvec2 uv = uvs.empty() ? glm::dvec2(0.0) : glm::dvec2(uvs[index]);
+		texels[corner] = transform * glm::dvec3(uv, 1.0) * glm::dvec2(p_texture.image->size_px);
+		places[corner] = glm::dvec3(p_mesh.positions_node[index]);
+	}
+	const glm::dvec2 s = texels[1] - texels[0];
+	const glm::dvec2 t = texels[2] - texels[0];
+	const double area = s.x * t.y - s.y * t.x;
+	if (area == 0 || !std::isfinite(area)) {
+		return 0;
+	}
+	const bool is_repeated =
+			std::abs(area) / 2 > double(p_texture.image->size_px.x) * p_texture.image->size_px.y;
+	const glm::dvec3 a = places[1] - places[0];
+	const glm::dvec3 b = places[2] - places[0];
+	const glm::dvec3 along_x = (a * t.y - b * s.y) / area;
+	const glm::dvec3 along_y = (b * s.x - a * t.x) / area;
+	const double xx = glm::dot(along_x, along_x);
+	const double yy = glm::dot(along_y, along_y);
+	const double xy = glm::dot(along_x, along_y);
+	return (is_repeated ? REPEATED_TEXELS : 1.0) *
+			std::sqrt((xx + yy + std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy)) / 2);
+}
+
+} // namespace
+
+CutLevels::CutLevels(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
+		const std::shared_ptr<const Mesh> &p_cut) :
+		source(p_mesh),
+		base(p_cut), material(p_material) {
+	for (uint32_t triangle = 0; triangle < p_mesh->get_triangle_count(); ++triangle) {
+		texel_size = std::max(
+				texel_size, compute_texel_size(*p_mesh, material.base_color_texture, triangle));
+	}
+}
+
+uint32_t CutLevels::choose_level(double p_radius) const {
+	if (p_radius <= 0) {
+		return BASE;
+	}
+	const auto suits = [&](double p_tolerance_px) {
+		const double radii = p_tolerance_px > COARSE_TOLERANCE_PX ? RADII_PER_COARSE_TOLERANCE
+																  : RADII_PER_TOLERANCE;
+		return p_tolerance_px * texel_size * radii <= p_radius;
+	};
+	uint32_t level = static_cast<uint32_t>(TOLERANCES_PX.size()) - 1;
+	while (level > 0 && !suits(TOLERANCES_PX[level])) {
+		--level;
+	}
+	return level;
+}
+
+std::shared_ptr<const Mesh> CutLevels::get_mesh(uint32_t p_level) const {
+	if (p_level == BASE) {
+		return base.lock();
+	}
+	const std::lock_guard<std::mutex> lock(mutex);
+	Level &level = levels.at(p_level);
+	if (!level.is_made) {
+		const std::shared_ptr<const Mesh> mesh = source.lock();
+		const double tolerance_px = TOLERANCES_PX.at(p_level);
+		level = { mesh ? cut_mesh(mesh, material, {}, tolerance_px).mesh : nullptr, true };
+	}
+	return level.mesh;
+}
+
+} // namespace gnomon

@@ -1,0 +1,145 @@
+#include "modules/scene/cut_levels.h"
+#include "modules/scene/cut_mesh.h"
+#include "modules/scene/scene_snapshot.h"
+
+#include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const uint32_t IMAGE_SIZE_PX = 64;
+
+/// A disc that covers half of its image.
+std::shared_ptr<const Material> make_disc_material() {
+	std::vector<uint8_t> texels;
+	for (uint32_t y = 0; y < IMAGE_SIZE_PX; ++y) {
+		for (uint32_t x = 0; x < IMAGE_SIZE_PX; ++x) {
+			const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / double(IMAGE_SIZE_PX) - 0.5;
+			const double beyond = glm::length(place) - std::sqrt(0.5 / 3.141592653589793);
+			const double alpha = std::clamp(0.5 - beyond * IMAGE_SIZE_PX * 0.25, 0.0, 1.0);
+			texels.insert(texels.end(), { 255, 255, 255, static_cast<uint8_t>(alpha * 255) });
+		}
+	}
+	auto material = std::make_shared<Material>();
+	material->alpha_mode = AlphaMode::MASK;
+	material->base_color_texture.image =
+			make_image("disc", glm::uvec2(IMAGE_SIZE_PX), std::move(texels));
+	return material;
+}
+
+/// A card of one square metre across z, that shows p_repeats x p_repeats tiles.
+std::shared_ptr<const Mesh> make_card(float p_repeats) {
+	MeshAttributes attributes;
+	attributes.uvs[0] = { { 0, 0 }, { p_repeats, 0 }, { p_repeats, p_repeats }, { 0, p_repeats } };
+	return make_mesh("card", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, {},
+			{ 0, 1, 2, 0, 2, 3 }, attributes);
+}
+
+double compute_area(const Mesh &p_mesh) {
+	double area = 0;
+	for (size_t i = 0; i < p_mesh.indices.size(); i += 3) {
+		const glm::dvec3 a(p_mesh.positions_node[p_mesh.indices[i]]);
+		const glm::dvec3 b(p_mesh.positions_node[p_mesh.indices[i + 1]]);
+		const glm::dvec3 c(p_mesh.positions_node[p_mesh.indices[i + 2]]);
+		area += glm::length(glm::cross(b - a, c - a)) / 2;
+	}
+	return area;
+}
+
+/// A card two metres above a ground.
+SceneSnapshot make_scene(const std::shared_ptr<const Mesh> &p_card) {
+	SceneSnapshot scene;
+	const glm::dmat4 card = glm::translate(glm::dmat4(1.0), glm::dvec3(-0.5, -0.5, 2.0));
+	scene.instances.push_back(make_instance(p_card, make_disc_material(), card, "Card"));
+	const glm::dmat4 ground = glm::translate(
+			glm::scale(glm::dmat4(1.0), glm::dvec3(8.0, 8.0, 1.0)), glm::dvec3(-0.5, -0.5, 0.0));
+	scene.instances.push_back(make_instance(make_card(1), nullptr, ground, "Ground"));
+	return scene;
+}
+
+/// That shines down from four metres above the ground.
+LightSnapshot make_light(LightType p_type, float p_size) {
+	LightSnapshot light;
+	light.type = p_type;
+	light.position_world = glm::dvec3(0, 0, 4);
+	light.light_size_m = p_size;
+	light.light_angular_distance_deg = glm::degrees(2 * std::atan(p_size));
+	return light;
+}
+
+} // namespace
+
+TEST_CASE("[CutLevels] coarser outlines have fewer edges and as much area") {
+	const auto card = make_card(1);
+	const CutMesh cut = get_cut_mesh(card, make_disc_material());
+	REQUIRE(cut.levels);
+	CHECK(cut.levels->get_mesh(CutLevels::BASE) == cut.mesh);
+	uint32_t finer_count = 1u << 30;
+	for (uint32_t level = 0; level < CutLevels::TOLERANCES_PX.size(); ++level) {
+		CAPTURE(level);
+		const auto mesh = cut.levels->get_mesh(level);
+		REQUIRE(mesh);
+		CHECK(mesh == cut.levels->get_mesh(level));
+		CHECK(mesh->get_triangle_count() < finer_count);
+		finer_count = mesh->get_triangle_count();
+		CHECK(compute_area(*mesh) == doctest::Approx(0.5).epsilon(0.002));
+	}
+	CHECK(finer_count < 30);
+}
+
+TEST_CASE("[CutLevels] a wider penumbra gets a coarser outline; none the usual one") {
+	const CutLevels &levels = *get_cut_mesh(make_card(1), make_disc_material()).levels;
+	CHECK(levels.choose_level(0) == CutLevels::BASE);
+	CHECK(levels.choose_level(1e-9) == 0);
+	CHECK(levels.choose_level(1e9) == CutLevels::TOLERANCES_PX.size() - 1);
+	uint32_t before = 0;
+	for (double radius = 0.01; radius < 10; radius *= 1.2) {
+		const uint32_t level = levels.choose_level(radius);
+		CHECK(level >= before);
+		CHECK(CutLevels::TOLERANCES_PX[level] / IMAGE_SIZE_PX < radius / 20);
+		before = level;
+	}
+	// What repeats does not average out.
+	const CutLevels &repeated = *get_cut_mesh(make_card(3), make_disc_material()).levels;
+	CHECK(repeated.choose_level(0.1) < levels.choose_level(0.3));
+}
+
+TEST_CASE("[CutLevels] a light gets the outlines that suit its widest penumbra") {
+	const auto card = make_card(1);
+	const SceneSnapshot scene = make_scene(card);
+	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
+		CAPTURE(int(type));
+		size_t finer_count = 1u << 30;
+		for (const float size : { 0.02f, 0.2f, 2.0f }) {
+			const auto selected = scene.select_casters(make_light(type, size));
+			const InstanceSnapshot &seen = (selected ? *selected : scene).instances[0];
+			CHECK(seen.mesh == card);
+			CHECK(seen.caster_mesh->indices.size() < finer_count);
+			finer_count = seen.caster_mesh->indices.size();
+		}
+		CHECK_FALSE(scene.select_casters(make_light(type, 0)));
+	}
+}
+
+TEST_CASE("[CutLevels] the widest image of the disc is that on the way to the farthest receiver") {
+	Bounds caster;
+	caster.add(glm::dvec3(0, 0, 2));
+	Bounds bounds = caster;
+	bounds.add(glm::dvec3(-4, -4, 0));
+	bounds.add(glm::dvec3(4, 4, 3));
+	// Half of the way from the light to the ground.
+	CHECK(make_light(LightType::SPOT, 0.3f).compute_widest_image(caster, bounds) ==
+			doctest::Approx(0.15));
+	CHECK(make_light(LightType::DIRECTIONAL, 0.1f).compute_widest_image(caster, bounds) ==
+			doctest::Approx(0.2));
+	CHECK(make_light(LightType::OMNI, 0).compute_widest_image(caster, bounds) == 0);
+	// A caster at the light's place, and one that nothing is behind.
+	LightSnapshot light = make_light(LightType::OMNI, 0.3f);
+	light.position_world = glm::dvec3(0, 0, 2);
+	CHECK(light.compute_widest_image(caster, bounds) <= 0.3f);
+	CHECK(light.compute_widest_image(caster, caster) == 0);
+}
