@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""Measures the scenes with cut-out casters, and writes the tables of doc/cut_outs.md.
+
+    measure_cut_outs.py [--write] [--scenes A,B] [--techniques A,B] [--times | --unseen]
+
+Errors are those of one light at a time against 2304 rays a receiver, 512 x 512, for lights of 2, 10 and 30 % of S. Times are medians
+of 20 frames in which all moves, as ratios to the same scene with opaque cards and to pcss, measured one after another. --unseen: masks
+and seeds that the outlines were not tuned for.
+"""
+
+import argparse
+import json
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+SCENES = os.path.join(ROOT, "demo_project", "scenes")
+sys.path.insert(0, SCENES)
+from foliage_shapes import get_leaf_depth, make_mask_png  # noqa: E402
+from gltf_writer import encode_png  # noqa: E402
+
+PAGE = os.path.join(ROOT, "doc", "cut_outs.md")
+SIZE = "512x512"
+SAMPLES = 2304
+TECHNIQUES = ("edge_count", "pcss", "views", "shadow_map")
+SIZES = {"2 %": 0.02, "10 %": 0.1, "30 %": 0.3}
+SCENE_SIZE_M = 4.0  # S of leaf, fence and leaves
+UNSEEN = {
+    "plasma": "a card of plasma, 96 texels",
+    "binary": "an oval leaf whose alpha is 0 and 1 alone",
+    "leaves": "`leaves` of seed 7",
+    "courtyard": "`courtyard` of seed 7, its sun",
+}
+SUN = {0.02: 2.2915, 0.1: 11.4212, 0.3: 33.3985}  # degrees whose tangent of a half is that share
+
+
+def run(*arguments):
+    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
+    return result.stdout
+
+
+def list_lights(scene):
+    """(light, size's name, setting) of each row."""
+    if scene == "courtyard":
+        return [("Sun", "2 degrees", "light_angular_distance=2"), ("Lamp", "0.1 m", "light_size=0.1")]
+    rows = []
+    for light in ("Spot", "Omni", "Sun"):
+        for name, share in SIZES.items():
+            setting = "light_angular_distance=%g" % SUN[share] if light == "Sun" else "light_size=%g" % (share * SCENE_SIZE_M)
+            rows.append((light, name, setting))
+    return rows
+
+
+def measure_errors(path, light, setting, techniques, folder):
+    reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
+    words = ["visibility", path, "--light", light, "--size", SIZE, "--set", setting]
+    run(*words, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
+    cells = []
+    for technique in techniques:
+        run(*words, "--technique", technique, "--out", mask)
+        error = json.loads(run("compare", reference, mask))
+        wrong = error["receiver"]["wrong"] * 1e5
+        cells.append("%.4f, %s" % (error["penumbra"]["mae"], "%.1f" % wrong if wrong < 10 else "%.0f" % wrong))
+    return cells
+
+
+def measure_time(path, light, setting, technique, folder):
+    times = os.path.join(folder, "times.json")
+    run("visibility", path, "--light", light, "--size", SIZE, "--set", setting, "--technique", technique, "--time", times,
+        "--out", os.path.join(folder, "timed.exr"))
+    with open(times, encoding="utf-8") as file:
+        return json.load(file)["total"]["gpu_ms"]
+
+
+def make_opaque(scene, folder):
+    """The scene with whole cards."""
+    for name in os.listdir(SCENES):
+        if name.startswith(scene) and not name.endswith(".gltf"):
+            shutil.copy(os.path.join(SCENES, name), folder)
+    with open(os.path.join(SCENES, scene + ".gltf"), encoding="utf-8") as file:
+        text = file.read()
+    path = os.path.join(folder, scene + ".gltf")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace('"MASK"', '"OPAQUE"'))
+    return path
+
+
+def build_errors(scenes, techniques):
+    lines = ["| scene | light | size | %s |" % " | ".join("`%s`" % name for name in techniques), "|---" * (3 + len(techniques)) + "|"]
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in scenes:
+            for light, size, setting in list_lights(scene):
+                cells = measure_errors(os.path.join(SCENES, scene + ".gltf"), light, setting, techniques, folder)
+                lines.append("| `%s` | %s | %s | %s |" % (scene, light, size, " | ".join(cells)))
+                print(lines[-1], flush=True)
+    return lines
+
+
+def build_times(scenes):
+    lines = ["| scene | light | size | `edge_count` ms | opaque cards | ratio | `pcss` ms | ratio |", "|---" * 8 + "|"]
+    for scene in scenes:
+        with tempfile.TemporaryDirectory() as folder:
+            opaque = make_opaque(scene, folder)
+            for light, size, setting in list_lights(scene):
+                path = os.path.join(SCENES, scene + ".gltf")
+                cut = measure_time(path, light, setting, "edge_count", folder)
+                whole = measure_time(opaque, light, setting, "edge_count", folder)
+                pcss = measure_time(path, light, setting, "pcss", folder)
+                lines.append("| `%s` | %s | %s | %.1f | %.1f | %.2f | %.1f | %.2f |" % (
+                    scene, light, size, cut, whole, cut / whole, pcss, cut / pcss))
+                print(lines[-1], flush=True)
+    return lines
+
+
+def make_plasma(generator, size_px):
+    """Alpha of some waves of random directions: coasts of every curvature."""
+    waves = [(generator.uniform(2, 24), generator.uniform(0, math.tau), generator.uniform(0, math.tau)) for _ in range(12)]
+
+    def get_alpha(x, y):
+        total = sum(math.cos(rate * (x * math.cos(turn) + y * math.sin(turn)) + phase) / rate for rate, turn, phase in waves)
+        return 0.5 + 1.5 * total
+
+    rows = []
+    for y in range(size_px):
+        row = bytearray()
+        for x in range(size_px):
+            alpha = get_alpha(math.tau * x / size_px, math.tau * y / size_px)
+            row += bytes((90, 140, 60, round(255 * min(max(alpha, 0.0), 1.0))))
+        rows.append(bytes(row))
+    return encode_png(size_px, size_px, rows)
+
+
+def make_unseen(name, folder):
+    """The path of a scene, its light and setting."""
+    if name in ("leaves", "courtyard"):
+        script = os.path.join(SCENES, "make_foliage_scenes.py")
+        subprocess.run([sys.executable, script, "--scenes", name, "--seed", "7", "--out", folder], check=True, stdout=subprocess.DEVNULL)
+    else:
+        for suffix in (".gltf", ".bin"):
+            shutil.copy(os.path.join(SCENES, "leaf" + suffix), folder)
+        png = make_plasma(random.Random(5), 96)
+        if name == "binary":
+            png = make_mask_png(128, lambda u, v: 100.0 * get_leaf_depth("oval", u - 0.5, 0.5 - v), lambda _u, _v: (0.4, 0.6, 0.2))
+        with open(os.path.join(folder, "leaf_card.png"), "wb") as file:
+            file.write(png)
+    light = ("Sun", "light_angular_distance=2") if name == "courtyard" else ("Spot", "light_size=0.4")
+    return (os.path.join(folder, (name if name in ("leaves", "courtyard") else "leaf") + ".gltf"), *light)
+
+
+def build_unseen(techniques):
+    lines = ["| scene | %s |" % " | ".join("`%s`" % name for name in techniques), "|---" * (1 + len(techniques)) + "|"]
+    for name, title in UNSEEN.items():
+        with tempfile.TemporaryDirectory() as folder:
+            cells = measure_errors(*make_unseen(name, folder), techniques, folder)
+            lines.append("| %s | %s |" % (title, " | ".join(cells)))
+            print(lines[-1], flush=True)
+    return lines
+
+
+def write(name, lines):
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    pattern = re.compile(r"(<!-- begin %s -->\n).*?(<!-- end %s -->)" % (name, name), re.DOTALL)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(pattern.sub(lambda match: match.group(1) + "\n".join(lines) + "\n" + match.group(2), text))
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Measures cut-out casters.")
+    parser.add_argument("--write", action="store_true", help="into doc/cut_outs.md")
+    parser.add_argument("--scenes", default="leaf,fence,leaves,courtyard")
+    parser.add_argument("--techniques", default=",".join(TECHNIQUES))
+    parser.add_argument("--times", action="store_true", help="times in place of errors")
+    parser.add_argument("--unseen", action="store_true", help="errors of what the outlines were not tuned for")
+    options = parser.parse_args()
+    scenes, techniques = options.scenes.split(","), options.techniques.split(",")
+    table = "times" if options.times else "unseen" if options.unseen else "errors"
+    if options.times:
+        lines = build_times(scenes)
+    else:
+        lines = build_unseen(techniques) if options.unseen else build_errors(scenes, techniques)
+    if options.write:
+        write(table, lines)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Times every technique on this machine's device at the sizes of screens, and checks masks against the reference.
+
+    measure_device.py [--write] [--out FILE.json] [--device NAME] [--scenes A,B] [--sizes 1920x1080,3840x2160]
+
+Scenes are those of demo_project/scenes with their first light, at its own size. Times are sums of the passes' GPU timestamps, medians of
+20 frames in which all moves; errors are those of 512 x 512 masks. --write puts the tables into doc/benchmarks.md, between
+`<!-- begin device NAME -->` and its end, where NAME is the device's; a new device's are added.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+SCENES = os.path.join(ROOT, "demo_project", "scenes")
+PAGE = os.path.join(ROOT, "doc", "benchmarks.md")
+STUDY = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain", "kitbash", "courtyard")
+TECHNIQUES = ("edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_volume", "jittered_pcf", "shadow_map", "views")
+ERROR_SIZE = "512x512"
+
+
+def run(*arguments):
+    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
+    return result.stdout
+
+
+def measure(options, scene, size, technique, folder):
+    """Times as `visibility --time` writes them."""
+    times = os.path.join(folder, "times.json")
+    run("visibility", os.path.join(SCENES, scene + ".gltf"), "--technique", technique, "--size", size, "--time", times,
+        "--out", os.path.join(folder, "timed.exr"), *options)
+    with open(times, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def measure_error(options, scene, technique, folder):
+    reference, mask = os.path.join(folder, scene + "_reference.exr"), os.path.join(folder, "mask.exr")
+    words = ["visibility", os.path.join(SCENES, scene + ".gltf"), "--size", ERROR_SIZE, *options]
+    if not os.path.exists(reference):
+        run(*words, "--technique", "reference", "--out", reference)
+    run(*words, "--technique", technique, "--out", mask)
+    return json.loads(run("compare", reference, mask))["penumbra"]["mae"]
+
+
+def build_tables(results):
+    lines = []
+    for size, rows in results["times"].items():
+        lines += ["%s, ms of GPU time a light:" % size.replace("x", " x "), "", "| scene | %s |" % " | ".join("`%s`" % name for name in TECHNIQUES)]
+        lines.append("|---" * (len(TECHNIQUES) + 1) + "|")
+        for scene, cells in rows.items():
+            lines.append("| `%s` | %s |" % (scene, " | ".join("%.2f" % cells[name] for name in TECHNIQUES)))
+        lines.append("")
+    lines += ["Penumbra MAE at 512 x 512:", "", "| scene | %s |" % " | ".join("`%s`" % name for name in TECHNIQUES)]
+    lines.append("|---" * (len(TECHNIQUES) + 1) + "|")
+    for scene, cells in results["errors"].items():
+        lines.append("| `%s` | %s |" % (scene, " | ".join("%.4f" % cells[name] for name in TECHNIQUES)))
+    return lines + ["", "%s, %s." % (results["device"], results["driver"])]
+
+
+def write(results):
+    with open(PAGE, encoding="utf-8") as file:
+        text = file.read()
+    begin, end = "<!-- begin device %s -->\n" % results["device"], "<!-- end device -->"
+    body = begin + "\n".join(build_tables(results)) + "\n" + end
+    pattern = re.compile(re.escape(begin) + r".*?" + re.escape(end), re.DOTALL)
+    if pattern.search(text):
+        text = pattern.sub(lambda _match: body, text)
+    else:
+        marker = "<!-- devices -->\n"
+        text = text.replace(marker, "%s\n### %s\n\n%s\n" % (marker, results["device"], body))
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Times every technique on a device.")
+    parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
+    parser.add_argument("--from", dest="source", metavar="FILE", help="results of an earlier run in place of a run")
+    parser.add_argument("--out", metavar="FILE", help="the results as JSON")
+    parser.add_argument("--device", metavar="NAME")
+    parser.add_argument("--scenes", default=",".join(STUDY))
+    parser.add_argument("--sizes", default="1920x1080,3840x2160")
+    arguments = parser.parse_args()
+    options = ["--device", arguments.device] if arguments.device else []
+    results = {"times": {}, "passes": {}, "errors": {}}
+    if arguments.source:
+        with open(arguments.source, encoding="utf-8") as file:
+            results = json.load(file)
+    with tempfile.TemporaryDirectory() as folder:
+        for _warm_up in range(0 if arguments.source else 4): # a GPU at rest runs at a lower clock
+            measure(options, arguments.scenes.split(",")[0], arguments.sizes.split(",")[-1], "views", folder)
+        for size in arguments.sizes.split(",") if not arguments.source else ():
+            for scene in arguments.scenes.split(","):
+                for technique in TECHNIQUES:
+                    cost = measure(options, scene, size, technique, folder)
+                    results["device"], results["driver"] = cost["device"], cost["driver"]
+                    results["times"].setdefault(size, {}).setdefault(scene, {})[technique] = cost["total"]["gpu_ms"]
+                    results["passes"].setdefault(size, {}).setdefault(scene, {})[technique] = {
+                        item["name"]: item["gpu_ms"] for item in cost["passes"]}
+                print(size, scene, {name: round(ms, 2) for name, ms in results["times"][size][scene].items()}, flush=True)
+        for scene in arguments.scenes.split(",") if not arguments.source else ():
+            results["errors"][scene] = {name: measure_error(options, scene, name, folder) for name in TECHNIQUES}
+            print(scene, {name: round(mae, 4) for name, mae in results["errors"][scene].items()}, flush=True)
+    if arguments.out:
+        with open(arguments.out, "w", encoding="utf-8") as file:
+            json.dump(results, file, indent=1)
+    if arguments.write:
+        write(results)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
