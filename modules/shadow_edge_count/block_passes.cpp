@@ -12,11 +12,10 @@ namespace gnomon {
 
 namespace {
 
-// Edges in all lists: on average so many for each block, and 24 MB at most; four times as many
-// where the light has many edges, as before a tree. Lists without room cost time, not exactness.
+// Edges in all lists: on average so many for each block, and 24 MB at most. Lists without room cost
+// time, not exactness.
 constexpr uint64_t LISTED_EDGES_PER_BLOCK = 2048;
 constexpr uint64_t MOST_LISTED_EDGES = 6'000'000;
-constexpr uint32_t MANY_EDGES = 20'000;
 
 glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
@@ -102,13 +101,11 @@ void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
 	const glm::uvec2 blocks = divide_up(p_size_px, EDGE_COUNT_BLOCK_PX);
 	// In powers of two: few sizes of memory while the scene changes.
-	const uint64_t share = p_edge_count >= MANY_EDGES ? 4 : 1;
-	const uint64_t edges =
-			std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK * share);
+	const uint64_t edges = std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK);
 	const uint64_t chunks_per_block = std::max<uint64_t>(edges / EDGE_COUNT_CHUNK_SIZE, 1);
 	return static_cast<uint32_t>(
 			std::min<uint64_t>(uint64_t(blocks.x) * blocks.y * chunks_per_block,
-					MOST_LISTED_EDGES * share / EDGE_COUNT_CHUNK_SIZE));
+					MOST_LISTED_EDGES / EDGE_COUNT_CHUNK_SIZE));
 }
 
 shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &p_inputs,
