@@ -5,7 +5,7 @@
 #include "modules/core/text.h"
 #include "modules/error_report/report_part.h"
 #include "modules/error_report/scaling_scenes.h"
-#include "modules/mesh_tools/topology.h"
+#include "modules/mesh_tools/caster_counts.h"
 
 #include <algorithm>
 #include <cctype>
@@ -247,12 +247,9 @@ private:
 					: light.light_size_m;
 		}
 		p_configuration.scene_size_m = question.scene->scene_size_m;
-		for (const InstanceSnapshot &instance : question.scene->instances) {
-			if (instance.casts_shadow) {
-				p_configuration.triangle_count += instance.caster_mesh->get_triangle_count();
-				p_configuration.edge_count += get_topology(instance.caster_mesh)->edges.size();
-			}
-		}
+		const CasterCounts casters = count_casters(*question.scene, &light);
+		p_configuration.triangle_count = casters.triangle_count;
+		p_configuration.edge_count = casters.edge_count;
 		// What has no truth lacks none.
 		p_configuration.status =
 				p_configuration.has_truth() ? ReportStatus::MISSING : ReportStatus::OK;

@@ -1,7 +1,7 @@
 #include "modules/main/measure.h"
 
 #include "modules/core/progress.h"
-#include "modules/mesh_tools/topology.h"
+#include "modules/mesh_tools/caster_counts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -89,18 +89,12 @@ std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t
 		gpu_ms.push_back(result.gpu_ms);
 		wall_ms.push_back(result.wall_ms);
 	}
-	uint64_t triangle_count = 0;
-	uint64_t edge_count = 0;
-	for (const InstanceSnapshot &instance : p_request.scene->instances) {
-		if (instance.casts_shadow) {
-			triangle_count += instance.caster_mesh->get_triangle_count();
-			edge_count += get_topology(instance.caster_mesh)->edges.size();
-		}
-	}
+	const CasterCounts casters =
+			count_casters(*p_request.scene, p_request.scene->find_light(p_request.mask_light));
 	const DeviceInfo &info = r_renderer.get_device().get_info();
 	const Json json = { { "device", info.name }, { "driver", info.driver },
 		{ "threads", std::thread::hardware_concurrency() }, { "frames", p_count },
-		{ "triangles", triangle_count }, { "edges", edge_count },
+		{ "triangles", casters.triangle_count }, { "edges", casters.edge_count },
 		{ "passes", to_json(timing.passes) }, { "total", to_json(timing.total) },
 		{ "frame", to_json(compute_frame_cost(gpu_ms, wall_ms)) },
 		{ "call_ms", compute_percentile(call_ms, 0.5) }, { "pass_count", result.timings.size() },

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/scene/alpha_outline.h"
+#include "modules/scene/alpha_test.h"
 #include "modules/shadow_reference/embree_header.h"
 
 #include <glm/glm.hpp>

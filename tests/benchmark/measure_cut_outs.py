@@ -25,20 +25,19 @@ SCENES = os.path.join(ROOT, "demo_project", "scenes")
 sys.path.insert(0, SCENES)
 from foliage_shapes import get_leaf_depth, make_mask_png  # noqa: E402
 from gltf_writer import encode_png  # noqa: E402
+from make_scenes import SCENE_SIZE_M  # noqa: E402
 
 PAGE = os.path.join(ROOT, "doc", "cut_outs.md")
 SIZE = "512x512"
 SAMPLES = 2304
 TECHNIQUES = ("edge_count", "pcss", "views", "shadow_map")
 SIZES = {"2 %": 0.02, "10 %": 0.1, "30 %": 0.3}
-SCENE_SIZE_M = 4.0  # S of leaf, fence and leaves
 UNSEEN = {
     "plasma": "a card of plasma, 96 texels",
     "binary": "an oval leaf whose alpha is 0 and 1 alone",
     "leaves": "`leaves` of seed 7",
     "courtyard": "`courtyard` of seed 7, its sun",
 }
-SUN = {0.02: 2.2915, 0.1: 11.4212, 0.3: 33.3985}  # degrees whose tangent of a half is that share
 
 
 def run(*arguments):
@@ -55,7 +54,9 @@ def list_lights(scene):
     rows = []
     for light in ("Spot", "Omni", "Sun"):
         for name, share in SIZES.items():
-            setting = "light_angular_distance=%g" % SUN[share] if light == "Sun" else "light_size=%g" % (share * SCENE_SIZE_M)
+            setting = "light_size=%g" % (share * SCENE_SIZE_M)
+            if light == "Sun":
+                setting = "light_angular_distance=%g" % math.degrees(2.0 * math.atan(share))
             rows.append((light, name, setting))
     return rows
 
@@ -122,7 +123,7 @@ def build_times(scenes):
 
 
 def make_plasma(generator, size_px):
-    """Alpha of some waves of random directions: coasts of every curvature."""
+    """Alpha of some waves of random directions: borders of every curvature."""
     waves = [(generator.uniform(2, 24), generator.uniform(0, math.tau), generator.uniform(0, math.tau)) for _ in range(12)]
 
     def get_alpha(x, y):

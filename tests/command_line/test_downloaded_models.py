@@ -48,15 +48,15 @@ class DownloadedModels(CommandLineTest):
         with open(path, encoding="utf-8") as file:
             return json.load(file)
 
-    def copy_alone(self, scene, kept):
-        """A scene of the demo with these nodes alone."""
+    def copy_nodes(self, scene, names):
+        """A scene of the demo with these nodes and no others."""
         model = self.read_model(os.path.join(SCENES, scene))
         for key in ("cameras", "extensions", "extensionsUsed"):
             model.pop(key, None)
         for node in model["nodes"]:
             node.pop("camera", None)
             node.pop("extensions", None)
-        model["scenes"][0]["nodes"] = [index for index, node in enumerate(model["nodes"]) if node["name"] in kept]
+        model["scenes"][0]["nodes"] = [index for index, node in enumerate(model["nodes"]) if node["name"] in names]
         for part in model["buffers"] + model.get("images", []):
             shutil.copy(os.path.join(SCENES, part["uri"]), self.folder)
         return self.write(scene, json.dumps(model))
@@ -87,10 +87,10 @@ class DownloadedModels(CommandLineTest):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 lines = result.stderr.splitlines()
                 self.assertEqual(lines.count(LINE), 1, result.stderr)
-                told = [line for line in lines if line.startswith(("ERROR", "WARNING"))]
-                self.assertEqual(len(told), len(words), told)
+                reported = [line for line in lines if line.startswith(("ERROR", "WARNING"))]
+                self.assertEqual(len(reported), len(words), reported)
                 for word in words:
-                    self.assertTrue(any(word in line for line in told), told)
+                    self.assertTrue(any(word in line for line in reported), reported)
         self.assertEqual(read_png_size(image), (SIZE_PX, SIZE_PX))
         self.check_mask(load_mask(mask_path))
         self.assertTrue(self.read_model(os.path.join(out, "report", "report.json"))["cells"])
@@ -147,7 +147,7 @@ class DownloadedModels(CommandLineTest):
         self.check_model(self.write("bull.gltf", json.dumps(model)))
 
     def test_a_leaf_that_is_cut_out_casts_the_leaf_alone(self):
-        path = self.copy_alone("leaf.gltf", ("Leaf",))
+        path = self.copy_nodes("leaf.gltf", ("Leaf",))
         self.check_model(path)
         model = self.read_model(path)
         for material in model["materials"]:

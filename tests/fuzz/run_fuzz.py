@@ -53,11 +53,11 @@ def run_target(target, seconds, limit_s):
     runs = [line.split()[-1] for line in lines if line.startswith("stat::number_of_executed_units")]
     covered = [line.split("cov: ")[1].split()[0] for line in lines if " cov: " in line]
     new = sorted(set(os.listdir(findings)) - before)
-    told = "%s: %s runs, %s edges" % (target.name, runs[-1] if runs else "?", covered[-1] if covered else "?")
+    summary = "%s: %s runs, %s edges" % (target.name, runs[-1] if runs else "?", covered[-1] if covered else "?")
     if status == 0 and not new and runs and runs[-1] != "0":
-        return True, told
-    told += "\nFAILED: %s ended with %s; log: %s" % (target.name, status, log)
-    return False, told + "".join("\n    finding: %s" % os.path.join(findings, name) for name in new)
+        return True, summary
+    summary += "\nFAILED: %s ended with %s; log: %s" % (target.name, status, log)
+    return False, summary + "".join("\n    finding: %s" % os.path.join(findings, name) for name in new)
 
 
 def main():
@@ -76,9 +76,9 @@ def main():
     passed = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         runs = pool.map(lambda target: run_target(target, arguments.seconds, arguments.limit_s), wanted)
-        for has_passed, told in runs:
+        for has_passed, summary in runs:
             passed += has_passed
-            print(told, flush=True)
+            print(summary, flush=True)
     print("%d passed, %d failed, 0 skipped" % (passed, len(wanted) - passed))
     return 0 if passed == len(wanted) else 1
 

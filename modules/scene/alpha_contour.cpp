@@ -1,0 +1,295 @@
+#include "modules/scene/alpha_contour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
+const double ALPHA_SUM_OF_ONE = 4 * 255.0;
+
+/// The places along one axis where alpha is looked up: the tile's border and the texels' centres,
+/// and one beyond either end where nothing is there, which closes what reaches the border.
+class NodeAxis {
+public:
+	NodeAxis(uint32_t p_texel_count, TextureWrap p_wrap) :
+			texel_count(p_texel_count), wrap(p_wrap) {}
+
+	int64_t get_count() const { return int64_t(texel_count) + 4; }
+	bool is_beyond(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
+	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
+	int32_t get_place(int64_t p_node) const {
+		const int64_t end = int64_t(texel_count) * UNITS;
+		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
+	}
+	/// Alpha at a node is the mean of these two texels.
+	uint32_t get_texel(int64_t p_node, int p_side) const {
+		const int64_t first = p_node == 1 ? -1 : p_node - 2;
+		return wrap_texel(first + (is_border(p_node) ? p_side - (p_node == 1 ? 0 : 1) : 0),
+				texel_count, wrap);
+	}
+
+private:
+	uint32_t texel_count;
+	TextureWrap wrap;
+};
+
+/// Marching squares over the nodes of one tile.
+class ContourFinder {
+public:
+	explicit ContourFinder(const AlphaTest &p_test) :
+			image(*p_test.image), threshold(p_test.cutoff * ALPHA_SUM_OF_ONE),
+			columns(image.size_px.x, p_test.wrap_u), rows(image.size_px.y, p_test.wrap_v) {}
+
+	/// Nothing: more than so many segments.
+	std::optional<std::vector<PolygonLoop>> find(size_t p_most_segments);
+
+private:
+	struct Link {
+		uint64_t to = 0;
+		glm::ivec2 point = glm::ivec2(0); // where it begins
+	};
+
+	/// Below 0 beyond the border.
+	int get_alpha(int64_t p_x, int64_t p_y) const;
+	bool is_inside(int p_alpha) const { return p_alpha >= 0 && p_alpha >= threshold; }
+	void read_row(int64_t p_y, std::vector<int> &r_row) const;
+	void add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]);
+	uint64_t get_edge(int64_t p_x, int64_t p_y, int p_side) const;
+	glm::ivec2 get_crossing(int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const;
+	std::vector<PolygonLoop> link_loops();
+
+	const Image &image;
+	double threshold; // of the sum of four texels
+	NodeAxis columns;
+	NodeAxis rows;
+	std::unordered_map<uint64_t, Link> links; // by the edge of the grid where they begin
+};
+
+// Corners and sides of a cell: side i goes from corner i to corner i + 1.
+const int CORNER_X[] = { 0, 1, 1, 0 };
+const int CORNER_Y[] = { 0, 0, 1, 1 };
+
+int ContourFinder::get_alpha(int64_t p_x, int64_t p_y) const {
+	if (columns.is_beyond(p_x) || rows.is_beyond(p_y)) {
+		return -1;
+	}
+	if (!columns.is_border(p_x) && !rows.is_border(p_y)) { // at a texel's centre
+		return 4 *
+				image.get_texel(static_cast<uint32_t>(p_x - 2), static_cast<uint32_t>(p_y - 2))[3];
+	}
+	int sum = 0;
+	for (const int side_y : { 0, 1 }) {
+		for (const int side_x : { 0, 1 }) {
+			sum += image.get_texel(columns.get_texel(p_x, side_x), rows.get_texel(p_y, side_y))[3];
+		}
+	}
+	return sum;
+}
+
+void ContourFinder::read_row(int64_t p_y, std::vector<int> &r_row) const {
+	for (int64_t x = 0; x < columns.get_count(); ++x) {
+		r_row[x] = get_alpha(x, p_y);
+	}
+}
+
+uint64_t ContourFinder::get_edge(int64_t p_x, int64_t p_y, int p_side) const {
+	const int64_t x = p_x + (p_side == 1 ? 1 : 0);
+	const int64_t y = p_y + (p_side == 2 ? 1 : 0);
+	return (uint64_t(y) * uint64_t(columns.get_count()) + uint64_t(x)) * 2 + (p_side % 2);
+}
+
+glm::ivec2 ContourFinder::get_crossing(
+		int64_t p_x, int64_t p_y, int p_side, const int p_alphas[4]) const {
+	// From the lower node to the upper one, so that both cells at an edge find the same.
+	int from = p_side;
+	int to = (p_side + 1) % 4;
+	if (CORNER_X[from] + CORNER_Y[from] > CORNER_X[to] + CORNER_Y[to]) {
+		std::swap(from, to);
+	}
+	const glm::ivec2 a(
+			columns.get_place(p_x + CORNER_X[from]), rows.get_place(p_y + CORNER_Y[from]));
+	const glm::ivec2 b(columns.get_place(p_x + CORNER_X[to]), rows.get_place(p_y + CORNER_Y[to]));
+	const int length = (b.x - a.x) + (b.y - a.y);
+	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) {
+		return p_alphas[from] < 0 ? b : a;
+	}
+	const double share =
+			(threshold - p_alphas[from]) / (double(p_alphas[to]) - double(p_alphas[from]));
+	// Never at a node, where lines could touch.
+	const int offset = std::clamp(static_cast<int>(std::lround(share * length)), 1, length - 1);
+	return b.x > a.x ? glm::ivec2(a.x + offset, a.y) : glm::ivec2(a.x, a.y + offset);
+}
+
+void ContourFinder::add_cell(int64_t p_x, int64_t p_y, const int p_alphas[4]) {
+	bool inside[4];
+	int sum = 0;
+	for (int corner = 0; corner < 4; ++corner) {
+		inside[corner] = is_inside(p_alphas[corner]);
+		sum += p_alphas[corner];
+	}
+	const bool is_saddle =
+			inside[0] == inside[2] && inside[1] == inside[3] && inside[0] != inside[1];
+	const bool is_joined = is_saddle && sum >= 4 * threshold;
+	for (int side = 0; side < 4; ++side) {
+		if (!inside[side] || inside[(side + 1) % 4]) {
+			continue;
+		}
+		// From where the inside is left to where it began, or, across a saddle, to where it begins
+		// again.
+		int end = side;
+		do {
+			end = (end + (is_joined ? 1 : 3)) % 4;
+		} while (inside[end] || !inside[(end + 1) % 4]);
+		links[get_edge(p_x, p_y, side)] = { get_edge(p_x, p_y, end),
+			get_crossing(p_x, p_y, side, p_alphas) };
+	}
+}
+
+std::optional<std::vector<PolygonLoop>> ContourFinder::find(size_t p_most_segments) {
+	std::vector<int> lower(columns.get_count());
+	std::vector<int> upper(columns.get_count());
+	read_row(0, lower);
+	for (int64_t y = 0; y + 1 < rows.get_count(); ++y) {
+		read_row(y + 1, upper);
+		for (int64_t x = 0; x + 1 < columns.get_count(); ++x) {
+			const int alphas[4] = { lower[x], lower[x + 1], upper[x + 1], upper[x] };
+			const bool first = is_inside(alphas[0]);
+			if (is_inside(alphas[1]) != first || is_inside(alphas[2]) != first ||
+					is_inside(alphas[3]) != first) {
+				add_cell(x, y, alphas);
+			}
+		}
+		if (links.size() > p_most_segments) {
+			return std::nullopt;
+		}
+		lower.swap(upper);
+	}
+	return link_loops();
+}
+
+std::vector<PolygonLoop> ContourFinder::link_loops() {
+	std::vector<uint64_t> begins;
+	for (const auto &[begin, link] : links) {
+		begins.push_back(begin);
+	}
+	std::sort(begins.begin(), begins.end()); // the map's order is not the same everywhere
+	std::vector<PolygonLoop> loops;
+	for (const uint64_t begin : begins) {
+		PolygonLoop loop;
+		uint64_t at = begin;
+		for (auto found = links.find(at); found != links.end(); found = links.find(at)) {
+			if (loop.empty() || loop.back() != found->second.point) {
+				loop.push_back(found->second.point);
+			}
+			at = found->second.to;
+			links.erase(found);
+		}
+		while (loop.size() > 1 && loop.front() == loop.back()) {
+			loop.pop_back();
+		}
+		if (loop.size() >= 3) {
+			loops.push_back(std::move(loop));
+		}
+	}
+	return loops;
+}
+
+/// The borders of a nearest sampler's region: along texels' sides.
+class SquareFinder {
+public:
+	explicit SquareFinder(const AlphaTest &p_test) :
+			image(*p_test.image), threshold(p_test.cutoff * 255.0) {}
+
+	std::optional<std::vector<PolygonLoop>> find(size_t p_most_segments);
+
+private:
+	bool is_inside(int64_t p_x, int64_t p_y) const {
+		return p_x >= 0 && p_y >= 0 && p_x < image.size_px.x && p_y < image.size_px.y &&
+				image.get_texel(static_cast<uint32_t>(p_x), static_cast<uint32_t>(p_y))[3] >=
+				threshold;
+	}
+	/// Whether the region's border goes from a texel's corner in a direction: it is to the left.
+	bool is_border(const glm::ivec2 &p_corner, int p_direction) const;
+	PolygonLoop walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_walked) const;
+	size_t get_index(const glm::ivec2 &p_corner) const {
+		return size_t(p_corner.y) * (image.size_px.x + 1) + p_corner.x;
+	}
+
+	const Image &image;
+	double threshold;
+};
+
+const glm::ivec2 DIRECTIONS[] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
+
+bool SquareFinder::is_border(const glm::ivec2 &p_corner, int p_direction) const {
+	// The texels to the left and right of the way.
+	const glm::ivec2 LEFT[] = { { 0, 0 }, { -1, 0 }, { -1, -1 }, { 0, -1 } };
+	const glm::ivec2 left = p_corner + LEFT[p_direction];
+	const glm::ivec2 right = p_corner + LEFT[(p_direction + 3) % 4];
+	return is_inside(left.x, left.y) && !is_inside(right.x, right.y);
+}
+
+PolygonLoop SquareFinder::walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_walked) const {
+	PolygonLoop loop;
+	int direction = 0; // every loop has a side in that direction, or it would not close
+	while (!(r_is_walked[get_index(p_corner)] & (1 << direction))) {
+		r_is_walked[get_index(p_corner)] |= static_cast<uint8_t>(1 << direction);
+		p_corner += DIRECTIONS[direction];
+		const int left = (direction + 1) % 4;
+		const int right = (direction + 3) % 4;
+		const glm::ivec2 place = p_corner * UNITS;
+		if (is_border(p_corner, left)) {
+			if (is_border(p_corner, right)) { // two texels meet in a point: they are parted there
+				loop.push_back(place - DIRECTIONS[direction]);
+				loop.push_back(place + DIRECTIONS[left]);
+			} else {
+				loop.push_back(place);
+			}
+			direction = left;
+		} else if (is_border(p_corner, right)) {
+			loop.push_back(place);
+			direction = right;
+		}
+	}
+	return loop;
+}
+
+std::optional<std::vector<PolygonLoop>> SquareFinder::find(size_t p_most_segments) {
+	const glm::ivec2 size(image.size_px);
+	std::vector<uint8_t> is_walked(size_t(size.x + 1) * size_t(size.y + 1));
+	std::vector<PolygonLoop> loops;
+	size_t segment_count = 0;
+	for (int y = 0; y < size.y; ++y) {
+		for (int x = 0; x < size.x; ++x) {
+			const glm::ivec2 corner(x, y);
+			if (!is_border(corner, 0) || is_walked[get_index(corner)] & 1) {
+				continue;
+			}
+			loops.push_back(walk(corner, is_walked));
+			segment_count += loops.back().size();
+			if (segment_count > p_most_segments) {
+				return std::nullopt;
+			}
+		}
+	}
+	return loops;
+}
+
+} // namespace
+
+std::optional<std::vector<PolygonLoop>> find_alpha_contour(
+		const AlphaTest &p_test, size_t p_most_segments) {
+	return ContourFinder(p_test).find(p_most_segments);
+}
+
+std::optional<std::vector<PolygonLoop>> find_alpha_squares(
+		const AlphaTest &p_test, size_t p_most_segments) {
+	return SquareFinder(p_test).find(p_most_segments);
+}
+
+} // namespace gnomon
