@@ -243,7 +243,7 @@ part_layers() {
 }
 part_scenes() {
     run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
-        tests/demo/test_foliage_scenes.py \
+        tests/demo/test_foliage_scenes.py tests/demo/test_animated_casters.py \
         tests/demo/test_package_meshes.py tests/demo/test_page.py
 }
 part_docs() {

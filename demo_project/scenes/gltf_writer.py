@@ -10,8 +10,10 @@ import os
 import struct
 import zlib
 
-FLOAT = 5126  # glTF component types
+UINT8 = 5121  # glTF component types
 UINT32 = 5125
+FLOAT = 5126
+PACKING = {UINT8: "B", UINT32: "I", FLOAT: "f"}
 ARRAY_BUFFER = 34962
 ELEMENT_ARRAY_BUFFER = 34963
 
@@ -61,11 +63,8 @@ def quaternion_from_y(direction):
     return (x / length, y / length, z / length, w / length)
 
 
-def quaternion_look_at(eye, target):
-    """Turns -Z to the target and keeps +Y upward, as cameras and lights of glTF need."""
-    back = normalize(subtract(eye, target))
-    right = normalize(cross((0.0, 1.0, 0.0), back))
-    up = cross(back, right)
+def quaternion_from_axes(right, up, back):
+    """Takes +X, +Y and +Z to three directions that are at right angles."""
     m = ((right[0], up[0], back[0]), (right[1], up[1], back[1]), (right[2], up[2], back[2]))
     trace = m[0][0] + m[1][1] + m[2][2]
     if trace > 0.0:
@@ -79,6 +78,24 @@ def quaternion_look_at(eye, target):
     result[j] = (m[j][i] + m[i][j]) / s
     result[k] = (m[k][i] + m[i][k]) / s
     return tuple(result)
+
+
+def quaternion_look_at(eye, target):
+    """Turns -Z to the target and keeps +Y upward, as cameras and lights of glTF need."""
+    back = normalize(subtract(eye, target))
+    right = normalize(cross((0.0, 1.0, 0.0), back))
+    return quaternion_from_axes(right, cross(back, right), back)
+
+
+def multiply_quaternions(a, b):
+    """The turn b, then a."""
+    x, y, z = add(add(scale(b, a[3]), scale(a, b[3])), cross(a, b))
+    return (x, y, z, a[3] * b[3] - dot(a, b))
+
+
+def invert_quaternion(a):
+    """Of a turn, so a is of unit length."""
+    return (-a[0], -a[1], -a[2], a[3])
 
 
 def rotate(quaternion, v):
@@ -99,12 +116,18 @@ def encode_png(width, height, rows):
 
 
 class Mesh:
-    """Positions, normals and triangles; positions are rounded to float32 when they are added. uvs: none, or one a vertex."""
+    """Positions, normals and triangles; positions are rounded to float32 when they are added. uvs: none, or one a vertex.
+
+    joints, weights: none, or four a vertex, of the node's skin. targets: (name, position deltas, normal deltas), a delta a vertex.
+    """
 
     def __init__(self, is_closed=True, is_manifold=True):
         self.positions = []
         self.normals = []
         self.uvs = []
+        self.joints = []
+        self.weights = []
+        self.targets = []
         self.triangles = []
         self.is_closed = is_closed
         self.is_manifold = is_manifold
@@ -146,8 +169,10 @@ class Mesh:
         ids = [welded.setdefault(position, len(welded)) for position in self.positions]
         points = list(welded)
         parent = list(range(len(points)))
-        if len(self.uvs) not in (0, len(self.positions)):
-            raise ValueError("mesh %s: %d coordinates for %d vertices" % (name, len(self.uvs), len(self.positions)))
+        deltas = [vectors for _name, *pair in self.targets for vectors in pair]
+        for values in (self.uvs, self.joints, self.weights, *deltas):
+            if values and len(values) != len(self.positions):
+                raise ValueError("mesh %s: %d values for %d vertices" % (name, len(values), len(self.positions)))
 
         def find(index):
             while parent[index] != index:
@@ -203,25 +228,30 @@ class Document:
         }
 
     def _add_view(self, data, target):
-        self.root["bufferViews"].append(
-            {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data), "target": target}
-        )
+        view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
+        self.root["bufferViews"].append(view)
         self.binary += data
         return len(self.root["bufferViews"]) - 1
 
-    def _add_vectors(self, vectors, has_bounds):
-        flat = [value for vector in vectors for value in vector]
+    def add_accessor(self, rows, kind, component_type=FLOAT, target=None, has_bounds=False):
+        """rows: one tuple an element, of float32 values where they have bounds. kind: SCALAR, VEC3, MAT4 ..."""
+        flat = [value for row in rows for value in row]
         accessor = {
-            "bufferView": self._add_view(struct.pack("<%df" % len(flat), *flat), ARRAY_BUFFER),
-            "componentType": FLOAT,
-            "count": len(vectors),
-            "type": "VEC%d" % len(vectors[0]),
+            "bufferView": self._add_view(struct.pack("<%d%s" % (len(flat), PACKING[component_type]), *flat), target),
+            "componentType": component_type,
+            "count": len(rows),
+            "type": kind,
         }
         if has_bounds:
-            accessor["min"] = [min(vector[axis] for vector in vectors) for axis in range(3)]
-            accessor["max"] = [max(vector[axis] for vector in vectors) for axis in range(3)]
+            accessor["min"] = [min(column) for column in zip(*rows)]
+            accessor["max"] = [max(column) for column in zip(*rows)]
         self.root["accessors"].append(accessor)
         return len(self.root["accessors"]) - 1
+
+    def _add_vectors(self, vectors, has_bounds=False, component_type=FLOAT):
+        return self.add_accessor(vectors, "VEC%d" % len(vectors[0]), component_type, ARRAY_BUFFER, has_bounds)
 
     def add_material(self, name, color, roughness=0.7, metallic=0.0, is_double_sided=False, extras=None):
         """Colour is linear. extras: scatter, scatter_distance, shading_model."""
@@ -274,31 +304,26 @@ class Document:
 
     def add_mesh(self, name, mesh, material):
         mesh.check(name)
-        positions = self._add_vectors(mesh.positions, True)
-        normals = self._add_vectors(mesh.normals, False)
-        attributes = {"POSITION": positions, "NORMAL": normals}
+        attributes = {"POSITION": self._add_vectors(mesh.positions, has_bounds=True), "NORMAL": self._add_vectors(mesh.normals)}
         if mesh.uvs:
-            attributes["TEXCOORD_0"] = self._add_vectors(mesh.uvs, False)
-        flat = [index for triangle in mesh.triangles for index in triangle]
-        view = self._add_view(struct.pack("<%dI" % len(flat), *flat), ELEMENT_ARRAY_BUFFER)
-        self.root["accessors"].append(
-            {"bufferView": view, "componentType": UINT32, "count": len(flat), "type": "SCALAR"}
-        )
-        self.root["meshes"].append(
-            {
-                "name": name,
-                "primitives": [
-                    {
-                        "attributes": attributes,
-                        "indices": len(self.root["accessors"]) - 1,
-                        "material": material,
-                    }
-                ],
-            }
-        )
+            attributes["TEXCOORD_0"] = self._add_vectors(mesh.uvs)
+        if mesh.joints:
+            attributes["JOINTS_0"] = self._add_vectors(mesh.joints, component_type=UINT8)
+            attributes["WEIGHTS_0"] = self._add_vectors(mesh.weights)
+        indices = self.add_accessor([(index,) for triangle in mesh.triangles for index in triangle], "SCALAR", UINT32, ELEMENT_ARRAY_BUFFER)
+        primitive = {"attributes": attributes, "indices": indices, "material": material}
+        written = {"name": name, "primitives": [primitive]}
+        if mesh.targets:
+            primitive["targets"] = [
+                {"POSITION": self._add_vectors(positions, has_bounds=True), "NORMAL": self._add_vectors(normals)}
+                for _name, positions, normals in mesh.targets
+            ]
+            written["extras"] = {"targetNames": [target_name for target_name, *_deltas in mesh.targets]}
+        self.root["meshes"].append(written)
         return len(self.root["meshes"]) - 1
 
-    def add_node(self, name, translation=None, rotation=None, **members):
+    def add_node(self, name, translation=None, rotation=None, parent=None, **members):
+        """Below the parent, a node's index, or the scene."""
         node = {"name": name}
         if translation is not None:
             node["translation"] = list(translation)
@@ -307,11 +332,16 @@ class Document:
             node["rotation"] = [round(value, 9) + 0.0 for value in rotation]
         node.update(members)
         self.root["nodes"].append(node)
-        self.root["scenes"][0]["nodes"].append(len(self.root["nodes"]) - 1)
+        index = len(self.root["nodes"]) - 1
+        if parent is None:
+            self.root["scenes"][0]["nodes"].append(index)
+        else:
+            self.root["nodes"][parent].setdefault("children", []).append(index)
+        return index
 
     def add_object(self, name, mesh, material, translation=None, rotation=None, **members):
-        """A mesh and the node that places it."""
-        self.add_node(name, translation, rotation, mesh=self.add_mesh(name, mesh, material), **members)
+        """A mesh and the node that places it; the node's index."""
+        return self.add_node(name, translation, rotation, mesh=self.add_mesh(name, mesh, material), **members)
 
     def add_camera(self, name, eye, target, vertical_fov_rad):
         self.root["cameras"].append(

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes scenes of casters that their textures cut out: one leaf, a fence, a tree, and a courtyard with both.
+"""Makes scenes of casters that their textures cut out: one leaf, a fence, a tree, and a courtyard with both,
+in which a figure walks and a flag waves.
 
     make_foliage_scenes.py [--scenes A,B] [--seed N] [--count N] [--out DIR]
 
@@ -9,6 +10,7 @@ tests/stability make it.
 
 import math
 
+from animated_casters import add_walk
 from foliage_shapes import make_card, make_chain_png, make_leaf_png, make_leaves, make_stone_png
 from gltf_writer import Mesh, quaternion_about
 from make_artist_scenes import make_artist_set
@@ -100,6 +102,9 @@ def make_courtyard_scene(generator, count):
     for side in (-1.0, 1.0):
         x, z = -1.7 + 1.2 * side * math.cos(0.6), 0.9 - 1.2 * side * math.sin(0.6)
         document.add_object("Post", make_cylinder(0.035, 0.54, 24), post, (x, 0.54, z))
+    add_walk(document, (1.85, 0.0, 0.5), (-1.35, 0.0, -1.9), 2.2, "courtyard")
+    # The first camera looks in the sun's direction, so that the figure hides its shadow; from here it is on the right.
+    document.add_camera("Walk camera", (1.1, 2.4, 5.5), (0.75, 0.85, -0.4), math.radians(38.0))
     return document
 
 

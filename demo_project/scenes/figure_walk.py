@@ -1,0 +1,196 @@
+"""How the figure of figure_shapes.py walks in a circle: what each joint does at a time.
+
+Each foot is planted where the root is at the middle of its stance, and the legs reach the feet by inverse kinematics, so that
+no foot slides. Space: that of the circle, its middle at the origin, on the ground; +Y up.
+Phases are in cycles, a cycle is two steps, and phase 0 is the middle of the left foot's stance.
+"""
+
+import math
+
+from figure_shapes import build_skeleton
+from gltf_writer import (
+    add,
+    cross,
+    dot,
+    invert_quaternion,
+    multiply_quaternions,
+    normalize,
+    quaternion_about,
+    quaternion_from_axes,
+    rotate,
+    scale,
+    subtract,
+)
+
+RADIUS_M = 0.8
+CYCLE_S = 1.2
+CYCLE_COUNT = 5  # once round
+LOOP_S = CYCLE_S * CYCLE_COUNT
+START_RAD = math.radians(-30.0)  # heading at time 0, from +Z
+
+STANCE = 0.6  # share of a cycle that a foot is on the ground
+FOOT_SIDE_M = 0.062  # from the path to a foot
+FOOT_BEHIND_M = 0.03  # of where the root is in the middle of the stance
+TOE_OUT_RAD = math.radians(6.0)
+LIFT_M = 0.045  # of a swinging foot, above what the turn of its sole lifts it
+# Phase of a foot, and how far its toes are up; it turns on its heel where they are up, else on its toes.
+TOES_UP_DEG = ((-0.3, 16.0), (-0.21, 0.0), (0.06, 0.0), (0.3, -34.0), (0.38, -38.0), (0.6, 10.0), (0.7, 16.0))
+HEEL, TOES = (0.0, -0.074, -0.052), (0.006, -0.074, 0.152)  # from the ankle, on the sole of the left foot
+
+HIPS_DROP_M, HIPS_BOB_M, HIPS_SWAY_M = 0.033, 0.015, 0.016
+HIPS_YAW_RAD, HIPS_ROLL_RAD, HIPS_TILT_RAD = math.radians(6.0), math.radians(3.0), math.radians(2.0)
+CHEST_YAW_RAD, LEAN_RAD, LOOK_RAD = math.radians(7.0), math.radians(3.0), math.radians(12.0)
+ARM_SWING_RAD, ARM_IN_RAD = math.radians(24.0), math.radians(13.0)
+LONGEST_LEG = 0.999  # share of a straight one: the knee has no direction there
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+SIDES = {"L": (1.0, 0.0), "R": (-1.0, 0.5)}  # sign of x, and phase of the stance's middle
+SKELETON = build_skeleton()
+
+
+def get_rest_offset(joint):
+    """From the parent."""
+    parent, position = SKELETON[joint]
+    return position if parent is None else subtract(position, SKELETON[parent][1])
+
+
+def compose_turns(*axes_and_angles):
+    """About the first axis last."""
+    result = (0.0, 0.0, 0.0, 1.0)
+    for axis, angle in axes_and_angles:
+        result = multiply_quaternions(result, quaternion_about(axis, angle))
+    return result
+
+
+def interpolate_smoothly(knots, at):
+    """A cubic through the knots that is level where they turn back or stay (Fritsch and Butland 1984)."""
+    slopes = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(knots, knots[1:])]
+    tangents = [2.0 * a * b / (a + b) if a * b > 0.0 else 0.0 for a, b in zip(slopes, slopes[1:])]
+    tangents = [0.0, *tangents, 0.0]
+    index = max(i for i in range(len(knots) - 1) if i == 0 or knots[i][0] <= at)
+    (x0, y0), (x1, y1) = knots[index], knots[index + 1]
+    t = (at - x0) / (x1 - x0)
+    width = x1 - x0
+    return (
+        (1.0 + 2.0 * t) * (1.0 - t) ** 2 * y0 + t * t * (3.0 - 2.0 * t) * y1
+        + width * (t * (1.0 - t) ** 2 * tangents[index] - t * t * (1.0 - t) * tangents[index + 1])
+    )  # fmt: skip
+
+
+def get_heading(phase):
+    return START_RAD + 2.0 * math.pi * phase / CYCLE_COUNT
+
+
+def get_root(phase):
+    """(translation, rotation)."""
+    rotation = quaternion_about(Y, get_heading(phase))
+    return rotate(rotation, (-RADIUS_M, 0.0, 0.0)), rotation
+
+
+def get_hips(phase):
+    """(translation, its derivative by the phase), below the root."""
+    angle_rad = 2.0 * math.pi * phase
+    rest = get_rest_offset("Hips")
+    offset = (HIPS_SWAY_M * math.cos(angle_rad), HIPS_BOB_M * math.cos(2.0 * angle_rad) - HIPS_DROP_M, 0.0)
+    rate = (-HIPS_SWAY_M * math.sin(angle_rad), -2.0 * HIPS_BOB_M * math.sin(2.0 * angle_rad), 0.0)
+    return add(rest, offset), scale(rate, 2.0 * math.pi)
+
+
+def get_plant(side, step):
+    """(position on the ground, heading) of a foot's stance."""
+    sign, offset = SIDES[side]
+    translation, rotation = get_root(step + offset)
+    position = add(translation, rotate(rotation, (sign * FOOT_SIDE_M, 0.0, -FOOT_BEHIND_M)))
+    return position, get_heading(step + offset) + sign * TOE_OUT_RAD
+
+
+def get_foot(side, phase):
+    """(position of the ankle, heading, how far the toes are up)."""
+    sign, offset = SIDES[side]
+    step = math.floor(phase - offset + 0.5 * STANCE)
+    since = phase - offset - step
+    eased, lift = 0.0, 0.0
+    if since > 0.5 * STANCE:
+        share = (since - 0.5 * STANCE) / (1.0 - STANCE)
+        eased = share * share * (3.0 - 2.0 * share)
+        lift = LIFT_M * math.sin(math.pi * share) ** 2
+    # A swinging foot follows the path: along a chord the outer foot would hit the inner one.
+    position, heading = get_plant(side, step + eased)
+    pitch = math.radians(interpolate_smoothly(TOES_UP_DEG, since))
+    pivot = HEEL if pitch > 0.0 else TOES
+    pivot = (sign * pivot[0], pivot[1], pivot[2])
+    ankle = (0.0, SKELETON["Foot L"][1][1], 0.0)
+    # The foot turns on the pivot, which does not move in a stance.
+    flat = add(add(position, rotate(quaternion_about(Y, heading), pivot)), ankle)
+    ankle = subtract(flat, rotate(compose_turns((Y, heading), (X, -pitch)), pivot))
+    return add(ankle, (0.0, lift, 0.0)), heading, pitch
+
+
+def find_bone_rotation(rest, direction, hinge):
+    """Takes a bone from its rest direction to another, and +X, as far as it is across the bone, to the hinge."""
+    rest, direction = normalize(rest), normalize(direction)
+    side = normalize(subtract(X, scale(rest, dot(X, rest))))
+    hinge = normalize(subtract(hinge, scale(direction, dot(hinge, direction))))
+    back = invert_quaternion(quaternion_from_axes(side, rest, cross(side, rest)))
+    return multiply_quaternions(quaternion_from_axes(hinge, direction, cross(hinge, direction)), back)
+
+
+def find_leg(hip, ankle, thigh, shin, forward):
+    """(rotation of the thigh, rotation of the shin) by which a leg reaches from hip to ankle, its knee forward."""
+    upper, lower = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shin, shin))
+    reach = subtract(ankle, hip)
+    length = min(math.sqrt(dot(reach, reach)), LONGEST_LEG * (upper + lower))
+    down = normalize(reach)
+    hinge = normalize(cross(forward, down))
+    ahead = cross(down, hinge)
+    along = (upper * upper - lower * lower + length * length) / (2.0 * length)
+    knee = add(scale(down, along), scale(ahead, math.sqrt(upper * upper - along * along)))
+    return find_bone_rotation(thigh, knee, hinge), find_bone_rotation(shin, subtract(scale(down, length), knee), hinge)
+
+
+def pose_legs(rotations, phase):
+    root, heading = get_root(phase)
+    hips = add(root, rotate(heading, get_hips(phase)[0]))
+    hips_rotation = multiply_quaternions(heading, rotations["Hips"])
+    for side in SIDES:
+        upper, lower, foot = ("%s %s" % (name, side) for name in ("Upper leg", "Lower leg", "Foot"))
+        ankle, foot_heading, pitch = get_foot(side, phase)
+        hip = add(hips, rotate(hips_rotation, get_rest_offset(upper)))
+        knee_heading = 0.5 * (get_heading(phase) + foot_heading)
+        forward = (math.sin(knee_heading), 0.0, math.cos(knee_heading))
+        thigh, shin = find_leg(hip, ankle, get_rest_offset(lower), get_rest_offset(foot), forward)
+        rotations[upper] = multiply_quaternions(invert_quaternion(hips_rotation), thigh)
+        rotations[lower] = multiply_quaternions(invert_quaternion(thigh), shin)
+        rotations[foot] = multiply_quaternions(invert_quaternion(shin), compose_turns((Y, foot_heading), (X, -pitch)))
+
+
+def pose_trunk(rotations, phase):
+    """The chest turns against the hips, and leans into the circle; the head looks where the path leads."""
+    forth, aside = math.sin(2.0 * math.pi * phase), math.cos(2.0 * math.pi * phase)
+    yaw, roll = HIPS_YAW_RAD * forth, HIPS_ROLL_RAD * aside
+    against = -yaw - CHEST_YAW_RAD * forth
+    rotations["Hips"] = compose_turns((Y, yaw), (Z, roll), (X, HIPS_TILT_RAD))
+    rotations["Spine"] = compose_turns((Y, 0.5 * against), (Z, -0.7 * roll - 0.5 * LEAN_RAD), (X, 0.5 * HIPS_TILT_RAD))
+    rotations["Chest"] = compose_turns((Y, 0.5 * against), (Z, -0.5 * roll - 0.5 * LEAN_RAD))
+    look = 0.5 * (LOOK_RAD + CHEST_YAW_RAD * forth)
+    rotations["Neck"] = compose_turns((Y, look), (Z, 0.5 * LEAN_RAD), (X, -0.5 * HIPS_TILT_RAD))
+    rotations["Head"] = compose_turns((Y, look), (Z, 0.2 * roll + 0.5 * LEAN_RAD), (X, -HIPS_TILT_RAD))
+
+
+def pose_arms(rotations, phase):
+    """Each arm swings with the other side's leg; elbows bend more in front."""
+    for side, (sign, _offset) in SIDES.items():
+        back = -sign * math.sin(2.0 * math.pi * phase)  # 1: as far back as it goes
+        rotations["Shoulder %s" % side] = compose_turns((Y, sign * math.radians(4.0) * back))
+        rotations["Upper arm %s" % side] = compose_turns((X, ARM_SWING_RAD * back + math.radians(3.0)), (Z, -sign * ARM_IN_RAD))
+        rotations["Forearm %s" % side] = compose_turns((X, math.radians(-20.0 + 13.0 * back)))
+        rotations["Hand %s" % side] = compose_turns((X, math.radians(-8.0)), (Z, -sign * math.radians(4.0)))
+
+
+def build_rotations(phase):
+    """Joint -> rotation, for all but the root."""
+    rotations = {}
+    pose_trunk(rotations, phase)
+    pose_arms(rotations, phase)
+    pose_legs(rotations, phase)
+    return rotations

@@ -1,0 +1,68 @@
+"""A flag that waves: an open mesh, and morph targets of the waves that run along it. Standard library only.
+
+The flag's space: it hangs in the plane z = 0 from the pole, x = 0, towards +X; its middle is y = 0.
+"""
+
+import math
+
+from gltf_writer import Mesh, cross, normalize, subtract, to_float32
+
+WIDTH_M, HEIGHT_M = 0.78, 0.52
+COLUMNS, ROWS = 24, 16
+WAVE_COUNT = 1.25  # along the flag
+WAVE_M = 0.085  # half a wave's height at the free end
+SAG_M = 0.11  # by which the free end hangs lower
+CYCLE_S = 1.0
+STEP = 1e-4
+
+
+def get_rest(s, t):
+    """s: 0..1 from the pole, t: 0..1 from below."""
+    return (s * WIDTH_M, (t - 0.5) * HEIGHT_M, 0.0)
+
+
+def get_wave(s, t, offset_rad):
+    """Grows from the pole, and comes sooner farther up."""
+    return WAVE_M * s**1.3 * math.sin(2.0 * math.pi * WAVE_COUNT * s - 0.9 * t + offset_rad)
+
+
+def get_deltas(name, s, t):
+    if name == "Wave":
+        return (0.0, 0.0, get_wave(s, t, 0.0))
+    if name == "Wave, a quarter on":
+        return (0.0, 0.0, get_wave(s, t, 0.5 * math.pi))
+    return (-0.35 * SAG_M * s * s * (1.0 - t), -SAG_M * s * s, 0.05 * s * s * (1.0 - t))
+
+
+TARGETS = ("Wave", "Wave, a quarter on", "Sag")
+
+
+def get_normal(get_point, s, t):
+    along = subtract(get_point(s + STEP, t), get_point(s - STEP if s > STEP else s, t))
+    return normalize(cross(along, subtract(get_point(s, t + STEP), get_point(s, t - STEP))))
+
+
+def make_flag():
+    mesh = Mesh(is_closed=False)
+    parameters = [(i / COLUMNS, j / ROWS) for j in range(ROWS + 1) for i in range(COLUMNS + 1)]
+    for s, t in parameters:
+        mesh.add_vertex(get_rest(s, t), (0.0, 0.0, 1.0), (s, 1.0 - t))
+    for name in TARGETS:
+
+        def get_point(s, t, name=name):
+            return tuple(a + b for a, b in zip(get_rest(s, t), get_deltas(name, s, t)))
+
+        normals = [subtract(get_normal(get_point, s, t), (0.0, 0.0, 1.0)) for s, t in parameters]
+        deltas = [get_deltas(name, s, t) for s, t in parameters]
+        mesh.targets.append((name, *([tuple(to_float32(value) + 0.0 for value in row) for row in rows] for rows in (deltas, normals))))
+    for j in range(ROWS):
+        for i in range(COLUMNS):
+            first = j * (COLUMNS + 1) + i
+            mesh.add_quad(first, first + 1, first + COLUMNS + 2, first + COLUMNS + 1)
+    return mesh
+
+
+def get_weights(time_s, loop_s):
+    """The waves in quadrature run from the pole to the free end; the sag comes and goes once a loop."""
+    turn_rad = 2.0 * math.pi * time_s / CYCLE_S
+    return (math.cos(turn_rad), -math.sin(turn_rad), 0.55 + 0.35 * math.sin(2.0 * math.pi * time_s / loop_s))
