@@ -38,7 +38,9 @@ std::string describe_type(int p_type) {
 /// "\"VEC3\" or \"VEC4\""
 std::string describe_types(int p_fewest, int p_most) {
 	const auto describe = [](int p_count) {
-		return describe_type(p_count == 1 ? TINYGLTF_TYPE_SCALAR : p_count);
+		return describe_type(p_count == 1 ? TINYGLTF_TYPE_SCALAR
+						: p_count == 16	  ? TINYGLTF_TYPE_MAT4
+										  : p_count);
 	};
 	return p_fewest == p_most ? describe(p_most) : describe(p_fewest) + " or " + describe(p_most);
 }
@@ -132,11 +134,13 @@ void GltfAccessors::find_bytes(
 	r_layout.bytes = view_bytes.subspan(p_offset, needed_bytes);
 }
 
-GltfAccessors::Layout GltfAccessors::read_layout(size_t p_index, int p_fewest, int p_most) {
+GltfAccessors::Layout GltfAccessors::read_layout(
+		size_t p_index, int p_fewest, int p_most, Components p_components) {
 	const tinygltf::Accessor &accessor = model.accessors[p_index];
 	const std::string path = text("accessors[", p_index, "]");
-	const bool is_index = p_most == 1;
+	const bool is_index = p_components == Components::INDICES;
 	const int component_count = accessor.type == TINYGLTF_TYPE_SCALAR ? 1
+			: accessor.type == TINYGLTF_TYPE_MAT4					  ? 16
 			: accessor.type <= TINYGLTF_TYPE_VEC4					  ? accessor.type
 																	  : 0;
 	if (component_count < p_fewest || component_count > p_most) {
@@ -253,8 +257,25 @@ std::vector<glm::vec4> GltfAccessors::read_attribute(
 	return values;
 }
 
+std::vector<float> GltfAccessors::read_floats(size_t p_accessor_index, int p_components) {
+	const Layout layout = read_layout(p_accessor_index, p_components, p_components);
+	if (layout.count > GLTF_MAX_VERTEX_COUNT) {
+		messages.fail_value(text("accessors[", p_accessor_index, "].count"), text(layout.count),
+				text("1..", GLTF_MAX_VERTEX_COUNT));
+	}
+	const size_t components = static_cast<size_t>(p_components);
+	std::vector<float> values(layout.count * components, 0.0f);
+	read_elements(p_accessor_index, layout, [&](size_t p_index, const uint8_t *p_bytes) {
+		for (size_t i = 0; p_bytes && i < components; ++i) {
+			values[p_index * components + i] = read_component(p_bytes + i * layout.component_bytes,
+					layout.component_type, layout.is_normalized);
+		}
+	});
+	return values;
+}
+
 std::vector<uint32_t> GltfAccessors::read_indices(size_t p_accessor_index, size_t p_vertex_count) {
-	const Layout layout = read_layout(p_accessor_index, 1, 1);
+	const Layout layout = read_layout(p_accessor_index, 1, 1, Components::INDICES);
 	std::vector<uint32_t> indices(layout.count, 0);
 	read_elements(p_accessor_index, layout, [&](size_t p_index, const uint8_t *p_bytes) {
 		indices[p_index] = p_bytes ? read_index(p_bytes, layout.component_type) : 0;

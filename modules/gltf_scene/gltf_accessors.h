@@ -25,13 +25,18 @@ public:
 	/// The same for VEC2 to VEC4, not shared: other vertex attributes.
 	/// p_fewest, p_most: components that are allowed. Those that are not there are 0, 0, 0, 1.
 	std::vector<glm::vec4> read_attribute(size_t p_accessor_index, int p_fewest, int p_most);
+	/// Floats, or normalized integers of 8 or 16 bits, of SCALAR to VEC4 and MAT4, one element
+	/// behind the other. p_components: of an element.
+	std::vector<float> read_floats(size_t p_accessor_index, int p_components);
 	/// A SCALAR of unsigned integers, each below p_vertex_count.
 	std::vector<uint32_t> read_indices(size_t p_accessor_index, size_t p_vertex_count);
 
 private:
 	struct Layout; // of one accessor or its sparse part, all bounds checked
-	/// p_fewest, p_most: components, of floats or small integers; 1 and 1: of indices.
-	Layout read_layout(size_t p_index, int p_fewest, int p_most);
+	/// p_fewest, p_most: components of an element.
+	enum class Components { NUMBERS, INDICES }; // floats or small integers; unsigned integers
+	Layout read_layout(size_t p_index, int p_fewest, int p_most,
+			Components p_components = Components::NUMBERS);
 	/// Finds the elements in a view. p_path: where its index and the offset in it stand.
 	void find_bytes(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);
 	template <typename Convert>

@@ -2,6 +2,8 @@
 
 #include "modules/core/error.h"
 #include "modules/core/limits.h"
+#include "modules/gltf_scene/gltf_check_motion.h"
+#include "modules/gltf_scene/gltf_check_values.h"
 #include "modules/gltf_scene/gltf_document.h"
 
 #include <tiny_gltf.h>
@@ -31,49 +33,6 @@ const char NEXT_STEP[] = "Correct it or export the file again.";
 bool is_known_extension(std::string_view p_name) {
 	return p_name == GLTF_PUNCTUAL || p_name == GLTF_AREA || p_name.starts_with("KHR_materials_") ||
 			p_name == GLTF_TEXTURE_TRANSFORM || p_name == "KHR_mesh_quantization";
-}
-
-/// Checks the elements of a list of the document, or of one of its objects.
-template <typename Check>
-void check_elements(const GltfObject &p_parent, std::string_view p_key, const Check &p_check) {
-	const size_t count = p_parent.get_count(p_key);
-	for (size_t index = 0; index < count; ++index) {
-		p_check(p_parent.get_element(p_key, index));
-	}
-}
-
-/// A whole number: it may be written with a fraction of zero, which tinygltf does not take.
-void check_integer(const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum,
-		uint64_t p_maximum) {
-	if (const auto number = p_object.find_integer(p_key, p_minimum, p_maximum)) {
-		p_object.set(p_key, *number);
-	}
-}
-
-void require_integer(const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum,
-		uint64_t p_maximum) {
-	p_object.set(p_key, p_object.require_integer(p_key, p_minimum, p_maximum));
-}
-
-void check_index(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
-	if (const auto index = p_object.find_index(p_key, p_count)) {
-		p_object.set(p_key, *index);
-	}
-}
-
-void require_index(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
-	p_object.set(p_key, p_object.require_index(p_key, p_count));
-}
-
-void check_indices(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
-	const size_t count = p_object.get_count(p_key);
-	Json indices = Json::array();
-	for (size_t place = 0; place < count; ++place) {
-		indices.push_back(p_object.require_index_at(p_key, place, p_count));
-	}
-	if (p_object.find(p_key)) {
-		p_object.set(p_key, std::move(indices));
-	}
 }
 
 /// Of a light, camera or material: reported, and the default takes its place.
@@ -189,6 +148,8 @@ void GltfChecker::check() {
 						". Split the scene."));
 	}
 	check_elements(root, "nodes", [&](const GltfObject &p_node) { check_node(p_node); });
+	check_skins(root);
+	check_animations(root);
 	check_elements(root, "scenes",
 			[&](const GltfObject &p_scene) { check_indices(p_scene, "nodes", count("nodes")); });
 	if (count("scenes") > 0) {
@@ -212,12 +173,6 @@ void GltfChecker::check_header() const {
 			root.fail_at(text("extensionsRequired[", index, "]"),
 					text("is ", describe_json(name),
 							", which is not supported. Export the file without it."));
-		}
-	}
-	GltfMessages &messages = root.get_messages();
-	for (const char *unread : { "animations", "skins" }) {
-		if (count(unread) > 0) {
-			messages.warn(unread, unread, "are not read.");
 		}
 	}
 }
@@ -301,6 +256,7 @@ void GltfChecker::check_attributes(const GltfObject &p_attributes) const {
 }
 
 void GltfChecker::check_mesh(const GltfObject &p_mesh) const {
+	check_morph_weights(p_mesh);
 	check_elements(p_mesh, "primitives", [&](const GltfObject &p_primitive) {
 		check_integer(p_primitive, "mode", TINYGLTF_MODE_POINTS, TINYGLTF_MODE_TRIANGLE_FAN);
 		check_attributes(p_primitive.require_object("attributes"));
@@ -420,6 +376,8 @@ void GltfChecker::check_transform(const GltfObject &p_node) {
 void GltfChecker::check_node(const GltfObject &p_node) const {
 	check_index(p_node, "mesh", count("meshes"));
 	check_index(p_node, "camera", count("cameras"));
+	check_index(p_node, "skin", count("skins"));
+	check_morph_weights(p_node);
 	check_indices(p_node, "children", count("nodes"));
 	check_transform(p_node);
 	for (const char *name : { GLTF_PUNCTUAL, GLTF_AREA }) {

@@ -41,11 +41,6 @@ void widen_extras(Json &r_json) {
 
 /// What tinygltf gets of a document.
 void make_parser_input(Json &r_json) {
-	r_json.erase("animations"); // not read, hence not checked
-	r_json.erase("skins");
-	for (Json &node : r_json["nodes"]) {
-		node.erase("skin");
-	}
 	for (Json &buffer : r_json["buffers"]) {
 		buffer["uri"] = STUB_URI;
 		buffer["byteLength"] = STUB_BYTES;

@@ -40,8 +40,8 @@ public:
 	std::string file; // as the user named it
 	GltfPlace place;
 	GltfContainer container; // as it was read
-	/// The same as tinygltf holds it: without animations, skins and the bytes of buffers and
-	/// images, refused values replaced by their defaults.
+	/// The same as tinygltf holds it: without the bytes of buffers and images, refused values
+	/// replaced by their defaults.
 	tinygltf::Model model;
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
@@ -53,6 +53,9 @@ public:
 	/// Where a light's properties stand besides its node: see find_blender_owner.
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
+	std::map<const Skin *, size_t> skin_indices;
+	/// Keep those alive.
+	std::vector<std::shared_ptr<const Skin>> kept_skins;
 	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
 	std::map<const Material *, size_t> material_indices;
 	/// Which primitive of its mesh in the file each is.

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_materials.h"
+#include "modules/gltf_scene/gltf_rigs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,13 @@ std::vector<T> gather(const std::vector<T> &p_vectors, const std::vector<uint32_
 GltfMeshes::GltfMeshes(const tinygltf::Model &p_model, GltfAccessors &p_accessors,
 		GltfTextures &p_textures, GltfMessages &r_messages) :
 		model(p_model),
-		accessors(p_accessors), textures(p_textures), messages(r_messages) {}
+		accessors(p_accessors), textures(p_textures), messages(r_messages) {
+	for (const tinygltf::Node &node : model.nodes) {
+		if (node.skin >= 0) {
+			skinned_meshes.insert(node.mesh);
+		}
+	}
+}
 
 const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index) {
 	if (const auto found = meshes.find(p_index); found != meshes.end()) {
@@ -98,7 +105,8 @@ const std::vector<MeshInstance3D::Surface> &GltfMeshes::load_mesh(size_t p_index
 		const auto material = load_material(primitive);
 		const auto triangles =
 				load_primitive(primitive, text("meshes[", p_index, "].primitives[", index, "]"),
-						*material, mesh.primitives.size() == 1 ? name : text(name, " ", index));
+						*material, mesh.primitives.size() == 1 ? name : text(name, " ", index),
+						skinned_meshes.contains(static_cast<int>(p_index)));
 		if (triangles) {
 			surfaces.push_back({ triangles, material });
 			primitive_indices[triangles.get()] = index;
@@ -124,13 +132,11 @@ void GltfMeshes::check_finite(size_t p_accessor_index, const std::vector<glm::ve
 }
 
 std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive &p_primitive,
-		const std::string &p_path, const Material &p_material, std::string p_name) {
+		const std::string &p_path, const Material &p_material, std::string p_name,
+		bool p_has_skin) {
 	if (p_primitive.mode < TINYGLTF_MODE_TRIANGLES) {
 		messages.warn("mode", p_path, "has points or lines; only triangles are drawn.");
 		return nullptr;
-	}
-	if (!p_primitive.targets.empty()) {
-		messages.warn("targets", p_path, "has morph targets; they are not read.");
 	}
 	const auto position_attribute = p_primitive.attributes.find("POSITION");
 	if (position_attribute == p_primitive.attributes.end()) {
@@ -166,6 +172,9 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 	}
 	MeshAttributes attributes =
 			read_attributes(p_primitive, p_path, p_material, all_positions->size());
+	MeshRig rig =
+			read_rig(p_primitive, p_path, p_has_skin, all_positions->size(), accessors, messages);
+	count_targets(rig, p_path);
 	std::vector<glm::vec3> positions;
 	std::vector<glm::vec3> normals;
 	if (indices.size() >= all_positions->size()) {
@@ -180,6 +189,7 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 		}
 		attributes.tangents = gather(attributes.tangents, used);
 		attributes.colors = gather(attributes.colors, used);
+		rig = gather_rig(rig, used);
 	}
 	vertex_count += positions.size();
 	index_count += indices.size();
@@ -189,8 +199,24 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 						" indices in all, must be at most ", GLTF_MAX_VERTEX_COUNT, " and ",
 						GLTF_MAX_INDEX_COUNT, ". Split the scene."));
 	}
+	if (rig.influence_count > 0 || !rig.targets.empty()) {
+		attributes.rig = make_mesh_rig(std::move(rig), positions,
+				messages.describe(p_path, text("of mesh \"", p_name, "\"")));
+	}
 	return make_mesh(std::move(p_name), std::move(positions), std::move(normals),
 			std::move(indices), std::move(attributes));
+}
+
+void GltfMeshes::count_targets(const MeshRig &p_rig, const std::string &p_path) {
+	for (const MorphTarget &target : p_rig.targets) {
+		target_value_count +=
+				target.positions.size() + target.normals.size() + target.tangents.size();
+	}
+	if (target_value_count > GLTF_MAX_VERTEX_COUNT) {
+		messages.fail(p_path + ".targets",
+				text("make ", target_value_count, " vectors in all meshes, must be at most ",
+						GLTF_MAX_VERTEX_COUNT, ". Split the scene."));
+	}
 }
 
 MeshAttributes GltfMeshes::read_attributes(const tinygltf::Primitive &p_primitive,

@@ -2,6 +2,7 @@
 
 #include "modules/gltf_scene/gltf_accessors.h"
 #include "modules/gltf_scene/gltf_textures.h"
+#include "modules/scene/mesh_rig.h"
 #include "modules/scene/nodes.h"
 
 #include <map>
@@ -33,13 +34,16 @@ public:
 private:
 	/// p_path: where it stands.
 	std::shared_ptr<const Mesh> load_primitive(const tinygltf::Primitive &p_primitive,
-			const std::string &p_path, const Material &p_material, std::string p_name);
+			const std::string &p_path, const Material &p_material, std::string p_name,
+			bool p_has_skin);
 	/// Fails on a position that is not finite. An accessor is looked through once.
 	void check_finite(size_t p_accessor_index, const std::vector<glm::vec3> &p_positions,
 			const std::string &p_path, const std::string &p_name);
 	/// What the material shows of the vertices, which are p_count.
 	MeshAttributes read_attributes(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, size_t p_count);
+	/// Counts what its morph targets make, and fails where that is too much.
+	void count_targets(const MeshRig &p_rig, const std::string &p_path);
 	std::shared_ptr<const Material> load_material(const tinygltf::Primitive &p_primitive);
 
 	const tinygltf::Model &model;
@@ -53,6 +57,8 @@ private:
 	std::set<size_t> finite_accessors; // whose positions were looked through
 	uint64_t vertex_count = 0;		   // of all meshes so far, as are the indices
 	uint64_t index_count = 0;
+	uint64_t target_value_count = 0; // vectors of morph targets
+	std::set<int> skinned_meshes;	 // that some node shows with a skin
 };
 
 } // namespace gnomon

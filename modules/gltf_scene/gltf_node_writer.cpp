@@ -137,6 +137,8 @@ void GltfNodeWriter::drop_lost_parts() {
 		tinygltf::Node &node = model.nodes[index];
 		if (document->node_surfaces.contains(index) && !mesh_nodes.contains(index)) {
 			node.mesh = -1;
+			node.skin = -1;
+			node.weights.clear();
 		}
 		if (document->cameras.contains(index) && !camera_nodes.contains(index)) {
 			node.camera = -1;

@@ -1,9 +1,11 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/gltf_scene/gltf_animations.h"
 #include "modules/gltf_scene/gltf_check.h"
 #include "modules/gltf_scene/gltf_document.h"
 #include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_meshes.h"
+#include "modules/gltf_scene/gltf_rigs.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/gltf_scene/gltf_tree.h"
 #include "modules/gltf_scene/gltf_values.h"
@@ -52,7 +54,9 @@ private:
 	}
 	std::vector<size_t> choose_scene(const GltfTree &p_tree, Scene &r_scene);
 	Node3D *read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_parent);
-	std::unique_ptr<Node3D> read_mesh_node(size_t p_index);
+	std::unique_ptr<Node3D> read_mesh_node(size_t p_index, const GltfTree &p_tree);
+	void read_motion(const tinygltf::Node &p_node, const std::string &p_path,
+			const GltfTree &p_tree, MeshInstance3D &r_instance);
 	std::unique_ptr<Light3D> read_light_node(
 			size_t p_index, const GltfTree &p_tree, std::string &r_name);
 	std::unique_ptr<Camera3D> read_camera_node(size_t p_index, std::string &r_name);
@@ -67,6 +71,7 @@ private:
 	GltfAccessors accessors;
 	GltfTextures textures;
 	GltfMeshes meshes;
+	std::map<int, std::shared_ptr<const Skin>> skins;
 	UniqueNames names;
 	uint64_t surface_count = 0; // of all nodes so far, as are the values of lights
 	uint64_t light_value_count = 0;
@@ -96,6 +101,7 @@ void GltfReader::read(Scene &r_scene) {
 		document.shares_materials |=
 				!document.nodes[index].is_loaded && model.nodes[index].mesh >= 0;
 	}
+	r_scene.animations = read_animations(model, accessors, messages);
 	r_scene.side_files = buffers.get_files();
 }
 
@@ -140,7 +146,7 @@ Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_
 	std::vector<std::unique_ptr<Node3D>> parts;
 	std::vector<std::string> part_names;
 	if (node.mesh >= 0) {
-		parts.push_back(read_mesh_node(p_index));
+		parts.push_back(read_mesh_node(p_index, p_tree));
 		part_names.push_back(text("Node ", p_index));
 	}
 	std::string name;
@@ -172,7 +178,7 @@ Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_
 	return first;
 }
 
-std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index) {
+std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index, const GltfTree &p_tree) {
 	auto instance = std::make_unique<MeshInstance3D>();
 	const tinygltf::Node &node = model.nodes[p_index];
 	const std::string path = text("nodes[", p_index, "]");
@@ -191,11 +197,49 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index) {
 			document.kept_surfaces.push_back(instance->surfaces);
 		}
 	}
+	read_motion(node, path, p_tree, *instance);
 	if (const auto extras = find_object(node.extras, path + ".extras", messages)) {
 		instance->casts_shadow = extras->read_bool("casts_shadow", true);
 		instance->is_planar_receiver = extras->read_bool("shadow_planar_receiver", false);
 	}
 	return instance;
+}
+
+/// The skin, and the weights of morph targets.
+void GltfReader::read_motion(const tinygltf::Node &p_node, const std::string &p_path,
+		const GltfTree &p_tree, MeshInstance3D &r_instance) {
+	const std::vector<double> &mesh_weights =
+			model.meshes[static_cast<size_t>(p_node.mesh)].weights;
+	const std::vector<double> &weights = p_node.weights.empty() ? mesh_weights : p_node.weights;
+	uint32_t joint_count = 0;
+	size_t target_count = 0;
+	for (const MeshInstance3D::Surface &surface : r_instance.surfaces) {
+		if (const MeshRig *rig = surface.mesh->attributes.rig.get()) {
+			joint_count = std::max(joint_count, rig->joint_count);
+			target_count = std::max(target_count, rig->targets.size());
+		}
+	}
+	for (size_t index = 0; index < std::min(weights.size(), target_count); ++index) {
+		r_instance.morph_weights.push_back(static_cast<float>(weights[index]));
+	}
+	r_instance.morph_weights.resize(target_count, 0.0f);
+	if (p_node.skin < 0) {
+		return;
+	}
+	std::shared_ptr<const Skin> &skin = skins[p_node.skin];
+	if (!skin) {
+		const size_t index = static_cast<size_t>(p_node.skin);
+		skin = read_skin(model, index, p_tree, accessors, messages);
+		document.skin_indices[skin.get()] = index;
+		document.kept_skins.push_back(skin);
+	}
+	if (joint_count > skin->joints.size()) {
+		messages.fail(p_path + ".skin",
+				text("is ", p_node.skin, ", which has ", skin->joints.size(),
+						" joints, but the mesh uses joint ", joint_count - 1,
+						". Export the file again."));
+	}
+	r_instance.skin = skin;
 }
 
 std::optional<GltfObject> GltfReader::find_area_light(const tinygltf::Node &p_node) const {

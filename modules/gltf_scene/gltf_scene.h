@@ -23,8 +23,8 @@ struct GltfLoadOptions {
 /// Reads a .gltf or .glb (2.0) file: its default scene, else the first, else all nodes without a
 /// parent. Anything that cannot be drawn as meant is an Error of one line with file, JSON path,
 /// value, range and next step. A refused value of a light, camera or material is logged as an error
-/// in the same words, and its default used. Textures, skins, animations and morph targets are not
-/// read; one warning each says so.
+/// in the same words, and its default used. KHR_animation_pointer is not
+/// read; one warning says so.
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 /// The same for the bytes of a file. p_path: where it stands, for messages and the files that it

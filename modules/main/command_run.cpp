@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace gnomon {
@@ -18,6 +19,31 @@ namespace {
 
 RunOptions options;
 std::string truth_path;
+double speed = 1;
+
+const double HEADLESS_FRAMES_PER_S = 60;
+
+/// What is played: the animation that the command line names, else the project's, else the first.
+AnimationPlayback choose_playback(const Scene &p_scene, const CommonOptions &p_common) {
+	AnimationPlayback playback;
+	const std::optional<std::string> of_project = find_default(options.scene, "animation");
+	const auto has_name = [&](const std::shared_ptr<const Animation> &p_animation) {
+		return of_project && p_animation->name == *of_project;
+	};
+	if (p_common.animation.empty() && of_project && of_project->empty()) {
+		playback.animation = p_common.at_s ? find_animation(p_scene, "") : nullptr;
+	} else if (p_common.animation.empty() &&
+			std::any_of(p_scene.animations.begin(), p_scene.animations.end(), has_name)) {
+		playback.animation = find_animation(p_scene, *of_project);
+	} else {
+		playback.animation = find_animation(p_scene, p_common.animation);
+	}
+	playback.speed = speed;
+	if (playback.animation) {
+		playback.time_s = playback.animation->wrap_time(p_common.at_s.value_or(0));
+	}
+	return playback;
+}
 
 void save_capture(const RenderResult &p_result, glm::uvec2 p_size_px) {
 	if (!options.capture.empty()) {
@@ -36,7 +62,6 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
 	Renderer renderer(*device);
 	RenderRequest request;
-	request.scene = build_snapshot(r_scene, camera);
 	request.size_px = p_size_px;
 	request.antialiasing = *options.antialiasing;
 	request.technique_override = options.technique;
@@ -48,6 +73,9 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	for (uint32_t index = 0; index < frame_count; ++index) {
 		request.wants_image = index + 1 == frame_count;
 		request.wants_graph = request.wants_image && !options.dot.empty();
+		// By frames, so that what is drawn does not depend on how fast the machine is.
+		options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
+		request.scene = build_snapshot(r_scene, camera);
 		result = renderer.render(request);
 	}
 	save_capture(result, p_size_px);
@@ -84,6 +112,7 @@ void run(const CommonOptions &p_common) {
 		log_warning("Scene ", scene->path, " has no light; only ambient light is seen. Add one ",
 				"(KHR_lights_punctual).");
 	}
+	options.playback = choose_playback(*scene, p_common);
 	if (options.is_headless) {
 		run_headless(*scene, size_px, p_common);
 	} else if (const RunPart *desktop = RunPartRegistry::find(DESKTOP_PART); desktop == nullptr) {
@@ -115,6 +144,11 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 			->check(CLI::Range(1u, MAX_ANTIALIASING));
 	command->add_option("--camera", options.camera, "Default: the first");
 	add_stage_option(*command, r_common);
+	add_animation_options(*command, r_common);
+	command->add_option("--speed", speed,
+				   "How fast the animation plays: 1 as it was made, 0 not at all, below 0 "
+				   "backwards")
+			->check(CLI::Range(-1000.0, 1000.0));
 	command->add_option("--technique", options.technique, "Replaces that of every light");
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");

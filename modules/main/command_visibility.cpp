@@ -144,6 +144,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			->required();
 	command->add_option("--png", options.png, "Also writes the mask as a grey PNG");
 	add_stage_option(*command, r_common);
+	add_animation_options(*command, r_common);
 	command->add_option("--light", options.light, "Default: the first that casts shadows");
 	command->add_option("--camera", options.camera, "Default: the first");
 	command->add_option("--size", options.size, "Default: the project's, else 512x512");

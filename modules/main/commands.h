@@ -33,6 +33,10 @@ glm::uvec2 parse_size(const std::string &p_text);
 /// The size that the command line names, else [defaults] size of the scene's project, else 512x512.
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
+/// From [defaults] of the project that a scene belongs to, or that the path is; nothing where that
+/// says nothing.
+std::optional<std::string> find_default(
+		const std::filesystem::path &p_scene_path, const std::string &p_key);
 /// As above: antialiasing, 1..4, else 2.
 uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
@@ -42,6 +46,10 @@ uint32_t choose_antialiasing(
 /// of that size.
 std::unique_ptr<Scene> load_scene(
 		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
+/// `--animation` and `--at`, likewise.
+void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
+/// Poses the scene as those say: at rest where neither is given.
+void pose_as_asked(Scene &r_scene, const CommonOptions &p_common);
 /// `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
 /// The camera of that name, or the first. None: an Error that says how to add one.

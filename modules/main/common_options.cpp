@@ -5,6 +5,7 @@
 #include "modules/core/project.h"
 #include "modules/gltf_scene/gltf_scene.h"
 #include "modules/main/commands.h"
+#include "modules/scene/animation.h"
 #include "modules/scene/light_setting.h"
 #include "modules/scene/stage.h"
 #include "modules/shadows/light_properties.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 
 namespace gnomon {
@@ -43,8 +45,8 @@ std::string list_properties() {
 	return names;
 }
 
-/// From [defaults] of the project that a scene belongs to, or that the path is; nothing where that
-/// says nothing.
+} // namespace
+
 std::optional<std::string> find_default(const fs::path &p_scene_path, const std::string &p_key) {
 	if (p_scene_path.empty()) {
 		fail("The scene's path is empty. Name a .gltf or .glb file, or a project's folder.");
@@ -60,8 +62,6 @@ std::optional<std::string> find_default(const fs::path &p_scene_path, const std:
 	const auto found = project.defaults.find(p_key);
 	return found == project.defaults.end() ? std::nullopt : std::optional(found->second);
 }
-
-} // namespace
 
 bool parse_whole(std::string_view p_text, uint32_t &r_value) {
 	const char *end = p_text.data() + p_text.size();
@@ -114,6 +114,30 @@ void add_stage_option(CLI::App &r_command, CommonOptions &r_common) {
 			->check(CLI::IsMember({ "auto", "on", "off" }));
 }
 
+void add_animation_options(CLI::App &r_command, CommonOptions &r_common) {
+	r_command.add_option("--animation", r_common.animation,
+			"The name of the animation that poses the scene; default: the first");
+	r_command.add_option("--at", r_common.at_s,
+			"The time in s, from 0, at which the animation poses the scene; beyond its end it "
+			"begins "
+			"again");
+}
+
+void pose_as_asked(Scene &r_scene, const CommonOptions &p_common) {
+	if (!p_common.at_s && p_common.animation.empty()) {
+		return;
+	}
+	const double at_s = p_common.at_s.value_or(0);
+	if (!std::isfinite(at_s) || at_s < 0) {
+		throw UsageError(text("--at is ", at_s, ", must be a finite time in s, 0 or more."));
+	}
+	const std::shared_ptr<const Animation> animation = find_animation(r_scene, p_common.animation);
+	if (!animation) {
+		fail("Scene ", r_scene.path, " has no animation. Leave --at out, or export it with one.");
+	}
+	pose_scene(r_scene, animation.get(), animation->wrap_time(at_s));
+}
+
 std::unique_ptr<Scene> load_scene(
 		const fs::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	const ProjectScene place = find_project_scene(p_path);
@@ -128,6 +152,7 @@ std::unique_ptr<Scene> load_scene(
 		fail("Scene ", place.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
 				". Add some in the program that wrote the file.");
 	}
+	pose_as_asked(*scene, p_common);
 	const std::string staged = stage_scene(
 			*scene, parse_stage_mode(p_common.stage, "--stage"), double(p_size_px.x) / p_size_px.y);
 	if (!staged.empty()) {

@@ -34,6 +34,7 @@ std::string format_milliseconds(const char *p_name, double p_milliseconds) {
 struct GameState {
 	Scene &scene;
 	RenderRequest &request;
+	AnimationPlayback playback;
 	bool has_truth = false;
 	bool shows_text = true;
 	std::string shown; // in place of the picture; empty: what --debug-view says
@@ -73,6 +74,9 @@ struct GameState {
 				break;
 			case GLFW_KEY_V:
 				shown = shown.empty() ? "mask" : shown == "mask" && has_truth ? "error" : "";
+				break;
+			case GLFW_KEY_SPACE:
+				playback.is_playing = !playback.is_playing;
 				break;
 			case GLFW_KEY_F1:
 				shows_text = !shows_text;
@@ -115,7 +119,7 @@ std::vector<std::string> describe_frame(const RenderRequest &p_request, const De
 		lines.push_back(format_milliseconds(timing.name.c_str(), timing.gpu_ms));
 	}
 	lines.push_back("W A S D Q E, right mouse: fly   T: technique   +/-: light size");
-	lines.push_back("V: mask, error   F1: text   Esc: end");
+	lines.push_back("V: mask, error   Space: pause   F1: text   Esc: end");
 	return lines;
 }
 
@@ -143,7 +147,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	request.antialiasing = p_options.antialiasing.value_or(1);
 	request.mode = RenderGraph::Mode::QUEUE;
 	const std::shared_ptr<const TruthMask> &truth = p_options.truth;
-	GameState state{ r_scene, request, truth != nullptr };
+	GameState state{ r_scene, request, p_options.playback, truth != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();
 	uint32_t drawn_count = 0;
@@ -156,6 +160,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		}
 		fly(fly_camera, window, seconds);
 		fly_camera.apply(camera);
+		state.playback.advance(r_scene, drawn_count == 0 ? 0.0 : seconds);
 		const glm::uvec2 size_px = window.get_size_px();
 		if (size_px.x == 0 || size_px.y == 0) {
 			continue; // minimised

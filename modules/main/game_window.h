@@ -2,6 +2,7 @@
 
 #include "modules/main/commands.h"
 #include "modules/renderer/renderer.h"
+#include "modules/scene/animation_playback.h"
 
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct RunOptions {
 	std::string debug_view;
 	std::shared_ptr<const TruthMask> truth; // null: none
 	std::vector<std::string> settings;
+	AnimationPlayback playback;
 	bool prints_plan = false;
 	std::string dot;
 	std::string time; // headless: where to write what a frame takes

@@ -26,7 +26,8 @@ bool is_hollow(const MeshTopology &p_topology, const MeshEdge &p_edge) {
 } // namespace
 
 uint32_t count_convex_parts(const MeshTopology &p_topology) {
-	if (p_topology.mesh_class != MeshClass::CLOSED || p_topology.signed_volume_m3 <= 0) {
+	if (p_topology.mesh_class != MeshClass::CLOSED || p_topology.signed_volume_m3 <= 0 ||
+			p_topology.is_deformable) {
 		return 0;
 	}
 	for (const MeshEdge &edge : p_topology.edges) {

@@ -4,6 +4,7 @@
 #include "modules/core/files.h"
 #include "modules/mesh_tools/edge_pairing.h"
 #include "modules/mesh_tools/mesh_parts.h"
+#include "modules/scene/mesh_rig.h"
 
 #include <glm/glm.hpp>
 
@@ -55,8 +56,9 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 				position_count);
 	}
 	r_topology.welded_from_position.assign(position_count, NO_VERTEX);
-	// By bits, so that a position that is not a number equals itself.
-	using Bits = std::array<uint32_t, 3>;
+	// By bits, so that a position that is not a number equals itself; and by what moves it.
+	using Bits = std::array<uint32_t, 5>;
+	const MeshRig *rig = p_mesh.attributes.rig.get();
 	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, 1); };
 	std::unordered_map<Bits, uint32_t, decltype(hash)> vertices(position_count, hash);
 	for (const uint32_t index : p_mesh.indices) {
@@ -66,7 +68,11 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 		}
 		const glm::vec3 position = p_mesh.positions_node[index] + 0.0f; // -0 becomes 0
 		const uint32_t next = static_cast<uint32_t>(r_topology.welded_positions_node.size());
-		const auto [vertex, is_new] = vertices.emplace(std::bit_cast<Bits>(position), next);
+		const auto place = std::bit_cast<std::array<uint32_t, 3>>(position);
+		const uint64_t motion = rig ? rig->compute_vertex_hash(index) : 0;
+		const auto [vertex, is_new] = vertices.emplace(
+				Bits{ place[0], place[1], place[2], uint32_t(motion), uint32_t(motion >> 32) },
+				next);
 		welded = vertex->second;
 		if (is_new) {
 			r_topology.welded_positions_node.push_back(position);
@@ -210,7 +216,9 @@ bool are_coplanar(const glm::dvec3 &p_normal_0, const glm::dvec3 &p_normal_1) {
 /// Edges from pairs of half edges; also notes each half edge's partner.
 class EdgeBuilder {
 public:
-	EdgeBuilder(MeshTopology &r_topology, const std::vector<glm::dvec3> &p_unit_normals) :
+	EdgeBuilder(const Mesh &p_mesh, MeshTopology &r_topology,
+			const std::vector<glm::dvec3> &p_unit_normals) :
+			mesh(p_mesh),
 			topology(r_topology), unit_normals(p_unit_normals), halves{ r_topology.triangles },
 			partners(r_topology.triangles.size(), NO_HALF_EDGE) {}
 
@@ -236,6 +244,7 @@ public:
 	}
 
 private:
+	const Mesh &mesh;
 	MeshTopology &topology;
 	const std::vector<glm::dvec3> &unit_normals;
 	HalfEdges halves;
@@ -253,12 +262,24 @@ private:
 			edge.is_inconsistent = halves.get_start(p_half1) == edge.a;
 			topology.counts.inconsistent_edge_count += edge.is_inconsistent ? 1 : 0;
 			const glm::dvec3 normal1 = unit_normals[edge.face1];
-			edge.is_coplanar = are_coplanar(
-					unit_normals[edge.face0], edge.is_inconsistent ? -normal1 : normal1);
+			edge.is_coplanar = stay_in_plane(edge) &&
+					are_coplanar(
+							unit_normals[edge.face0], edge.is_inconsistent ? -normal1 : normal1);
 			partners[p_half0] = p_half1;
 			partners[p_half1] = p_half0;
 		}
 		topology.edges.push_back(edge);
+	}
+
+	/// False: a pose may bend the mesh at the edge, however flat it is at rest.
+	bool stay_in_plane(const MeshEdge &p_edge) const {
+		if (!topology.is_deformable) {
+			return true;
+		}
+		const std::vector<uint32_t> &sources = mesh.source.triangles;
+		return !sources.empty() &&
+				sources[topology.source_triangles[p_edge.face0]] ==
+				sources[topology.source_triangles[p_edge.face1]];
 	}
 
 	void split_group(uint32_t p_low_vertex, const SortedHalfEdge *p_group, uint32_t p_count) {
@@ -295,6 +316,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 	GNOMON_ASSERT(p_mesh.indices.size() % 3 == 0 && p_mesh.indices.size() < NO_HALF_EDGE / 4,
 			"mesh ", p_mesh.name, ": ", p_mesh.indices.size(), " indices");
 	MeshTopology topology;
+	topology.is_deformable = p_mesh.is_deformable();
 	weld(p_mesh, topology);
 	collect_triangles(p_mesh, topology);
 	const std::vector<glm::dvec3> unit_normals = compute_normals(p_mesh, topology);
@@ -302,7 +324,7 @@ MeshTopology build_topology(const Mesh &p_mesh) {
 	std::vector<uint32_t> first_of_vertex;
 	const std::vector<SortedHalfEdge> sorted = sort_half_edges(topology, first_of_vertex);
 	topology.edges.reserve(sorted.size() / 2 + 16);
-	EdgeBuilder builder(topology, unit_normals);
+	EdgeBuilder builder(p_mesh, topology, unit_normals);
 	for (uint32_t vertex = 0; vertex + 1 < first_of_vertex.size(); ++vertex) {
 		uint32_t begin = first_of_vertex[vertex];
 		while (begin < first_of_vertex[vertex + 1]) {

@@ -37,7 +37,8 @@ struct MeshEdge {
 	/// Both faces run a -> b. Whoever needs one orientation negates face1's plane for this edge.
 	bool is_inconsistent = false;
 	/// The faces continue each other in one plane (to 1e-6 rad, in double), so that no viewpoint
-	/// off that plane sees a silhouette here. Never set for a boundary, a fold or a zero-area face.
+	/// off that plane sees a silhouette here. Never set for a boundary, a fold, a zero-area face,
+	/// or where a pose may bend the mesh.
 	bool is_coplanar = false;
 };
 
@@ -94,6 +95,7 @@ struct MeshTopology {
 	std::vector<MeshPart> parts;		// ordered by their first face
 	std::vector<uint32_t> part_indices; // one per face, into parts
 	TopologyCounts counts;
+	bool is_deformable = false; // planes, normals, volumes and what is flat are those at rest
 	MeshClass mesh_class = MeshClass::CLOSED;
 	/// Volume inside; negative when the mesh is inside out. Means little unless CLOSED.
 	double signed_volume_m3 = 0;
@@ -108,14 +110,16 @@ struct MeshTopology {
 	bool is_double_sided(uint32_t p_face) const { return !get_part(p_face).is_closed; }
 };
 
-/// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0). An edge of
+/// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0), and, of a
+/// mesh with a rig, their joints, weights and morph targets. An edge of
 /// more than two faces is split: faces of opposite winding that enclose a wedge of the inside are
 /// paired first, what is left by angle about the edge, an odd one becomes a boundary. The sum over
 /// faces that a silhouette weight is does not depend on this choice. Positions must be finite and
 /// indices valid, as make_mesh guarantees; a bad index is our mistake.
 MeshTopology build_topology(const Mesh &p_mesh);
 
-/// As build_topology, kept as long as the mesh lives. A mesh with id 0 (not from make_mesh) is
+/// As build_topology, kept as long as the mesh lives; of a mesh that poses deform, that of its mesh
+/// at rest. A mesh with id 0 (not from make_mesh) is
 /// built anew each time. Callable from any thread; one mesh is built only once.
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
 /// Frees what get_topology keeps of meshes that are gone. From any thread.

@@ -24,6 +24,9 @@ void erase_expired() {
 } // namespace
 
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh) {
+	if (p_mesh->rest) {
+		return get_topology(p_mesh->rest);
+	}
 	if (p_mesh->id == 0) {
 		return std::make_shared<const MeshTopology>(build_topology(*p_mesh));
 	}

@@ -223,6 +223,8 @@ BufferRID MaterialStore::get_constant(size_t p_stream) {
 
 std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 		const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material) {
+	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::COPY_TARGET |
+			(p_mesh->is_deformable() ? BufferUsage::STORAGE : BufferUsage::VERTEX); // of tangents
 	const auto upload = [&](const char *p_what, const auto &p_values) {
 		if (p_values.empty()) {
 			return OwnedBuffer();
@@ -230,9 +232,7 @@ std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 		const std::span<const uint8_t> bytes = bytes_of(std::span(p_values));
 		return OwnedBuffer(device,
 				device.create_buffer_with_data(
-						{ text(p_mesh->name, " ", p_what), bytes.size(),
-								BufferUsage::VERTEX | BufferUsage::COPY_TARGET },
-						bytes));
+						{ text(p_mesh->name, " ", p_what), bytes.size(), usage }, bytes));
 	};
 	const MeshAttributes &attributes = p_mesh->attributes;
 	const GpuAttributes &uploaded = r_meshes.get_derived<GpuAttributes>(p_mesh, [&] {
@@ -254,6 +254,9 @@ std::array<VertexStream, 4> MaterialStore::get_streams(MeshStore &r_meshes,
 							: r_meshes.get_derived<MadeTangents<1>>(
 											  p_mesh, [&] { return MadeTangents<1>{ make() }; })
 									  .buffer.get();
+	}
+	if (tangents && p_mesh->rest) {
+		tangents = r_meshes.get_deformed_tangents(p_mesh, tangents);
 	}
 	std::array<VertexStream, 4> streams;
 	const BufferRID buffers[] = { uploaded.uvs[0].get(), uploaded.uvs[1].get(), tangents,

@@ -83,6 +83,8 @@ std::vector<PassTiming> RenderResult::find_light_passes(const std::string &p_lig
 		if (timing.name.starts_with(prefix)) {
 			passes.push_back(timing);
 			passes.back().name.erase(0, prefix.size());
+		} else if (timing.name == DEFORM_PASS_NAME) { // each light needs it
+			passes.push_back(timing);
 		}
 	}
 	return passes;

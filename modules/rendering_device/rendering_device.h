@@ -215,6 +215,18 @@ private:
 	Handle handle;
 };
 using OwnedBuffer = Owned<BufferRID>;
+/// Several owners of one buffer: the last one frees it.
+class SharedBuffer {
+public:
+	SharedBuffer() = default;
+	SharedBuffer(OwnedBuffer p_buffer) :
+			buffer(std::make_shared<const OwnedBuffer>(std::move(p_buffer))) {}
+	BufferRID get() const { return buffer ? buffer->get() : BufferRID(); }
+	explicit operator bool() const { return bool(get()); }
+
+private:
+	std::shared_ptr<const OwnedBuffer> buffer;
+};
 using OwnedTexture = Owned<TextureRID>;
 using OwnedSampler = Owned<SamplerRID>;
 using OwnedMemory = Owned<MemoryRID>;

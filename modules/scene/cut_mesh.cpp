@@ -19,6 +19,26 @@ namespace {
 const double CUTOFF_OF_NOTHING = 2; // no texel has so much alpha
 const double CUTOFF_STEPS = 32;		// an outline of 2048 x 2048 texels takes a tenth of a second
 
+/// Barycentric coordinates of a point of a triangle; of one without area, along its longest side.
+glm::vec3 compute_shares(const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b,
+		const glm::dvec3 &p_c) {
+	const glm::dvec3 ab = p_b - p_a;
+	const glm::dvec3 ac = p_c - p_a;
+	const glm::dvec3 normal = glm::cross(ab, ac);
+	const double square = glm::dot(normal, normal);
+	const glm::dvec3 way = p_point - p_a;
+	if (square > 0) {
+		const double b = glm::dot(glm::cross(way, ac), normal) / square;
+		const double c = glm::dot(glm::cross(ab, way), normal) / square;
+		return glm::vec3(1.0 - b - c, b, c);
+	}
+	const bool is_ab = glm::dot(ab, ab) >= glm::dot(ac, ac);
+	const glm::dvec3 side = is_ab ? ab : ac;
+	const double length = glm::dot(side, side);
+	const double share = length > 0 ? glm::dot(way, side) / length : 0.0;
+	return is_ab ? glm::vec3(1.0 - share, share, 0) : glm::vec3(1.0 - share, 0, share);
+}
+
 /// Cuts the triangles one after another. Those that are whole wait until it is known where their
 /// neighbours' cuts meet their sides.
 class MeshCutter {
@@ -40,6 +60,7 @@ private:
 	void add_whole(uint32_t p_triangle);
 	uint32_t add_point(const glm::vec3 &p_position);
 	void add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t p_source);
+	std::vector<TrianglePoint> find_points() const;
 
 	const Mesh &mesh;
 	const Material &material;
@@ -239,8 +260,24 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 	if (indices.empty()) {
 		return nullptr;
 	}
+	std::vector<TrianglePoint> points =
+			mesh.attributes.rig ? find_points() : std::vector<TrianglePoint>();
 	return make_mesh(mesh.name, std::move(positions), {}, std::move(indices), {},
-			MeshSource{ p_mesh, std::move(sources) });
+			MeshSource{ p_mesh, std::move(sources), std::move(points) });
+}
+
+/// Where each point lies in one of the triangles that have it: those at a side have the same place
+/// in both, up to rounding, and are one point.
+std::vector<TrianglePoint> MeshCutter::find_points() const {
+	std::vector<TrianglePoint> points(positions.size());
+	for (size_t corner = 0; corner < indices.size(); ++corner) {
+		const uint32_t *source = &mesh.indices[3 * size_t(sources[corner / 3])];
+		TrianglePoint &point = points[indices[corner]];
+		point.corners = { source[0], source[1], source[2] };
+		point.shares = compute_shares(positions[indices[corner]], mesh.positions_node[source[0]],
+				mesh.positions_node[source[1]], mesh.positions_node[source[2]]);
+	}
+	return points;
 }
 
 /// All of a material that decides how a mesh is cut.

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
+#include "modules/scene/mesh_rig.h"
 
 #include <atomic>
 #include <cmath>
@@ -17,6 +18,11 @@ const double UNIT_TOLERANCE = 1e-6;
 
 bool is_finite(const glm::vec3 &p_vector) {
 	return std::isfinite(p_vector.x) && std::isfinite(p_vector.y) && std::isfinite(p_vector.z);
+}
+
+uint64_t make_mesh_id() {
+	static std::atomic<uint64_t> next_id = 1;
+	return next_id++;
 }
 
 void check_mesh(const Mesh &p_mesh) {
@@ -42,6 +48,11 @@ void check_mesh(const Mesh &p_mesh) {
 					" vertex attributes of a kind, must be 0 or ", vertex_count,
 					", one per position. Export it again.");
 		}
+	}
+	if (attributes.rig && attributes.rig->vertex_count != vertex_count) {
+		fail("Mesh \"", p_mesh.name, "\" has joints or morph targets of ",
+				attributes.rig->vertex_count, " vertices, must be ", vertex_count,
+				", one per position. Export it again.");
 	}
 	for (size_t index = 0; index < vertex_count; ++index) {
 		if (!is_finite(p_mesh.positions_node[index])) {
@@ -102,7 +113,6 @@ void repair_normals(Mesh &r_mesh) {
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
 		MeshAttributes p_attributes, MeshSource p_source) {
-	static std::atomic<uint64_t> next_id = 1;
 	auto mesh = std::make_shared<Mesh>();
 	mesh->name = std::move(p_name);
 	mesh->positions_node = std::move(p_positions_node);
@@ -120,7 +130,20 @@ std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3>
 			bytes_of(std::span<const glm::vec3>(mesh->normals_node)), mesh->content_hash);
 	mesh->content_hash =
 			compute_hash(bytes_of(std::span<const uint32_t>(mesh->indices)), mesh->content_hash);
-	mesh->id = next_id++;
+	if (mesh->attributes.rig) {
+		mesh->content_hash =
+				compute_value_hash(mesh->attributes.rig->content_hash, mesh->content_hash);
+	}
+	mesh->id = make_mesh_id();
+	return mesh;
+}
+
+std::shared_ptr<const Mesh> make_deformed_mesh(
+		const std::shared_ptr<const Mesh> &p_rest, uint64_t p_slot_id) {
+	auto mesh = std::make_shared<Mesh>(*p_rest);
+	mesh->rest = p_rest;
+	mesh->slot_id = p_slot_id;
+	mesh->id = make_mesh_id();
 	return mesh;
 }
 

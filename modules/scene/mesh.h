@@ -41,6 +41,9 @@ struct Bounds {
 /// Of a box's corners after a transform; not for an empty one.
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source);
 
+struct Mesh;
+struct MeshRig;
+
 /// Vertex attributes other than position and normal. Each list is empty or has one element a
 /// vertex.
 struct MeshAttributes {
@@ -48,16 +51,22 @@ struct MeshAttributes {
 	/// Where x of the first coordinates of a normal map grows on the surface; w: 1 or -1, whether y
 	/// grows along their cross product with the normal (normal first) or against it.
 	std::vector<glm::vec4> tangents;
-	std::vector<glm::vec4> colors; // linear, and alpha
+	std::vector<glm::vec4> colors;		// linear, and alpha
+	std::shared_ptr<const MeshRig> rig; // how the mesh deforms; null: it does not
 };
 
-struct Mesh;
+/// A point of a triangle: where it is when the corners have moved.
+struct TrianglePoint {
+	glm::uvec3 corners = glm::uvec3(0);	   // vertices
+	glm::vec3 shares = glm::vec3(1, 0, 0); // barycentric, sum 1
+};
 
 /// Of a mesh that was cut out of another: in which of its triangles each one lies. Their planes are
 /// the source's, as rounding bends those of small triangles.
 struct MeshSource {
 	std::weak_ptr<const Mesh> mesh; // null: the mesh is its own
 	std::vector<uint32_t> triangles;
+	std::vector<TrianglePoint> points; // one a vertex, where the source has a rig; else empty
 };
 
 /// Triangles of one material. Immutable once shared; identified by `id`.
@@ -68,11 +77,17 @@ struct Mesh {
 	MeshAttributes attributes;
 	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
 	MeshSource source;
+	/// Of a mesh that poses deform (PoseSlot): the mesh at rest, whose triangles and attributes it
+	/// has. Its own vertices are those at rest, too; only the GPU's are deformed. Null: none does.
+	std::shared_ptr<const Mesh> rest;
+	uint64_t slot_id = 0; // of that slot
 	Bounds bounds_node;
 	uint64_t id = 0;		   // unique in the process, see make_mesh
-	uint64_t content_hash = 0; // of positions, normals and indices
+	uint64_t content_hash = 0; // of positions, normals, indices and rig
 
 	uint32_t get_triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
+	/// Whether a pose may move its vertices against each other.
+	bool is_deformable() const { return attributes.rig || !source.points.empty(); }
 };
 
 /// Checks sizes and indices (a mistake is an Error naming the mesh), fills missing or unusable
@@ -81,6 +96,9 @@ struct Mesh {
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
 		MeshAttributes p_attributes = {}, MeshSource p_source = {});
+/// The same triangles under an id of their own, for vertices that a pose sets; see Mesh::rest.
+std::shared_ptr<const Mesh> make_deformed_mesh(
+		const std::shared_ptr<const Mesh> &p_rest, uint64_t p_slot_id);
 
 /// Tangents of a mesh for coordinates of a normal map, where it has none of its own: of each vertex
 /// the sum over its faces, weighted by their angles there, at right angles to its normal. Vertices

@@ -1,7 +1,9 @@
 // The members of nodes, meshes and cameras that are properties, and copies of them.
 
 #include "modules/core/error.h"
+#include "modules/scene/mesh_rig.h"
 #include "modules/scene/node_members.h"
+#include "modules/scene/skin_places.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/euler_angles.hpp>
@@ -159,16 +161,34 @@ void MeshInstance3D::assign(const Node3D &p_other) {
 	Node3D::assign(p_other);
 	const MeshInstance3D &other = to<MeshInstance3D>(p_other);
 	surfaces = other.surfaces;
+	skin = other.skin;
+	morph_weights = other.morph_weights;
 	casts_shadow = other.casts_shadow;
 	is_planar_receiver = other.is_planar_receiver;
 }
 
 Bounds MeshInstance3D::compute_bounds() const {
 	Bounds bounds;
-	for (const Surface &surface : surfaces) {
-		if (surface.mesh && !surface.mesh->indices.empty()) {
-			bounds.add(transform_bounds(surface.mesh->bounds_node, compute_world_from_node()));
+	SkinPlaces places;
+	if (skin) {
+		const Node3D *root = this;
+		while (root->parent) {
+			root = root->parent;
 		}
+		places = place_skin(*skin, compute_world_transforms(*root));
+	}
+	const glm::dmat4 world_from_node = compute_world_from_node();
+	for (const Surface &surface : surfaces) {
+		if (!surface.mesh || surface.mesh->indices.empty()) {
+			continue;
+		}
+		const MeshRig *rig = surface.mesh->attributes.rig.get();
+		const bool is_skinned = skin && rig && rig->joint_count > 0;
+		const Bounds own = rig ? bound_deformed_vertices(*surface.mesh,
+										 is_skinned ? places.joints : std::vector<glm::dmat4>(),
+										 get_morph_weights())
+							   : surface.mesh->bounds_node;
+		bounds.add(transform_bounds(own, is_skinned ? places.world_from_mesh : world_from_node));
 	}
 	return bounds;
 }

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/limits.h"
+#include "modules/scene/mesh_pose.h"
 
 #include <algorithm>
 
@@ -30,11 +31,25 @@ std::unique_ptr<Node3D> Node3D::remove_child(const Node3D &p_child) {
 }
 
 glm::dmat4 Node3D::compute_world_from_node() const {
-	glm::dmat4 world_from_node = parent_from_node;
+	glm::dmat4 world_from_node = get_parent_from_node();
 	for (const Node3D *ancestor = parent; ancestor; ancestor = ancestor->parent) {
-		world_from_node = ancestor->parent_from_node * world_from_node;
+		world_from_node = ancestor->get_parent_from_node() * world_from_node;
 	}
 	return world_from_node;
+}
+
+std::shared_ptr<PoseSlot> MeshInstance3D::get_pose_slot(
+		const std::shared_ptr<const Mesh> &p_mesh) const {
+	std::erase_if(pose_slots, [&](const auto &p_item) { // of surfaces that are gone
+		return std::none_of(surfaces.begin(), surfaces.end(), [&](const Surface &p_surface) {
+			return p_surface.mesh && p_surface.mesh->id == p_item.first;
+		});
+	});
+	std::shared_ptr<PoseSlot> &slot = pose_slots[p_mesh->id];
+	if (!slot) {
+		slot = std::make_shared<PoseSlot>(p_mesh);
+	}
+	return slot;
 }
 
 void Scene::fail_unknown_node(const char *p_kind, const std::string &p_name,

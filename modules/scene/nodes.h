@@ -7,13 +7,17 @@
 #include <glm/glm.hpp>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
+struct Animation;
 struct NodeField;
+class PoseSlot;
 
 /// A ring or disc that a viewport draws for a node, in its space without its scale, and what a
 /// handle on it changes.
@@ -34,6 +38,8 @@ class Node3D {
 public:
 	std::string name; // unique in its scene
 	glm::dmat4 parent_from_node = glm::dmat4(1.0);
+	/// Where an animation has the node now, in place of the above. Not saved, nor copied.
+	std::optional<glm::dmat4> posed_parent_from_node;
 	std::vector<std::unique_ptr<Node3D>> children;
 	Node3D *parent = nullptr; // null at the root; set by add_child
 	/// Index of this node in the file it came from, or -1. Saving uses it to keep what the program
@@ -68,7 +74,20 @@ public:
 	Node3D *insert_child(std::unique_ptr<Node3D> p_child, size_t p_index);
 	/// Takes a child out of the tree.
 	std::unique_ptr<Node3D> remove_child(const Node3D &p_child);
+	const glm::dmat4 &get_parent_from_node() const {
+		return posed_parent_from_node ? *posed_parent_from_node : parent_from_node;
+	}
+	/// As posed.
 	glm::dmat4 compute_world_from_node() const;
+};
+
+/// Joints, and what each takes to its own space. Nodes are named by Node3D::file_index: they are
+/// found whatever the user calls them and wherever they hang.
+struct Skin {
+	std::vector<int> joints;
+	std::vector<glm::dmat4> joint_from_mesh; // inverse bind matrices, one a joint
+	/// The nearest node above all joints: as it moves, the mesh moves whole. -1: the world.
+	int frame = -1;
 };
 
 /// One or more meshes at a place; a mesh has one material.
@@ -79,14 +98,26 @@ public:
 		std::shared_ptr<const Material> material;
 	};
 	std::vector<Surface> surfaces;
+	std::shared_ptr<const Skin> skin; // of the surfaces that have joints; null: none has
+	std::vector<float> morph_weights; // of the targets of each surface
+	std::optional<std::vector<float>> posed_morph_weights; // by an animation; not saved, nor copied
 	bool casts_shadow = true;
 	bool is_planar_receiver = false; // extras.shadow_planar_receiver
+
+	const std::vector<float> &get_morph_weights() const {
+		return posed_morph_weights ? *posed_morph_weights : morph_weights;
+	}
+	/// The slot of a surface's mesh, which has a rig; made when first asked for.
+	std::shared_ptr<PoseSlot> get_pose_slot(const std::shared_ptr<const Mesh> &p_mesh) const;
 
 	const char *get_class_name() const override { return "MeshInstance3D"; }
 	Bounds compute_bounds() const override;
 	const std::vector<NodeField> &get_fields() const override;
 	std::unique_ptr<Node3D> copy() const override;
 	void assign(const Node3D &p_other) override;
+
+private:
+	mutable std::map<uint64_t, std::shared_ptr<PoseSlot>> pose_slots; // by the mesh's id
 };
 
 enum class LightType { OMNI, SPOT, DIRECTIONAL };
@@ -152,6 +183,7 @@ public:
 	std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
 	/// S in metres (TECHNIQUES, section 0): extras.scene_size. 0 = the diagonal of the casters.
 	double scene_size_m = 0;
+	std::vector<std::shared_ptr<const Animation>> animations;
 	std::shared_ptr<SceneDocument> document;
 
 	/// Nodes of one class, in tree order.

@@ -5,35 +5,18 @@
 #include "modules/core/limits.h"
 #include "modules/scene/cut_levels.h"
 #include "modules/scene/cut_mesh.h"
+#include "modules/scene/mesh_pose.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gnomon {
 
 namespace {
 
-const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
 // Volume of the unit axes' parallelepiped below which an orientation is rounding noise.
 const double FLATTEST_AXES = 1e-9;
-
-bool is_finite(const glm::dmat4 &p_matrix) {
-	for (int column = 0; column < 4; ++column) {
-		for (int row = 0; row < 4; ++row) {
-			if (!std::isfinite(p_matrix[column][row])) {
-				return false;
-			}
-		}
-	}
-	return true;
-}
-
-void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) {
-	if (!is_finite(p_world_from_node)) {
-		fail("Node \"", p_node.name, "\": its transform to the world is not finite. Correct it or ",
-				"one of its parents' transforms.");
-	}
-}
 
 /// A property as every technique must read it. Values come checked from files and the inspector;
 /// code may set anything.
@@ -51,29 +34,6 @@ PropertyValue read_property(const LightSnapshot &p_light, std::string_view p_nam
 
 float read_float(const LightSnapshot &p_light, std::string_view p_name) {
 	return static_cast<float>(std::get<double>(read_property(p_light, p_name)));
-}
-
-CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
-	const glm::dmat4 world_from_node = p_camera.compute_world_from_node();
-	check_transform(p_camera, world_from_node);
-	CameraSnapshot snapshot;
-	snapshot.name = p_camera.name;
-	snapshot.position_world = glm::dvec3(world_from_node[3]);
-	snapshot.world_from_camera = compute_orientation(world_from_node, "Camera", p_camera.name);
-	snapshot.vertical_fov_rad = p_camera.vertical_fov_rad;
-	snapshot.near_m = p_camera.near_m;
-	return snapshot;
-}
-
-LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
-	check_transform(p_light, p_world_from_node);
-	LightSnapshot snapshot;
-	static_cast<LightSettings &>(snapshot) = p_light;
-	snapshot.name = p_light.name;
-	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
-	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
-	snapshot.file_path = p_light.file_path;
-	return snapshot;
 }
 
 /// The longest of the cross products of a matrix's columns.
@@ -111,38 +71,6 @@ void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	}
 }
 
-/// Fills the snapshot from the tree, with the transform to the world carried along: asking every
-/// node to compute its own would cost the square of the depth.
-struct TreeReader {
-	SceneSnapshot &snapshot;
-
-	void read(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
-		const glm::dmat4 world_from_node = p_world_from_parent * p_node.parent_from_node;
-		check_transform(p_node, world_from_node);
-		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
-			snapshot.lights.push_back(build_light_snapshot(*light, world_from_node));
-		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
-			read_surfaces(*instance, world_from_node);
-		}
-		for (const std::unique_ptr<Node3D> &child : p_node.children) {
-			read(*child, world_from_node);
-		}
-	}
-
-	void read_surfaces(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
-		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
-			if (!surface.mesh || surface.mesh->indices.empty()) {
-				continue;
-			}
-			snapshot.instances.push_back(
-					make_instance(surface.mesh, surface.material, p_world_from_node, p_node.name));
-			InstanceSnapshot &instance = snapshot.instances.back();
-			instance.casts_shadow = instance.casts_shadow && p_node.casts_shadow;
-			instance.is_planar_receiver = p_node.is_planar_receiver;
-		}
-	}
-};
-
 /// Of an instance that is cut out, the level of detail that suits a light; else what it casts.
 std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
@@ -155,7 +83,17 @@ std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instanc
 	const double radius = p_light.compute_widest_image(p_instance.bounds_world, p_scene_bounds);
 	const CutLevels &levels = *p_instance.caster_levels;
 	const std::shared_ptr<const Mesh> mesh = levels.get_mesh(levels.choose_level(radius / scale));
-	return mesh ? mesh : p_instance.caster_mesh;
+	if (!mesh) {
+		return p_instance.caster_mesh;
+	}
+	return p_instance.pose_slot ? p_instance.pose_slot->get_deformed(mesh) : mesh;
+}
+
+void check_bounds(const InstanceSnapshot &p_instance) {
+	if (!std::isfinite(p_instance.bounds_world.get_diagonal())) {
+		fail("Node \"", p_instance.node_name, "\": its vertices are not finite in the world. Make ",
+				"its scale smaller.");
+	}
 }
 
 } // namespace
@@ -196,12 +134,34 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 	instance.node_name = p_node_name;
 	instance.world_from_node = p_world_from_node;
 	thicken_if_flat(instance.world_from_node);
+	instance.caster_bounds_node = instance.caster_mesh->bounds_node;
 	instance.bounds_world = transform_bounds(instance.mesh->bounds_node, instance.world_from_node);
-	if (!std::isfinite(instance.bounds_world.get_diagonal())) {
-		fail("Node \"", p_node_name, "\": its vertices are not finite in the world. Make ",
-				"its scale smaller.");
-	}
+	check_bounds(instance);
 	return instance;
+}
+
+void InstanceSnapshot::set_pose(
+		std::shared_ptr<PoseSlot> p_slot, std::shared_ptr<const MeshPose> p_pose) {
+	pose_slot = std::move(p_slot);
+	pose = std::move(p_pose);
+	const bool casts_itself = caster_mesh == mesh;
+	mesh = pose_slot->get_deformed(mesh);
+	caster_mesh = casts_itself ? mesh : pose_slot->get_deformed(caster_mesh);
+	caster_bounds_node = pose->get_bounds();
+	bounds_world = transform_bounds(pose->get_bounds(), world_from_node);
+	check_bounds(*this);
+}
+
+std::shared_ptr<const Mesh> InstanceSnapshot::get_posed_mesh() const {
+	return pose ? pose->get_mesh(mesh->rest) : mesh;
+}
+
+std::shared_ptr<const Mesh> InstanceSnapshot::get_posed_caster_mesh() const {
+	return pose ? pose->get_mesh(caster_mesh->rest) : caster_mesh;
+}
+
+uint64_t InstanceSnapshot::get_pose_hash() const {
+	return pose ? pose->get_hash() : 0;
 }
 
 uint64_t CameraSnapshot::compute_hash(uint64_t p_seed) const {
@@ -256,6 +216,7 @@ uint64_t LightSnapshot::compute_hash(uint64_t p_seed) const {
 
 uint64_t InstanceSnapshot::compute_hash(uint64_t p_seed) const {
 	uint64_t hash = compute_value_hash(mesh->content_hash, p_seed);
+	hash = compute_value_hash(get_pose_hash(), hash);
 	hash = compute_value_hash(outline_hash, hash);
 	hash = compute_value_hash(world_from_node, hash);
 	hash = compute_value_hash(casts_shadow, hash);
@@ -333,21 +294,6 @@ Bounds SceneSnapshot::compute_caster_bounds() const {
 		}
 	}
 	return bounds;
-}
-
-std::shared_ptr<const SceneSnapshot> build_snapshot(
-		const Scene &p_scene, const Camera3D &p_camera) {
-	auto snapshot = std::make_shared<SceneSnapshot>();
-	snapshot->camera = build_camera_snapshot(p_camera);
-	TreeReader reader{ *snapshot };
-	reader.read(*p_scene.root, glm::dmat4(1.0));
-	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
-	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M,
-			has_own_size ? p_scene.scene_size_m : snapshot->compute_caster_bounds().get_diagonal());
-	for (LightSnapshot &light : snapshot->lights) {
-		light.decide_settings(snapshot->scene_size_m);
-	}
-	return snapshot;
 }
 
 } // namespace gnomon

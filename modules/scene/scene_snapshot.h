@@ -60,6 +60,8 @@ struct LightSnapshot : LightSettings {
 };
 
 class CutLevels;
+class MeshPose;
+class PoseSlot;
 
 struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> mesh;
@@ -67,21 +69,33 @@ struct InstanceSnapshot {
 	std::shared_ptr<const Mesh> caster_mesh;
 	std::shared_ptr<const CutLevels> caster_levels; // see CutMesh::levels
 	std::shared_ptr<const Material> material;
+	/// Where the vertices of a mesh with a rig are, and the slot whose meshes those two are then.
+	/// Null: at rest.
+	std::shared_ptr<const MeshPose> pose;
+	std::shared_ptr<PoseSlot> pose_slot;
 	std::string node_name; // for messages
 	glm::dmat4 world_from_node = glm::dmat4(1.0);
 	Bounds bounds_world;
+	Bounds caster_bounds_node;			// of caster_mesh, as posed
 	uint32_t outline_block_size_px = 0; // see CutMesh
 	uint64_t outline_hash = 0;			// see CutMesh::content_hash
 	bool casts_shadow = true;
 	bool is_planar_receiver = false;
 	uint32_t layers = 1; // see LightSnapshot::caster_layers
 
+	/// Gives a mesh at rest its pose. The slot is that of the mesh.
+	void set_pose(std::shared_ptr<PoseSlot> p_slot, std::shared_ptr<const MeshPose> p_pose);
+	/// The two meshes with their vertices as posed, for what runs on the CPU.
+	std::shared_ptr<const Mesh> get_posed_mesh() const;
+	std::shared_ptr<const Mesh> get_posed_caster_mesh() const;
+	/// Of the pose; 0 where there is none.
+	uint64_t get_pose_hash() const;
 	/// True when the transform turns the mesh inside out, so that front faces wind the other way.
 	bool is_mirrored() const;
 	/// What it leaves of the light that meets it, see Material::compute_transmittance.
 	glm::vec3 compute_transmittance() const;
-	/// Of all that its shadow depends on: its mesh's content, its place, and what it leaves of
-	/// light.
+	/// Of all that its shadow depends on: its mesh's content, its pose and place, and what it
+	/// leaves of light.
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
 /// One that casts a shadow, as build_snapshot makes it. A transform that presses the mesh flat gets
@@ -102,7 +116,7 @@ struct SceneSnapshot {
 	CameraSnapshot camera;
 	std::vector<LightSnapshot> lights;
 	std::vector<InstanceSnapshot> instances;
-	double scene_size_m = 0; // S; at least 1e-9
+	double scene_size_m = 0; // S; at least 1e-9; that of the scene which no animation poses
 
 	/// Camera-relative space: the world's axes with the camera at the origin.
 	glm::vec3 to_camera_relative(const glm::dvec3 &p_position_world) const {

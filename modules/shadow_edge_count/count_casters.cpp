@@ -102,6 +102,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
 	std::set<uint32_t> with_faces;
+	bool is_deformed = false; // faces are elsewhere than the CPU has them
 	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
@@ -117,6 +118,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 			continue;
 		}
 		with_faces.insert(index);
+		is_deformed = is_deformed || instance.pose;
 		result.may_cut_disc = result.may_cut_disc ||
 				(!is_directional && p_disc_radius > 0 &&
 						is_near_light(instance, first, p_disc_radius));
@@ -126,6 +128,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 				p_inputs.meshes.get_topology(instance.caster_mesh, TopologyPart::POSITIONS)
 						.positions.get();
 		caster.mesh_id = instance.caster_mesh->id;
+		caster.pose_hash = instance.get_pose_hash();
 		caster.push = { glm::mat4(first.view_from_world * instance.world_from_node), gpu.face_count,
 			result.face_count, gpu.edge_count, result.word_count, result.block_count,
 			(volume < 0 ? EDGE_COUNT_CASTER_MIRRORED : 0u) |
@@ -146,6 +149,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	if (last != result.casters.rend()) {
 		last->push.flags |= EDGE_COUNT_CASTER_LAST;
 	}
+	const bool is_bounded = result.face_count <= MAX_BOUNDED_FACES && !is_deformed;
 	for (const uint32_t view : view_indices) {
 		uint64_t bound = 0;
 		uint32_t face_count = 0;
@@ -158,16 +162,15 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
 		// All casters: also those known to lie beside the view.
 		for (const uint32_t index : with_faces) {
-			if (result.face_count <= MAX_BOUNDED_FACES) {
+			if (is_bounded) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 				bound += compute_node_bound(*get_topology(instance.caster_mesh),
 						p_inputs.views[view].compute_clip_from_node(instance.world_from_node),
 						glm::vec2(p_inputs.views[view].size_px));
 			}
 		}
-		result.node_bound = result.face_count > MAX_BOUNDED_FACES
-				? CountCasters::UNKNOWN_COUNT
-				: std::max(result.node_bound, bound);
+		result.node_bound =
+				is_bounded ? std::max(result.node_bound, bound) : CountCasters::UNKNOWN_COUNT;
 	}
 	return result;
 }
@@ -175,8 +178,9 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters) {
 	for (size_t index = 0; index < r_casters.casters.size(); ++index) {
 		CountCaster &caster = r_casters.casters[index];
-		caster.is_moved =
-				caster.push.light_from_node != p_before.casters[index].push.light_from_node;
+		const CountCaster &before = p_before.casters[index];
+		caster.is_moved = caster.push.light_from_node != before.push.light_from_node ||
+				caster.pose_hash != before.pose_hash;
 	}
 }
 

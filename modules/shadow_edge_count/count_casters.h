@@ -12,6 +12,7 @@ struct CountCaster {
 	const CountGpuMesh *gpu = nullptr; // lives as long as the mesh, which the frame's scene holds
 	BufferRID positions;			   // likewise; vec4 per welded vertex
 	uint64_t mesh_id = 0;
+	uint64_t pose_hash = 0;
 	shader::CountCasterPush push;
 	bool is_moved = true; // since the light's faces and edges were found the last time
 };
@@ -25,7 +26,7 @@ struct CountCasters {
 	uint32_t block_count = 0;
 	uint32_t flat_instance_count = 0; // with a singular transform: they hide nothing
 	/// Nodes that the face lists of any one view may have at most; UNKNOWN_COUNT where there are
-	/// too many faces to look at each.
+	/// too many faces to look at each, or poses deform some.
 	uint64_t node_bound = 0;
 	bool may_cut_disc = false; // some caster comes as near to the light's centre as R
 	uint32_t empty_views = 0;  // bit i: no caster of view i has a face

@@ -16,10 +16,10 @@ const double SAME_OFFSET = 1e-5; // of S
 const double GRAZING = 1e-6; // a height in parts of S, or a cosine: a lower light lights nothing
 
 /// A face's plane, its normal towards the light where the mesh has two sides.
-ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const LightSnapshot &p_light,
-		const CameraSnapshot &p_camera, const uint32_t *p_corners) {
+ReceiverPlane make_plane(const InstanceSnapshot &p_instance, const Mesh &p_mesh,
+		const LightSnapshot &p_light, const CameraSnapshot &p_camera, const uint32_t *p_corners) {
 	const auto get_corner = [&](int p_corner) {
-		const glm::dvec3 position_node(p_instance.mesh->positions_node[p_corners[p_corner]]);
+		const glm::dvec3 position_node(p_mesh.positions_node[p_corners[p_corner]]);
 		return glm::dvec3(p_instance.world_from_node * glm::dvec4(position_node, 1.0)) -
 				p_camera.position_world;
 	};
@@ -52,9 +52,11 @@ bool is_lit(
 std::vector<ReceiverPlane> group_faces(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const SceneSnapshot &p_scene, double &r_lit_area_m2) {
 	std::vector<ReceiverPlane> groups;
-	const std::vector<uint32_t> &indices = p_instance.mesh->indices;
+	const std::shared_ptr<const Mesh> mesh = p_instance.get_posed_mesh();
+	const std::vector<uint32_t> &indices = mesh->indices;
 	for (size_t first = 0; first + 2 < indices.size(); first += 3) {
-		const ReceiverPlane face = make_plane(p_instance, p_light, p_scene.camera, &indices[first]);
+		const ReceiverPlane face =
+				make_plane(p_instance, *mesh, p_light, p_scene.camera, &indices[first]);
 		if (!is_lit(face, p_light, p_scene)) {
 			continue;
 		}

@@ -10,10 +10,11 @@ void add_triangles(
 		const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance, Triangles &r_triangles) {
 	const glm::mat4 matrix = p_scene.get_camera_relative_from_node(p_instance);
 	const uint32_t first = static_cast<uint32_t>(r_triangles.positions.size());
-	for (const glm::vec3 &position : p_instance.mesh->positions_node) {
+	const std::shared_ptr<const Mesh> mesh = p_instance.get_posed_mesh();
+	for (const glm::vec3 &position : mesh->positions_node) {
 		r_triangles.positions.push_back(glm::vec3(matrix * glm::vec4(position, 1.0f)));
 	}
-	for (uint32_t index : p_instance.mesh->indices) {
+	for (uint32_t index : mesh->indices) {
 		r_triangles.indices.push_back(first + index);
 	}
 }

@@ -11,8 +11,9 @@ namespace {
 uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters) {
 	uint64_t key = 1;
 	for (const SilhouetteCaster &caster : p_casters.casters) {
-		key = compute_value_hash(
-				p_inputs.scene.instances[caster.instance_index].caster_mesh->id, key);
+		const InstanceSnapshot &instance = p_inputs.scene.instances[caster.instance_index];
+		key = compute_value_hash(instance.caster_mesh->id, key);
+		key = compute_value_hash(instance.get_pose_hash(), key);
 		key = compute_value_hash(caster.light_node, key);
 		key = compute_value_hash(caster.vertices_per_edge, key);
 	}

@@ -41,7 +41,7 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 /// may move an occluder by must be small beside the gap that cull.comp leaves to it, or it could
 /// come to lie before a caster that is behind it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
-	const Bounds &box = p_instance.caster_mesh->bounds_node;
+	const Bounds &box = p_instance.caster_bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
 	double scale = 0;
 	for (int axis = 0; axis < 3; ++axis) {

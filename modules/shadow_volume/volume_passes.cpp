@@ -90,8 +90,9 @@ std::vector<VolumeDraw> build_draws(RenderGraph &r_graph, const ShadowTechnique:
 			p_inputs.meshes.get_topology(instance.caster_mesh,
 					TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
 		} else if (caster.maker == VolumeMaker::CPU) {
-			const std::vector<glm::vec4> corners = build_cpu_volume(
-					*caster.gpu->topology, glm::dvec4(caster.light_node), caster.shape);
+			const auto topology = get_topology(instance.get_posed_caster_mesh());
+			const std::vector<glm::vec4> corners =
+					build_cpu_volume(*topology, glm::dvec4(caster.light_node), caster.shape);
 			if (corners.empty()) {
 				continue;
 			}

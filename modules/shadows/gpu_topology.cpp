@@ -78,7 +78,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 		return;
 	}
 	const std::shared_ptr<const Mesh> named = mesh.lock();
-	const auto make = [&](TopologyPart p_part, OwnedBuffer &r_buffer, const char *p_what,
+	const auto make = [&](TopologyPart p_part, auto &r_buffer, const char *p_what,
 							  BufferUsage p_usage, auto p_build) {
 		if (r_buffer || (uint32_t(p_parts) & uint32_t(p_part)) == 0) {
 			return;
@@ -90,6 +90,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 						{ text(named ? named->name : "mesh", " ", p_what), bytes.size(),
 								p_usage | BufferUsage::COPY_TARGET },
 						bytes));
+		pose_hash = 0; // whatever is posed already is posed again
 	};
 	const auto widen = [](const std::vector<glm::vec3> &p_values, float p_w) {
 		std::vector<glm::vec4> wide;
@@ -112,6 +113,13 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 			[&] { return build_face_flags(source); });
 	make(TopologyPart::ADJACENCY, adjacency_indices, "adjacency", BufferUsage::INDEX,
 			[&] { return source.adjacency_indices; });
+}
+
+void GpuTopology::share(const GpuTopology &p_rest) {
+	edges = p_rest.edges;
+	triangles = p_rest.triangles;
+	face_flags = p_rest.face_flags;
+	adjacency_indices = p_rest.adjacency_indices;
 }
 
 } // namespace gnomon

@@ -23,16 +23,23 @@ enum class TopologyPart : uint32_t {
 constexpr TopologyPart operator|(TopologyPart p_left, TopologyPart p_right) {
 	return TopologyPart(uint32_t(p_left) | uint32_t(p_right));
 }
+constexpr TopologyPart operator&(TopologyPart p_left, TopologyPart p_right) {
+	return TopologyPart(uint32_t(p_left) & uint32_t(p_right));
+}
+constexpr TopologyPart operator~(TopologyPart p_parts) {
+	return TopologyPart(~uint32_t(p_parts));
+}
 
 /// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them. Node space.
 /// Buffers are there once somebody asked for them, see MeshStore::get_topology.
 struct GpuTopology {
-	OwnedBuffer positions;		   // VERTEX | STORAGE, vec4 per welded vertex, w = 1
-	OwnedBuffer normals;		   // VERTEX | STORAGE, vec4; zero where the faces cancel
-	OwnedBuffer edges;			   // STORAGE, shader::TopologyEdge, see order_edges_by_face
-	OwnedBuffer triangles;		   // STORAGE, three welded vertices per face
-	OwnedBuffer face_flags;		   // STORAGE, one word per face, TOPOLOGY_FACE_*
-	OwnedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
+	OwnedBuffer positions;			// VERTEX | STORAGE, vec4 per welded vertex, w = 1
+	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the faces cancel
+	SharedBuffer edges;				// STORAGE, shader::TopologyEdge, see order_edges_by_face
+	SharedBuffer triangles;			// STORAGE, three welded vertices per face
+	SharedBuffer face_flags;		// STORAGE, one word per face, TOPOLOGY_FACE_*
+	SharedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
+	uint64_t pose_hash = 0;			// of the pose that positions and normals have; 0: at rest
 	uint32_t edge_count = 0;
 	uint32_t adjacency_index_count = 0;
 	std::shared_ptr<const MeshTopology> topology;
@@ -40,8 +47,10 @@ struct GpuTopology {
 
 	/// A mesh whose triangles all collapse has no edges, and never a buffer.
 	explicit GpuTopology(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Those parts that are not there yet.
+	/// Those parts that are not there yet. New positions and normals are those at rest.
 	void upload(RenderingDevice &p_device, TopologyPart p_parts);
+	/// Takes over what a mesh that poses deform has in common with its mesh at rest.
+	void share(const GpuTopology &p_rest);
 };
 
 /// Indices into MeshTopology::edges in the order in which the GPU holds the edges: by their first

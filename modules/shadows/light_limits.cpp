@@ -48,8 +48,8 @@ const InstanceSnapshot *LightLimits::find_near_caster(
 			search = *before;
 		} else {
 			++search_count;
-			search.is_near = has_triangle_within(*instance.caster_mesh, instance.world_from_node,
-					p_light.position_world, p_distance_m);
+			search.is_near = has_triangle_within(*instance.get_posed_caster_mesh(),
+					instance.world_from_node, p_light.position_world, p_distance_m);
 		}
 		now.push_back(search);
 		if (search.is_near) {

@@ -136,8 +136,8 @@ bool LightView::may_see(const Bounds &p_bounds_world) const {
 
 bool LightView::may_see(const InstanceSnapshot &p_instance) const {
 	return may_see(p_instance.bounds_world) &&
-			may_see_box(p_instance.caster_mesh->bounds_node,
-					view_from_world * p_instance.world_from_node, caster_margin_m);
+			may_see_box(p_instance.caster_bounds_node, view_from_world * p_instance.world_from_node,
+					caster_margin_m);
 }
 
 namespace {
@@ -160,7 +160,7 @@ glm::dvec2 LightView::compute_distance_range_m(const Bounds &p_bounds_world) con
 
 glm::dvec2 LightView::compute_distance_range_m(const InstanceSnapshot &p_instance) const {
 	return compute_range_m(
-			p_instance.caster_mesh->bounds_node, view_from_world * p_instance.world_from_node);
+			p_instance.caster_bounds_node, view_from_world * p_instance.world_from_node);
 }
 
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,

@@ -12,6 +12,7 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 		return found->second;
 	}
 	GNOMON_ASSERT(!p_mesh->indices.empty(), "mesh ", p_mesh->name, " has no triangles");
+	const SharedBuffer rest_indices = p_mesh->rest ? get(p_mesh->rest).indices : SharedBuffer();
 	GpuMesh mesh;
 	const auto upload = [&](const char *p_what, BufferUsage p_usage, auto p_values) {
 		const std::span<const uint8_t> bytes = bytes_of(p_values);
@@ -21,19 +22,53 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 	};
 	mesh.positions = upload("positions", BufferUsage::VERTEX | BufferUsage::STORAGE,
 			std::span<const glm::vec3>(p_mesh->positions_node));
-	mesh.normals = upload(
-			"normals", BufferUsage::VERTEX, std::span<const glm::vec3>(p_mesh->normals_node));
-	mesh.indices = upload("indices", BufferUsage::INDEX | BufferUsage::STORAGE,
-			std::span<const uint32_t>(p_mesh->indices));
+	mesh.normals = upload("normals", BufferUsage::VERTEX | BufferUsage::STORAGE,
+			std::span<const glm::vec3>(p_mesh->normals_node));
+	mesh.indices = rest_indices ? rest_indices
+								: upload("indices", BufferUsage::INDEX | BufferUsage::STORAGE,
+										  std::span<const uint32_t>(p_mesh->indices));
 	mesh.index_count = static_cast<uint32_t>(p_mesh->indices.size());
 	mesh.mesh = p_mesh;
+	if (p_mesh->rest) {
+		prepare_deform(p_mesh, false);
+	}
 	return meshes.emplace(p_mesh->id, std::move(mesh)).first->second;
+}
+
+BufferRID MeshStore::get_deformed_tangents(
+		const std::shared_ptr<const Mesh> &p_mesh, BufferRID p_rest) {
+	get(p_mesh);
+	GpuMesh &mesh = meshes.at(p_mesh->id);
+	if (!mesh.tangents) {
+		const BufferDesc &rest = device.get_desc(p_rest);
+		mesh.tangents = OwnedBuffer(device,
+				device.create_buffer({ text(p_mesh->name, " tangents"), rest.size_bytes,
+						BufferUsage::VERTEX | BufferUsage::STORAGE }));
+	}
+	if (mesh.rest_tangents != p_rest) {
+		mesh.rest_tangents = p_rest;
+		mesh.pose_hash = 0;
+	}
+	return mesh.tangents.get();
 }
 
 const GpuTopology &MeshStore::get_topology(
 		const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts) {
 	GpuTopology &topology = topologies.try_emplace(p_mesh->id, p_mesh).first->second;
-	topology.upload(device, p_parts);
+	if (p_mesh->rest) {
+		const TopologyPart deformed = TopologyPart::POSITIONS | TopologyPart::NORMALS;
+		const bool has_normals = (p_parts & TopologyPart::NORMALS) != TopologyPart::NONE;
+		const TopologyPart parts =
+				has_normals ? p_parts | TopologyPart::POSITIONS | TopologyPart::TRIANGLES : p_parts;
+		topology.share(get_topology(p_mesh->rest, parts & ~deformed));
+		topology.upload(device, parts & deformed);
+		if (topology.positions) { // which follow those of the mesh
+			get(p_mesh);
+			prepare_deform(p_mesh, true);
+		}
+	} else {
+		topology.upload(device, p_parts);
+	}
 	return topology;
 }
 

@@ -98,6 +98,16 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		ShadowRegistry::get(options.technique_override);
 	}
 	system.begin_frame(*scene);
+	const uint32_t moved_count = system.meshes->add_deform_pass(graph, *scene, options.may_keep);
+	const auto posed_count = std::count_if(scene->instances.begin(), scene->instances.end(),
+			[](const InstanceSnapshot &p_instance) { return p_instance.pose != nullptr; });
+	if (moved_count > 0) {
+		plan.run(text("deform, meshes: ", moved_count));
+	}
+	if (posed_count > moved_count) {
+		plan.leave_out(text("deform, meshes: ", posed_count - moved_count),
+				"kept: their pose is the same");
+	}
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
 			BufferUsage::STORAGE | BufferUsage::UNIFORM); // as the host's own passes like it
 	LightView view = make_camera_view(scene->camera, size_px);

@@ -21,6 +21,38 @@
 #define HOLD_BINDING_RECEIVERS 1
 #define HOLD_BINDING_RESULT 2
 
+// Bindings of deform.comp and deform_tangents.comp: of the mesh at rest three floats a vertex (of
+// tangents four), joints and weights of each vertex, what its morph targets add, and the pose.
+#define DEFORM_BINDING_POSITIONS 0
+#define DEFORM_BINDING_NORMALS 1
+#define DEFORM_BINDING_INFLUENCES 2
+#define DEFORM_BINDING_TARGETS 3
+#define DEFORM_BINDING_POSE 4
+#define DEFORM_BINDING_RESULT 5
+#define DEFORM_BINDING_NORMAL_RESULT 6
+// Bindings of deform_points.comp, deform_welded.comp and deform_normals.comp.
+#define MOVE_BINDING_POSITIONS 0
+#define MOVE_BINDING_SOURCES 1
+#define MOVE_BINDING_RESULT 2
+#define MOVE_BINDING_TRIANGLES 3
+#define DEFORM_GROUP_SIZE 64
+
+/// Push constants of all of them.
+struct SHARED_ALIGN DeformPush {
+	uint vertex_count;
+	uint influence_count; // a vertex; 0: no skin
+	uint joint_count;	  // that the pose has, three rows of its matrix each; their weights follow
+	uint target_count;
+};
+SHARED_SIZE(DeformPush, 16);
+
+/// A point of a triangle, see TrianglePoint.
+struct SHARED_ALIGN DeformPoint {
+	uvec4 corners; // x y z
+	vec4 shares;
+};
+SHARED_SIZE(DeformPoint, 32);
+
 /// Push constants of depth.vert.
 struct SHARED_ALIGN DepthPush {
 	mat4 clip_from_node;
@@ -35,7 +67,7 @@ SHARED_SIZE(TintPush, 16);
 
 /// Push constants of hold_gray.comp and hold_color.comp.
 struct SHARED_ALIGN HoldPush {
-	uint layer; // of the array
+	uint layer;		 // of the array
 	float elsewhere; // the value of pixels that are no receivers
 	uint padding1;
 	uint padding2;

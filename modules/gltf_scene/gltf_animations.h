@@ -1,0 +1,16 @@
+#pragma once
+
+#include "modules/gltf_scene/gltf_accessors.h"
+#include "modules/scene/animation.h"
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// All animations of a file. A channel whose keys cannot be played (times that do not grow, values
+/// that are not finite, counts that do not fit) is reported and left out.
+std::vector<std::shared_ptr<const Animation>> read_animations(
+		const tinygltf::Model &p_model, GltfAccessors &p_accessors, GltfMessages &r_messages);
+
+} // namespace gnomon

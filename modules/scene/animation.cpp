@@ -1,0 +1,214 @@
+#include "modules/scene/animation.h"
+
+#include "modules/core/error.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gnomon {
+
+namespace {
+
+glm::dquat to_quaternion(const std::vector<double> &p_values) {
+	return glm::dquat(p_values[3], p_values[0], p_values[1], p_values[2]);
+}
+
+std::vector<double> to_values(const glm::dquat &p_quaternion) {
+	return { p_quaternion.x, p_quaternion.y, p_quaternion.z, p_quaternion.w };
+}
+
+std::vector<double> normalize(std::vector<double> p_rotation) {
+	double square = 0;
+	for (const double component : p_rotation) {
+		square += component * component;
+	}
+	if (!(square > 0)) {
+		return { 0, 0, 0, 1 };
+	}
+	for (double &component : p_rotation) {
+		component /= std::sqrt(square);
+	}
+	return p_rotation;
+}
+
+glm::dvec3 to_vector(const std::vector<double> &p_values) {
+	return glm::dvec3(p_values[0], p_values[1], p_values[2]);
+}
+
+/// The parts of a node's transform: those of its file unless the user has moved it since.
+AnimatedNode choose_parts(const AnimatedNode &p_of_file, const Node3D &p_node) {
+	if (p_of_file.compose() == p_node.parent_from_node) {
+		return p_of_file;
+	}
+	AnimatedNode parts = p_of_file;
+	glm::dmat3 axes(p_node.parent_from_node);
+	parts.translation = glm::dvec3(p_node.parent_from_node[3]);
+	for (int axis = 0; axis < 3; ++axis) {
+		const double length = glm::length(axes[axis]);
+		parts.scale[axis] = p_of_file.scale[axis] < 0 ? -length : length;
+		axes[axis] =
+				length > 0 ? axes[axis] / parts.scale[axis] : glm::dvec3(glm::dmat3(1.0)[axis]);
+	}
+	if (glm::determinant(axes) < 0) {
+		parts.scale.x = -parts.scale.x;
+		axes[0] = -axes[0];
+	}
+	parts.rotation = glm::normalize(glm::quat_cast(axes));
+	return parts;
+}
+
+/// What channels set of one node.
+struct NodePose {
+	std::optional<glm::dvec3> translation;
+	std::optional<glm::dquat> rotation;
+	std::optional<glm::dvec3> scale;
+	std::optional<std::vector<float>> weights;
+};
+
+std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_time_s) {
+	std::map<int, NodePose> poses;
+	for (const AnimationChannel &channel : p_animation.channels) {
+		const std::vector<double> values =
+				channel.sampler.sample(p_time_s, channel.path == AnimatedPath::ROTATION);
+		NodePose &pose = poses[channel.node];
+		switch (channel.path) {
+			case AnimatedPath::TRANSLATION:
+				pose.translation = to_vector(values);
+				break;
+			case AnimatedPath::ROTATION:
+				pose.rotation = to_quaternion(values);
+				break;
+			case AnimatedPath::SCALE:
+				pose.scale = to_vector(values);
+				break;
+			case AnimatedPath::WEIGHTS:
+				pose.weights.emplace(values.begin(), values.end());
+				break;
+		}
+	}
+	return poses;
+}
+
+} // namespace
+
+std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation) const {
+	const size_t count = component_count;
+	const bool is_cubic = interpolation == Interpolation::CUBIC_SPLINE;
+	// p_part: of a cubic spline's key; 1 is its value.
+	const auto get = [&](size_t p_key, size_t p_part) {
+		const size_t first = is_cubic ? (3 * p_key + p_part) * count : p_key * count;
+		return std::vector<double>(
+				values.begin() + ptrdiff_t(first), values.begin() + ptrdiff_t(first + count));
+	};
+	const auto after = std::upper_bound(times_s.begin(), times_s.end(), p_time_s,
+			[](double p_time, float p_key) { return p_time < double(p_key); });
+	const size_t next = static_cast<size_t>(after - times_s.begin());
+	if (next == 0 || next == times_s.size() || interpolation == Interpolation::STEP) {
+		const std::vector<double> value = get(next == 0 ? 0 : next - 1, 1);
+		return p_is_rotation ? normalize(value) : value;
+	}
+	const size_t key = next - 1;
+	const double length_s = double(times_s[next]) - double(times_s[key]);
+	const double t = (p_time_s - double(times_s[key])) / length_s;
+	const std::vector<double> from = get(key, 1);
+	const std::vector<double> to = get(next, 1);
+	if (!is_cubic && p_is_rotation) {
+		return to_values(glm::normalize(
+				glm::slerp(to_quaternion(normalize(from)), to_quaternion(normalize(to)), t)));
+	}
+	std::vector<double> result(count);
+	const std::vector<double> leave = is_cubic ? get(key, 2) : from;
+	const std::vector<double> arrive = is_cubic ? get(next, 0) : to;
+	for (size_t i = 0; i < count; ++i) {
+		const double square = t * t;
+		const double cube = square * t;
+		result[i] = is_cubic ? (2 * cube - 3 * square + 1) * from[i] +
+						length_s * (cube - 2 * square + t) * leave[i] +
+						(3 * square - 2 * cube) * to[i] + length_s * (cube - square) * arrive[i]
+							 : from[i] + t * (to[i] - from[i]);
+	}
+	return p_is_rotation ? normalize(std::move(result)) : result;
+}
+
+glm::dmat4 AnimatedNode::compose() const {
+	glm::dmat4 matrix = glm::mat4_cast(rotation);
+	for (int axis = 0; axis < 3; ++axis) {
+		matrix[axis] *= scale[axis];
+		matrix[3][axis] = translation[axis];
+	}
+	return matrix;
+}
+
+double Animation::wrap_time(double p_time_s) const {
+	if (!(duration_s > 0) || !std::isfinite(p_time_s)) {
+		return 0;
+	}
+	if (p_time_s >= 0 && p_time_s <= duration_s) {
+		return p_time_s;
+	}
+	const double rest_s = std::fmod(p_time_s, duration_s);
+	return rest_s < 0 ? rest_s + duration_s : rest_s;
+}
+
+void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s) {
+	std::map<int, NodePose> poses;
+	std::map<int, const AnimatedNode *> parts;
+	if (p_animation) {
+		poses = sample_channels(*p_animation, p_time_s);
+		for (const AnimatedNode &node : p_animation->nodes) {
+			parts[node.node] = &node;
+		}
+	}
+	for (Node3D *node : r_scene.find_nodes<Node3D>()) {
+		node->posed_parent_from_node.reset();
+		auto *instance = dynamic_cast<MeshInstance3D *>(node);
+		if (instance) {
+			instance->posed_morph_weights.reset();
+		}
+		// The first of an index: what else the node of the file is, such as a light, hangs below.
+		const auto pose = poses.find(node->file_index);
+		if (node->file_index < 0 || pose == poses.end()) {
+			continue;
+		}
+		const NodePose channels = std::move(pose->second);
+		poses.erase(pose);
+		if (channels.weights && instance) {
+			instance->posed_morph_weights = channels.weights;
+		}
+		if (channels.translation || channels.rotation || channels.scale) {
+			AnimatedNode moved = choose_parts(*parts.at(node->file_index), *node);
+			moved.translation = channels.translation.value_or(moved.translation);
+			moved.rotation = channels.rotation.value_or(moved.rotation);
+			moved.scale = channels.scale.value_or(moved.scale);
+			node->posed_parent_from_node = moved.compose();
+		}
+	}
+}
+
+std::shared_ptr<const Animation> find_animation(const Scene &p_scene, const std::string &p_name) {
+	const size_t SHOWN_COUNT = 20;
+	if (p_name.empty()) {
+		return p_scene.animations.empty() ? nullptr : p_scene.animations.front();
+	}
+	std::string names;
+	for (size_t index = 0; index < p_scene.animations.size(); ++index) {
+		const std::string &name = p_scene.animations[index]->name;
+		if (name == p_name) {
+			return p_scene.animations[index];
+		}
+		names += index >= SHOWN_COUNT ? "" : (index == 0 ? "\"" : ", \"") + name + "\"";
+	}
+	const std::string place = p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
+	if (names.empty()) {
+		fail(place, " has no animation \"", p_name, "\", and no other. Leave the name out.");
+	}
+	fail(place, " has no animation \"", p_name, "\". Name one of these: ", names,
+			p_scene.animations.size() > SHOWN_COUNT
+					? text(" and ", p_scene.animations.size() - SHOWN_COUNT, " more.")
+					: ".");
+}
+
+} // namespace gnomon

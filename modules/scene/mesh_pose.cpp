@@ -1,0 +1,107 @@
+#include "modules/scene/mesh_pose.h"
+
+#include "modules/core/error.h"
+#include "modules/core/files.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace gnomon {
+
+namespace {
+
+// Poses after which a mesh that nobody asks for is dropped: of a material that is gone.
+const uint64_t LONGEST_UNUSED = 100;
+const double GREATEST_PLACE_M = 1e18; // its square is a float
+
+/// p_pieces: a mesh that was cut out of one whose vertices are p_positions now.
+std::vector<glm::vec3> move_points(
+		const Mesh &p_pieces, const std::vector<glm::vec3> &p_positions) {
+	std::vector<glm::vec3> moved;
+	moved.reserve(p_pieces.source.points.size());
+	for (const TrianglePoint &point : p_pieces.source.points) {
+		glm::dvec3 place(0.0);
+		for (int corner = 0; corner < 3; ++corner) {
+			place += double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
+		}
+		moved.emplace_back(place);
+	}
+	return moved;
+}
+
+} // namespace
+
+MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p_joints,
+		std::vector<float> p_weights, const std::string &p_object) :
+		rest(std::move(p_rest)),
+		joints(std::move(p_joints)), weights(std::move(p_weights)) {
+	bounds = bound_deformed_vertices(*rest, joints, weights);
+	const glm::dvec3 least = bounds.minimum;
+	const glm::dvec3 most = bounds.maximum;
+	for (int axis = 0; axis < 3; ++axis) {
+		if (!(std::abs(least[axis]) <= GREATEST_PLACE_M &&
+					std::abs(most[axis]) <= GREATEST_PLACE_M)) {
+			fail(p_object, ": its pose moves vertices to ", least[axis], "..", most[axis],
+					" m, must be within ", GREATEST_PLACE_M,
+					" m. Correct its joints' transforms, its inverse bind matrices or its "
+					"weights.");
+		}
+	}
+	hash = compute_hash(bytes_of(std::span<const glm::dmat4>(joints)), 1);
+	hash = compute_hash(bytes_of(std::span<const float>(weights)), hash);
+}
+
+std::shared_ptr<const Mesh> MeshPose::get_mesh(const std::shared_ptr<const Mesh> &p_rest) const {
+	const std::lock_guard<std::mutex> lock(mutex);
+	const auto get_whole = [&] {
+		std::shared_ptr<const Mesh> &whole = meshes[rest->id];
+		if (!whole) {
+			DeformedVertices vertices = deform_vertices(*rest, joints, weights);
+			whole = make_mesh(rest->name, std::move(vertices.positions),
+					std::move(vertices.normals), rest->indices, rest->attributes);
+		}
+		return whole;
+	};
+	if (p_rest == rest) {
+		return get_whole();
+	}
+	std::shared_ptr<const Mesh> &pieces = meshes[p_rest->id];
+	if (!pieces) {
+		const std::shared_ptr<const Mesh> whole = get_whole();
+		pieces = make_mesh(p_rest->name, move_points(*p_rest, whole->positions_node), {},
+				p_rest->indices, {},
+				MeshSource{ whole, p_rest->source.triangles, p_rest->source.points });
+	}
+	return pieces;
+}
+
+PoseSlot::PoseSlot(std::shared_ptr<const Mesh> p_rest) : rest(std::move(p_rest)) {
+	static std::atomic<uint64_t> next_id = 1;
+	id = next_id++;
+}
+
+std::shared_ptr<const MeshPose> PoseSlot::make_pose(std::vector<glm::dmat4> p_joints,
+		std::vector<float> p_weights, const std::string &p_object) {
+	const std::lock_guard<std::mutex> lock(mutex);
+	++pose_count;
+	std::erase_if(deformed, [&](const auto &p_item) {
+		return p_item.second.last_use + LONGEST_UNUSED < pose_count;
+	});
+	if (!pose || pose->get_joints() != p_joints || pose->get_weights() != p_weights) {
+		pose = std::make_shared<const MeshPose>(
+				rest, std::move(p_joints), std::move(p_weights), p_object);
+	}
+	return pose;
+}
+
+std::shared_ptr<const Mesh> PoseSlot::get_deformed(const std::shared_ptr<const Mesh> &p_rest) {
+	const std::lock_guard<std::mutex> lock(mutex);
+	Deformed &entry = deformed[p_rest->id];
+	if (!entry.mesh) {
+		entry.mesh = make_deformed_mesh(p_rest, id);
+	}
+	entry.last_use = pose_count;
+	return entry.mesh;
+}
+
+} // namespace gnomon

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "modules/scene/mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What a morph target adds to each vertex at weight 1. Each list is empty or has one element a
+/// vertex.
+struct MorphTarget {
+	std::vector<glm::vec3> positions; // metres, in the mesh's space
+	std::vector<glm::vec3> normals;
+	std::vector<glm::vec3> tangents;
+};
+
+/// How a mesh deforms: morph targets first, then linear blend skinning (glTF 2.0, 3.7.2.2 and
+/// 3.7.3.3). Immutable once shared.
+struct MeshRig {
+	size_t vertex_count = 0;
+	uint32_t influence_count = 0; // joints a vertex: 0 (no skin), 4 or 8
+	std::vector<uint32_t> joints; // influence_count a vertex
+	std::vector<float> weights;	  // likewise; 0..1, the sum of a vertex is 1
+	std::vector<MorphTarget> targets;
+
+	// Of what follows make_mesh_rig takes care.
+	uint32_t joint_count = 0;		  // one more than the greatest joint
+	std::vector<Bounds> joint_bounds; // of the vertices at rest that each joint moves; may be empty
+	std::vector<Bounds> target_bounds; // of what each target adds
+	uint64_t content_hash = 0;
+
+	/// Of one vertex: vertices of different values must not be welded.
+	uint64_t compute_vertex_hash(uint32_t p_vertex) const;
+};
+
+/// Checks sizes, fills in what derives, and makes the weights of each vertex sum up to 1; those of
+/// a vertex that has none become 1 for its first joint. A count that does not fit, or a number that
+/// is not finite or a weight below 0, is an Error that begins with p_name, the mesh's.
+std::shared_ptr<const MeshRig> make_mesh_rig(
+		MeshRig p_rig, std::span<const glm::vec3> p_positions_node, const std::string &p_name);
+
+/// A vertex where a pose puts it.
+struct DeformedVertices {
+	std::vector<glm::vec3> positions; // metres
+	std::vector<glm::vec3> normals;	  // unit
+};
+
+/// Computed in double, rounded to float once. p_joints: where each joint takes the mesh's space,
+/// at least MeshRig::joint_count; empty: no skin. p_weights: of the targets; those that are not
+/// there are 0. p_mesh has a rig.
+DeformedVertices deform_vertices(
+		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
+/// Encloses the vertices at a pose: of each joint's vertices at rest, moved as the joint is.
+Bounds bound_deformed_vertices(
+		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
+
+} // namespace gnomon

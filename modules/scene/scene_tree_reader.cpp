@@ -1,0 +1,177 @@
+// build_snapshot: what one frame needs of a scene's tree.
+
+#include "modules/core/error.h"
+#include "modules/scene/mesh_pose.h"
+#include "modules/scene/scene_snapshot.h"
+#include "modules/scene/skin_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+const double SMALLEST_SCENE_SIZE_M = 1e-9; // S divides; a scene of one point must not be 0 / 0
+
+bool is_finite(const glm::dmat4 &p_matrix) {
+	for (int column = 0; column < 4; ++column) {
+		for (int row = 0; row < 4; ++row) {
+			if (!std::isfinite(p_matrix[column][row])) {
+				return false;
+			}
+		}
+	}
+	return true;
+}
+
+void check_transform(const Node3D &p_node, const glm::dmat4 &p_world_from_node) {
+	if (!is_finite(p_world_from_node)) {
+		fail("Node \"", p_node.name, "\": its transform to the world is not finite. Correct it or ",
+				"one of its parents' transforms.");
+	}
+}
+
+CameraSnapshot build_camera_snapshot(const Camera3D &p_camera) {
+	const glm::dmat4 world_from_node = p_camera.compute_world_from_node();
+	check_transform(p_camera, world_from_node);
+	CameraSnapshot snapshot;
+	snapshot.name = p_camera.name;
+	snapshot.position_world = glm::dvec3(world_from_node[3]);
+	snapshot.world_from_camera = compute_orientation(world_from_node, "Camera", p_camera.name);
+	snapshot.vertical_fov_rad = p_camera.vertical_fov_rad;
+	snapshot.near_m = p_camera.near_m;
+	return snapshot;
+}
+
+LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_world_from_node) {
+	check_transform(p_light, p_world_from_node);
+	LightSnapshot snapshot;
+	static_cast<LightSettings &>(snapshot) = p_light;
+	snapshot.name = p_light.name;
+	snapshot.position_world = glm::dvec3(p_world_from_node[3]);
+	snapshot.world_from_light = compute_orientation(p_world_from_node, "Light", p_light.name);
+	snapshot.file_path = p_light.file_path;
+	return snapshot;
+}
+
+/// Fills the snapshot from the tree, with the transform to the world carried along: asking every
+/// node to compute its own would cost the square of the depth.
+class TreeReader {
+public:
+	/// p_is_posed: false = as it would be without its animations, for its size alone.
+	TreeReader(SceneSnapshot &r_snapshot, bool p_is_posed) :
+			snapshot(r_snapshot), is_posed(p_is_posed) {}
+
+	void read(const Node3D &p_root) {
+		read_node(p_root, glm::dmat4(1.0));
+		for (const auto &[node, world_from_node] : deformable) { // now that all joints are known
+			read_deformable(*node, world_from_node);
+		}
+	}
+	bool has_animated_nodes() const { return is_animated; }
+
+private:
+	SceneSnapshot &snapshot;
+	bool is_posed;
+	bool is_animated = false;
+	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and its own place
+	WorldTransforms world_from_nodes;
+
+	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
+		is_animated = is_animated || p_node.posed_parent_from_node;
+		const glm::dmat4 world_from_node = p_world_from_parent *
+				(is_posed ? p_node.get_parent_from_node() : p_node.parent_from_node);
+		check_transform(p_node, world_from_node);
+		if (p_node.file_index >= 0) {
+			world_from_nodes.emplace(p_node.file_index, world_from_node);
+		}
+		if (const auto *light = dynamic_cast<const Light3D *>(&p_node)) {
+			snapshot.lights.push_back(build_light_snapshot(*light, world_from_node));
+		} else if (const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node)) {
+			read_surfaces(*instance, world_from_node);
+		}
+		for (const std::unique_ptr<Node3D> &child : p_node.children) {
+			read_node(*child, world_from_node);
+		}
+	}
+
+	void read_surfaces(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
+		is_animated = is_animated || p_node.posed_morph_weights;
+		bool is_deformable = false;
+		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
+			if (!surface.mesh || surface.mesh->indices.empty()) {
+				continue;
+			}
+			if (surface.mesh->attributes.rig) {
+				is_deformable = true;
+				continue;
+			}
+			add_instance(p_node, surface, p_world_from_node);
+		}
+		if (is_deformable) {
+			deformable.emplace_back(&p_node, p_world_from_node);
+		}
+	}
+
+	void read_deformable(const MeshInstance3D &p_node, const glm::dmat4 &p_world_from_node) {
+		for (const MeshInstance3D::Surface &surface : p_node.surfaces) {
+			if (!surface.mesh || surface.mesh->indices.empty() || !surface.mesh->attributes.rig) {
+				continue;
+			}
+			const bool is_skinned = p_node.skin && surface.mesh->attributes.rig->joint_count > 0;
+			SkinPlaces places = is_skinned ? place_skin(*p_node.skin, world_from_nodes)
+										   : SkinPlaces{ p_world_from_node, {} };
+			const std::vector<float> &weights =
+					is_posed ? p_node.get_morph_weights() : p_node.morph_weights;
+			const std::string object = text("Node \"", p_node.name, "\"");
+			InstanceSnapshot &instance = add_instance(p_node, surface, places.world_from_mesh);
+			if (is_posed) {
+				const std::shared_ptr<PoseSlot> slot = p_node.get_pose_slot(surface.mesh);
+				instance.set_pose(slot, slot->make_pose(std::move(places.joints), weights, object));
+			} else {
+				const MeshPose pose(surface.mesh, std::move(places.joints), weights, object);
+				instance.bounds_world =
+						transform_bounds(pose.get_bounds(), instance.world_from_node);
+			}
+		}
+	}
+
+	InstanceSnapshot &add_instance(const MeshInstance3D &p_node,
+			const MeshInstance3D::Surface &p_surface, const glm::dmat4 &p_world_from_node) {
+		snapshot.instances.push_back(
+				make_instance(p_surface.mesh, p_surface.material, p_world_from_node, p_node.name));
+		InstanceSnapshot &instance = snapshot.instances.back();
+		instance.casts_shadow = instance.casts_shadow && p_node.casts_shadow;
+		instance.is_planar_receiver = p_node.is_planar_receiver;
+		return instance;
+	}
+};
+
+} // namespace
+
+std::shared_ptr<const SceneSnapshot> build_snapshot(
+		const Scene &p_scene, const Camera3D &p_camera) {
+	auto snapshot = std::make_shared<SceneSnapshot>();
+	snapshot->camera = build_camera_snapshot(p_camera);
+	TreeReader reader(*snapshot, true);
+	reader.read(*p_scene.root);
+	const bool has_own_size = p_scene.scene_size_m > 0 && std::isfinite(p_scene.scene_size_m);
+	if (has_own_size) {
+		snapshot->scene_size_m = p_scene.scene_size_m;
+	} else if (reader.has_animated_nodes()) { // so that it does not change from frame to frame
+		SceneSnapshot still;
+		TreeReader(still, false).read(*p_scene.root);
+		snapshot->scene_size_m = still.compute_caster_bounds().get_diagonal();
+	} else {
+		snapshot->scene_size_m = snapshot->compute_caster_bounds().get_diagonal();
+	}
+	snapshot->scene_size_m = std::max(SMALLEST_SCENE_SIZE_M, snapshot->scene_size_m);
+	for (LightSnapshot &light : snapshot->lights) {
+		light.decide_settings(snapshot->scene_size_m);
+	}
+	return snapshot;
+}
+
+} // namespace gnomon

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "modules/scene/nodes.h"
+
+#include <glm/glm.hpp>
+
+#include <map>
+#include <vector>
+
+namespace gnomon {
+
+/// Of each node that has a place in its file: by Node3D::file_index, the first in tree order.
+using WorldTransforms = std::map<int, glm::dmat4>;
+WorldTransforms compute_world_transforms(const Node3D &p_root);
+
+/// Where a skin puts a mesh: in the frame that moves it whole, with a matrix for each joint there.
+/// A skin's mesh is where its joints are, wherever its node is (glTF 2.0, 3.7.3.3).
+struct SkinPlaces {
+	glm::dmat4 world_from_mesh = glm::dmat4(1.0);
+	std::vector<glm::dmat4> joints; // see deform_vertices
+};
+/// A frame that is not there any more, or has no inverse, is the world; a joint that is not there
+/// any more rests in the frame.
+SkinPlaces place_skin(const Skin &p_skin, const WorldTransforms &p_world_from_nodes);
+
+} // namespace gnomon

@@ -1,0 +1,41 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/deform_inc.glsl"
+
+// Positions and normals of a mesh at a pose, one vertex an invocation.
+layout(std430, set = 0, binding = DEFORM_BINDING_POSITIONS) readonly buffer Positions {
+	float rest_positions[];
+};
+layout(std430, set = 0, binding = DEFORM_BINDING_NORMALS) readonly buffer Normals {
+	float rest_normals[];
+};
+layout(std430, set = 0, binding = DEFORM_BINDING_RESULT) writeonly buffer Result {
+	float positions[];
+};
+layout(std430, set = 0, binding = DEFORM_BINDING_NORMAL_RESULT) writeonly buffer NormalResult {
+	float normals[];
+};
+
+void main() {
+	const uint vertex = gl_GlobalInvocationID.x;
+	if (vertex >= push.vertex_count) {
+		return;
+	}
+	const uint first = 3u * vertex;
+	const vec3 at_rest = vec3(rest_positions[first], rest_positions[first + 1u], rest_positions[first + 2u]);
+	const vec3 rest_normal = vec3(rest_normals[first], rest_normals[first + 1u], rest_normals[first + 2u]);
+	const vec4 place = vec4(add_targets(at_rest, vertex, DEFORM_POSITIONS), 1.0);
+	const vec3 turned = add_targets(rest_normal, vertex, DEFORM_NORMALS);
+	const DeformRows rows = blend_joints(vertex);
+	positions[first] = dot(rows.x, place);
+	positions[first + 1u] = dot(rows.y, place);
+	positions[first + 2u] = dot(rows.z, place);
+	// By the cofactors, whose rows are these; they exist where the inverse does not.
+	const vec3 normal = vec3(dot(cross(rows.y.xyz, rows.z.xyz), turned), dot(cross(rows.z.xyz, rows.x.xyz), turned),
+			dot(cross(rows.x.xyz, rows.y.xyz), turned));
+	const float greatest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
+	const vec3 unit = greatest > 0.0 ? normalize(normal / greatest) : rest_normal;
+	normals[first] = unit.x;
+	normals[first + 1u] = unit.y;
+	normals[first + 2u] = unit.z;
+}

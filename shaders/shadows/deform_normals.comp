@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/shadows_shared.h"
+
+// Normals of a deformed mesh's welded vertices: the sums of their faces' normals by area, zero where those cancel, as
+// build_topology makes them.
+layout(local_size_x = DEFORM_GROUP_SIZE) in;
+layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
+	vec4 welded_positions[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_SOURCES) readonly buffer Sources {
+	uint faces[]; // where each vertex's begin, one more, then the faces
+};
+layout(std430, set = 0, binding = MOVE_BINDING_TRIANGLES) readonly buffer Triangles {
+	uint triangles[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_RESULT) writeonly buffer Result {
+	vec4 normals[];
+};
+layout(push_constant) uniform Push {
+	DeformPush push;
+};
+
+void main() {
+	const float ZERO_RATIO = 1e-6;
+	const uint vertex = gl_GlobalInvocationID.x;
+	if (vertex >= push.vertex_count) {
+		return;
+	}
+	vec3 sum = vec3(0.0);
+	float area = 0.0;
+	const uint end = faces[vertex + 1u];
+	for (uint i = faces[vertex]; i < end; ++i) {
+		const uint first = 3u * faces[i];
+		const vec3 a = welded_positions[triangles[first]].xyz;
+		const vec3 normal = cross(welded_positions[triangles[first + 1u]].xyz - a,
+				welded_positions[triangles[first + 2u]].xyz - a);
+		sum += normal;
+		area += length(normal);
+	}
+	const float size = length(sum);
+	normals[vertex] = vec4(size > ZERO_RATIO * area ? sum / size : vec3(0.0), 0.0);
+}

@@ -1,0 +1,38 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/shadows_shared.h"
+
+// Vertices of a mesh that was cut out of a deformed one: each where the corners of its triangle take it.
+layout(local_size_x = DEFORM_GROUP_SIZE) in;
+layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
+	float corner_positions[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_SOURCES) readonly buffer Sources {
+	DeformPoint points[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_RESULT) writeonly buffer Result {
+	float positions[];
+};
+layout(push_constant) uniform Push {
+	DeformPush push;
+};
+
+vec3 load_corner(uint p_vertex) {
+	return vec3(corner_positions[3u * p_vertex], corner_positions[3u * p_vertex + 1u],
+			corner_positions[3u * p_vertex + 2u]);
+}
+
+void main() {
+	const uint vertex = gl_GlobalInvocationID.x;
+	if (vertex >= push.vertex_count) {
+		return;
+	}
+	const DeformPoint point = points[vertex];
+	const vec3 a = load_corner(point.corners.x);
+	// From a corner, so that what does not move stays exactly where it is.
+	const vec3 place = a + point.shares.y * (load_corner(point.corners.y) - a) +
+			point.shares.z * (load_corner(point.corners.z) - a);
+	positions[3u * vertex] = place.x;
+	positions[3u * vertex + 1u] = place.y;
+	positions[3u * vertex + 2u] = place.z;
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/deform_inc.glsl"
+
+// Tangents of a mesh at a pose, one vertex an invocation; w stays.
+layout(std430, set = 0, binding = DEFORM_BINDING_POSITIONS) readonly buffer Tangents {
+	vec4 rest_tangents[];
+};
+layout(std430, set = 0, binding = DEFORM_BINDING_RESULT) writeonly buffer Result {
+	vec4 tangents[];
+};
+
+void main() {
+	const uint vertex = gl_GlobalInvocationID.x;
+	if (vertex >= push.vertex_count) {
+		return;
+	}
+	const vec4 at_rest = rest_tangents[vertex];
+	const vec3 along = add_targets(at_rest.xyz, vertex, DEFORM_TANGENTS);
+	const DeformRows rows = blend_joints(vertex);
+	const vec3 tangent = vec3(dot(rows.x.xyz, along), dot(rows.y.xyz, along), dot(rows.z.xyz, along));
+	const float greatest = max(abs(tangent.x), max(abs(tangent.y), abs(tangent.z)));
+	tangents[vertex] = vec4(greatest > 0.0 ? normalize(tangent / greatest) : at_rest.xyz, at_rest.w);
+}

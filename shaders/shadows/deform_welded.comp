@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shadows/shadows_shared.h"
+
+// Welded positions of a deformed mesh, from one of the vertices that each stands for.
+layout(local_size_x = DEFORM_GROUP_SIZE) in;
+layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
+	float positions[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_SOURCES) readonly buffer Sources {
+	uint vertices[];
+};
+layout(std430, set = 0, binding = MOVE_BINDING_RESULT) writeonly buffer Result {
+	vec4 welded_positions[];
+};
+layout(push_constant) uniform Push {
+	DeformPush push;
+};
+
+void main() {
+	const uint welded = gl_GlobalInvocationID.x;
+	if (welded >= push.vertex_count) {
+		return;
+	}
+	const uint first = 3u * vertices[welded];
+	welded_positions[welded] = vec4(positions[first], positions[first + 1u], positions[first + 2u], 1.0);
+}
