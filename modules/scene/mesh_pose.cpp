@@ -14,6 +14,24 @@ namespace {
 const uint64_t LONGEST_UNUSED = 100;
 const double GREATEST_PLACE_M = 1e18; // its square is a float
 
+void check_finite(std::span<const glm::dmat4> p_joints, std::span<const float> p_weights,
+		const std::string &p_object) {
+	for (size_t joint = 0; joint < p_joints.size(); ++joint) {
+		for (int element = 0; element < 16; ++element) {
+			if (!std::isfinite(p_joints[joint][element / 4][element % 4])) {
+				fail(p_object, ": the transform of joint ", joint, " of its skin is not finite. ",
+						"Correct the joint's node, its parents or its inverse bind matrix.");
+			}
+		}
+	}
+	for (size_t target = 0; target < p_weights.size(); ++target) {
+		if (!std::isfinite(p_weights[target])) {
+			fail(p_object, ": the weight of morph target ", target, " is ", p_weights[target],
+					", must be finite. Correct it or its animation.");
+		}
+	}
+}
+
 /// p_pieces: a mesh that was cut out of one whose vertices are p_positions now.
 std::vector<glm::vec3> move_points(
 		const Mesh &p_pieces, const std::vector<glm::vec3> &p_positions) {
@@ -35,6 +53,7 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 		std::vector<float> p_weights, const std::string &p_object) :
 		rest(std::move(p_rest)),
 		joints(std::move(p_joints)), weights(std::move(p_weights)) {
+	check_finite(joints, weights, p_object);
 	bounds = bound_deformed_vertices(*rest, joints, weights);
 	const glm::dvec3 least = bounds.minimum;
 	const glm::dvec3 most = bounds.maximum;

@@ -227,7 +227,7 @@ void DeformPass::deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTo
 
 void DeformPass::run(CommandList &r_commands) {
 	const Access READERS[] = { Access::VERTEX_READ, Access::SHADER_READ_VERTEX,
-		Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE };
+		Access::SHADER_READ_FRAGMENT, Access::SHADER_READ_COMPUTE, Access::COPY_READ };
 	std::vector<Barrier> before;
 	std::vector<Barrier> after;
 	for (const Work &work : step) {

@@ -20,10 +20,10 @@ const GpuMesh &MeshStore::get(const std::shared_ptr<const Mesh> &p_mesh) {
 			p_usage | BufferUsage::COPY_TARGET };
 		return OwnedBuffer(device, device.create_buffer_with_data(desc, bytes));
 	};
-	mesh.positions = upload("positions", BufferUsage::VERTEX | BufferUsage::STORAGE,
-			std::span<const glm::vec3>(p_mesh->positions_node));
-	mesh.normals = upload("normals", BufferUsage::VERTEX | BufferUsage::STORAGE,
-			std::span<const glm::vec3>(p_mesh->normals_node));
+	const BufferUsage usage = BufferUsage::VERTEX | BufferUsage::STORAGE |
+			(p_mesh->rest ? BufferUsage::COPY_SOURCE : BufferUsage::VERTEX); // hosts may ask
+	mesh.positions = upload("positions", usage, std::span<const glm::vec3>(p_mesh->positions_node));
+	mesh.normals = upload("normals", usage, std::span<const glm::vec3>(p_mesh->normals_node));
 	mesh.indices = rest_indices ? rest_indices
 								: upload("indices", BufferUsage::INDEX | BufferUsage::STORAGE,
 										  std::span<const uint32_t>(p_mesh->indices));

@@ -1,12 +1,51 @@
 // fuzz: modules=gltf_scene
-// Any bytes as a .gltf or .glb file, up to the snapshot that a renderer gets.
+// Any bytes as a .gltf or .glb file, up to the snapshot that a renderer gets, and its animations
+// played.
 #include "modules/gltf_scene/gltf_scene.h"
+#include "modules/scene/animation.h"
+#include "modules/scene/mesh_pose.h"
 #include "modules/scene/node_properties.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include "tests/fuzz/fuzz_target.h"
 
+#include <algorithm>
+
 using namespace gnomon;
+
+namespace {
+
+/// Vertices at a pose lie within its bounds, up to rounding.
+void check_poses(const SceneSnapshot &p_snapshot) {
+	for (const InstanceSnapshot &instance : p_snapshot.instances) {
+		if (!instance.pose) {
+			continue;
+		}
+		const Bounds &bounds = instance.pose->get_bounds();
+		const double size = std::max(glm::length(bounds.minimum), glm::length(bounds.maximum));
+		for (const glm::vec3 &position : instance.get_posed_mesh()->positions_node) {
+			const double beyond = bounds.compute_distance(glm::dvec3(position));
+			GNOMON_ASSERT(beyond <= 1e-5 * size, "a vertex is ", beyond, " m beyond its bounds");
+		}
+		instance.get_posed_caster_mesh();
+	}
+}
+
+/// Each animation before, at and after its times. A pose that no float holds is an Error.
+void play(Scene &r_scene) {
+	const size_t MOST_ANIMATIONS = 4; // the rest would be the same again
+	const Camera3D camera;
+	for (size_t index = 0; index < std::min(r_scene.animations.size(), MOST_ANIMATIONS); ++index) {
+		const Animation &animation = *r_scene.animations[index];
+		for (const double share : { -1.0, 0.0, 0.3, 1.0 }) {
+			pose_scene(r_scene, &animation, share * animation.duration_s);
+			check_poses(*build_snapshot(r_scene, camera));
+		}
+	}
+	pose_scene(r_scene, nullptr, 0);
+}
+
+} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 	return run_reader([&] {
@@ -24,5 +63,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 			const auto snapshot = build_snapshot(*scene, *camera);
 			GNOMON_ASSERT(snapshot->scene_size_m > 0, "scene size is ", snapshot->scene_size_m);
 		}
+		play(*scene);
 	});
 }

@@ -3,6 +3,7 @@
 
     make_seeds.py scenes SCENE... FOLDER   of gltf: small forms of scenes
     make_seeds.py textures FOLDER          of gltf: a card with images of every kind, whole and broken
+    make_seeds.py motion FOLDER            of gltf: cards that skins, morph targets and animations move
     make_seeds.py cut_mesh FOLDER          of cut_mesh: meshes, materials and masks
 
 Each .gltf or .glb scene becomes FOLDER/<name>.gltf, with its buffer inside, and FOLDER/<name>.glb: all that the file
@@ -289,6 +290,71 @@ def write_textures(folder):
             write_gltf(card.document, bytes(card.packed), path)
 
 
+def add_skin(card, joint_sets):
+    """Two joints, of which each vertex follows both; as many sets of four as wanted."""
+    corners = 4
+    for number in range(joint_sets):
+        joints = struct.pack("<16B", *(0, 1, 0, 1) * corners)
+        weights = struct.pack("<16f", *(0.5, 0.25, 0.25, 0) * corners)
+        card.primitive["attributes"]["JOINTS_%d" % number] = card.add_accessor(joints, 5121, "VEC4", corners)
+        card.primitive["attributes"]["WEIGHTS_%d" % number] = card.add_accessor(weights, 5126, "VEC4", corners)
+    identity = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    binds = card.add_accessor(struct.pack("<32f", *identity * 2), 5126, "MAT4", 2)
+    card.document["nodes"] += [{"children": [3]}, {"translation": [0, 0.5, 0]}]
+    card.document["scenes"][0]["nodes"].append(2)
+    card.document["skins"] = [{"joints": [2, 3], "skeleton": 2, "inverseBindMatrices": binds}]
+    card.document["nodes"][0]["skin"] = 0
+
+
+def add_targets(card):
+    moves = card.add_accessor(struct.pack("<12f", *(0, 0, 0.5) * 4), 5126, "VEC3", 4)
+    card.primitive["targets"] = [{"POSITION": moves, "NORMAL": moves, "TANGENT": moves}, {"POSITION": moves}]
+    card.document["meshes"][0]["weights"] = [0.5, 0]
+
+
+def add_animation(card, kind):
+    """Translation and rotation of node 1, scale of the last node, weights of the mesh's."""
+    times = card.add_accessor(struct.pack("<2f", 0, 1), 5126, "SCALAR", 2)
+    parts = 3 if kind == "CUBICSPLINE" else 1
+    samplers, channels = [], []
+    last = len(card.document["nodes"]) - 1
+    shapes = {"translation": (1, "VEC3", 3), "rotation": (1, "VEC4", 4), "scale": (last, "VEC3", 3), "weights": (0, "SCALAR", 2)}
+    for path, (node, shape, width) in shapes.items():
+        values = [0.5 + 0.25 * index for index in range(2 * parts * width)]
+        count = len(values) // (1 if shape == "SCALAR" else width)
+        output = card.add_accessor(struct.pack("<%df" % len(values), *values), 5126, shape, count)
+        samplers.append({"input": times, "output": output, "interpolation": kind})
+        channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": path}})
+    card.document["animations"] = [{"name": "Move", "samplers": samplers, "channels": channels}]
+
+
+def make_moved_card(joint_sets, has_targets, kind):
+    card = make_masked_card()
+    if joint_sets:
+        add_skin(card, joint_sets)
+    if has_targets:
+        add_targets(card)
+    add_animation(card, kind)
+    return card
+
+
+def write_motion(folder):
+    cards = {
+        "motion_skin": make_moved_card(1, False, "LINEAR"),
+        "motion_skin_of_eight": make_moved_card(2, True, "CUBICSPLINE"),
+        "motion_targets": make_moved_card(0, True, "STEP"),
+        "motion_weights_without_targets": make_moved_card(0, False, "LINEAR"),
+    }
+    pointer = make_moved_card(1, True, "LINEAR")
+    pointer.document["animations"][0]["channels"][0]["target"] = {
+        "path": "pointer",
+        "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0/scale"}},
+    }
+    cards["motion_pointer"] = pointer
+    for name, card in cards.items():
+        write_gltf(card.document, bytes(card.packed), os.path.join(folder, name))
+
+
 IDENTITY = (1, 0, 0, 1, 0, 0)
 WRAPS = {"clamp": 0, "repeat": 1, "mirror": 2}
 FEWEST_EDGES = 4
@@ -343,10 +409,12 @@ def main():
         write_scenes(arguments[1:-1], arguments[-1])
     elif len(arguments) == 2 and arguments[0] == "textures":
         write_textures(arguments[1])
+    elif len(arguments) == 2 and arguments[0] == "motion":
+        write_motion(arguments[1])
     elif len(arguments) == 2 and arguments[0] == "cut_mesh":
         write_cuts(arguments[1])
     else:
-        print("ERROR: usage: make_seeds.py scenes SCENE... FOLDER, or textures or cut_mesh FOLDER", file=sys.stderr)
+        print("ERROR: usage: make_seeds.py scenes SCENE... FOLDER, or textures, motion or cut_mesh FOLDER", file=sys.stderr)
         return 2
     return 0
 

@@ -1,0 +1,300 @@
+// Casters that poses deform, with every technique: they cast as the same shape would at rest.
+
+#include "modules/mesh_tools/topology.h"
+#include "modules/scene/mesh_pose.h"
+#include "modules/shadows/tests/each_technique.h"
+
+#include <cmath>
+
+using namespace gnomon;
+
+namespace {
+
+const int RINGS = 13;
+const int SIDES = 10;
+const double MOST_OF_CHANGE = 0.5; // between two poses
+
+/// A closed tube along y from 0 to 1.2 with caps, which follows two joints, and a morph target that
+/// makes it thicker at the top.
+std::shared_ptr<const Mesh> make_tube(bool p_is_open = false) {
+	std::vector<glm::vec3> positions;
+	std::vector<uint32_t> indices;
+	MeshRig rig;
+	rig.influence_count = 4;
+	MorphTarget &target = rig.targets.emplace_back();
+	const auto add = [&](const glm::vec3 &p_position) {
+		const float share = p_position.y / 1.2f;
+		positions.push_back(p_position);
+		rig.joints.insert(rig.joints.end(), { 0, 1, 0, 0 });
+		rig.weights.insert(rig.weights.end(), { 1 - share, share, 0, 0 });
+		target.positions.emplace_back(p_position.x * share, 0, p_position.z * share);
+	};
+	for (int ring = 0; ring < RINGS; ++ring) {
+		for (int side = 0; side < SIDES; ++side) {
+			const double angle = 6.283185307179586 * side / SIDES;
+			add(glm::vec3(0.2 * std::cos(angle), 1.2 * ring / (RINGS - 1), 0.2 * std::sin(angle)));
+		}
+	}
+	for (uint32_t ring = 0; ring + 1 < uint32_t(RINGS); ++ring) {
+		for (uint32_t side = 0; side < uint32_t(SIDES); ++side) {
+			const uint32_t a = ring * SIDES + side;
+			const uint32_t b = ring * SIDES + (side + 1) % SIDES;
+			indices.insert(indices.end(), { a, a + SIDES, b, b, a + SIDES, b + SIDES });
+		}
+	}
+	for (uint32_t side = 1; !p_is_open && side + 1 < uint32_t(SIDES); ++side) {
+		const uint32_t top = (RINGS - 1) * SIDES;
+		indices.insert(indices.end(), { 0, side, side + 1 });
+		indices.insert(indices.end(), { top, top + side + 1, top + side });
+	}
+	MeshAttributes attributes;
+	for (const glm::vec3 &position : positions) {
+		attributes.uvs[0].emplace_back(2 * position.y, std::atan2(position.z, position.x));
+	}
+	attributes.rig = make_mesh_rig(std::move(rig), positions, "tube");
+	return make_mesh("tube", positions, {}, indices, attributes);
+}
+
+/// The small scene with a tube in place of its box, whose upper joint an animation turns.
+struct TubeScene : SmallScene {
+	Node3D *joint = nullptr;
+	MeshInstance3D *tube = nullptr;
+
+	explicit TubeScene(LightType p_type, const std::shared_ptr<const Mesh> &p_mesh = make_tube()) :
+			SmallScene(p_type) {
+		scene.root->remove_child(*box);
+		tube = &add_mesh(scene, "Tube", p_mesh, { 9, 9, 9 }); // where a skin does not look
+		auto base = std::make_unique<Node3D>();
+		base->file_index = 0;
+		base->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.5, 0));
+		Node3D *root = scene.root->add_child(std::move(base));
+		auto upper = std::make_unique<Node3D>();
+		upper->file_index = 1;
+		joint = root->add_child(std::move(upper));
+		auto skin = std::make_shared<Skin>();
+		skin->joints = { 0, 1 };
+		skin->joint_from_mesh = { glm::dmat4(1.0), glm::dmat4(1.0) };
+		tube->skin = skin;
+		tube->morph_weights = { 0 };
+	}
+
+	void pose(double p_angle, float p_weight = 0) {
+		joint->posed_parent_from_node =
+				glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0.2 * p_angle, 0)),
+						p_angle, glm::dvec3(0.3, 0, 1));
+		tube->posed_morph_weights = std::vector<float>{ p_weight };
+	}
+
+	/// The same shape as a mesh of its own.
+	std::shared_ptr<const SceneSnapshot> bake() const {
+		auto baked = std::make_shared<SceneSnapshot>(*snap());
+		for (InstanceSnapshot &instance : baked->instances) {
+			if (!instance.pose) {
+				continue;
+			}
+			const auto whole = instance.get_posed_mesh();
+			MeshAttributes attributes = whole->attributes;
+			attributes.rig = nullptr;
+			instance = make_instance(make_mesh("baked", whole->positions_node, whole->normals_node,
+											 whole->indices, attributes),
+					instance.material, instance.world_from_node, instance.node_name);
+		}
+		return baked;
+	}
+};
+
+double compute_difference(const MaskResult &p_one, const MaskResult &p_other, double &r_share) {
+	double greatest = 0;
+	double different = 0;
+	double count = 0;
+	for (size_t i = 0; i < p_one.visibility.size(); ++i) {
+		if (p_one.receiver[i] > 0.5f && p_other.receiver[i] > 0.5f) {
+			const double difference = std::abs(double(p_one.visibility[i]) - p_other.visibility[i]);
+			greatest = std::max(greatest, difference);
+			different += difference > 0.02 ? 1 : 0;
+			count += 1;
+		}
+	}
+	CHECK(count > 500);
+	r_share = different / std::max(count, 1.0);
+	return greatest;
+}
+
+MaskRequest make_request(
+		const std::shared_ptr<const SceneSnapshot> &p_scene, const std::string &p_technique) {
+	MaskRequest request;
+	request.scene = p_scene;
+	request.size_px = glm::uvec2(96);
+	request.technique_override = p_technique;
+	request.light = "Light";
+	return request;
+}
+
+} // namespace
+
+TEST_CASE("deformed casters: every technique casts the shape that the pose has now") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		TubeScene scene(p_type);
+		make_cheap(*scene.light);
+		MaskResult before;
+		for (const double angle : { 0.0, 0.9, -1.4 }) {
+			CAPTURE(angle);
+			scene.pose(angle, angle > 0 ? 0.8f : 0.0f);
+			const MaskResult deformed = fixture.render(make_request(scene.snap(), p_info.id));
+			MaskFixture other;
+			const MaskResult baked = other.render(make_request(scene.bake(), p_info.id));
+			double share = 0;
+			compute_difference(deformed, baked, share);
+			if (angle == 0) {
+				CHECK(share < 0.004); // rounding moves single pixels at hard edges
+			} else {
+				// Bounds of joints are wider than those of vertices, so that maps have other
+				// texels.
+				double changed = 0;
+				compute_difference(deformed, before, changed);
+				CHECK(changed > 0.005);
+				CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+			}
+			before = deformed;
+		}
+	});
+}
+
+TEST_CASE("deformed casters: cut-outs follow, and several instances keep their own poses") {
+	Material material;
+	material.alpha_mode = AlphaMode::MASK;
+	material.is_double_sided = true;
+	std::vector<uint8_t> texels;
+	for (int y = 0; y < 32; ++y) {
+		for (int x = 0; x < 32; ++x) {
+			const double depth = glm::distance(glm::dvec2(x % 16, y % 16), glm::dvec2(7.5)) - 4.5;
+			texels.insert(texels.end(),
+					{ 255, 255, 255,
+							uint8_t(std::lround(255 * std::clamp(0.5 + depth, 0.0, 1.0))) });
+		}
+	}
+	material.base_color_texture.image = make_image("holes", { 32, 32 }, texels);
+	const auto shared_material = std::make_shared<const Material>(material);
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		TubeScene scene(LightType::SPOT, make_tube(true));
+		make_cheap(*scene.light);
+		scene.tube->surfaces[0].material = shared_material;
+		scene.pose(1.1);
+		double share = 0;
+		double changed = 0;
+		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
+		compute_difference(posed, fixture.render(make_request(scene.bake(), p_info.id)), share);
+		scene.pose(0);
+		compute_difference(posed, fixture.render(make_request(scene.snap(), p_info.id)), changed);
+		CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+		scene.pose(1.1);
+		// Another instance of the same mesh, at rest beside it.
+		MeshInstance3D &second =
+				add_mesh(scene.scene, "Second", scene.tube->surfaces[0].mesh, { -0.9, 0.2, 0.3 });
+		second.surfaces[0].material = shared_material;
+		compute_difference(fixture.render(make_request(scene.snap(), p_info.id)),
+				fixture.render(make_request(scene.bake(), p_info.id)), share);
+		CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
+	});
+}
+
+TEST_CASE("deformed casters: a pose that rests is cached, and the mask stays the same") {
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		TubeScene scene(LightType::SPOT);
+		make_cheap(*scene.light);
+		scene.pose(0.6);
+		const MaskResult first = fixture.render(make_request(scene.snap(), p_info.id));
+		CHECK(first.plan.to_text().find("deform, meshes: 1") != std::string::npos);
+		const MaskResult second = fixture.render(make_request(scene.snap(), p_info.id));
+		CHECK(second.plan.to_text().find("their pose is the same") != std::string::npos);
+		CHECK(second.commands.dispatches <= first.commands.dispatches);
+		if (!p_info.is_reference) {
+			CHECK(first.visibility == second.visibility);
+		}
+		MaskRequest request = make_request(scene.snap(), p_info.id);
+		request.may_keep = false;
+		const MaskResult all = fixture.render(request);
+		CHECK(all.plan.to_text().find("deform, meshes: 1") != std::string::npos);
+		if (!p_info.is_reference) {
+			CHECK(all.visibility == first.visibility);
+		}
+	});
+}
+
+TEST_CASE("deformed casters: a pose reaches into views that the mesh at rest is outside of") {
+	MaskFixture fixture;
+	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
+		TubeScene scene(p_type);
+		make_cheap(*scene.light);
+		// At rest far below the ground; both joints lift it above.
+		scene.joint->parent->parent_from_node[3].y = -50;
+		const MaskResult without = fixture.render(make_request(scene.snap(), p_info.id));
+		const glm::dmat4 lifted = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 0.5, 0));
+		scene.joint->parent->posed_parent_from_node = lifted;
+		const MaskResult posed = fixture.render(make_request(scene.snap(), p_info.id));
+		double share = 0;
+		compute_difference(without, posed, share);
+		CHECK(share > 0.005);
+		for (const bool may_leave_out : { true, false }) {
+			MaskRequest request = make_request(scene.snap(), p_info.id);
+			request.may_leave_out = may_leave_out;
+			const MaskResult all = fixture.render(request);
+			compute_difference(all, posed, share);
+			CHECK(share < 0.001);
+		}
+	});
+}
+
+TEST_CASE("deformed casters: joints that press the mesh flat or to a point leave masks valid") {
+	MaskFixture fixture;
+	for_each_technique([&](const ShadowTechniqueInfo &p_info) {
+		TubeScene scene(LightType::OMNI);
+		make_cheap(*scene.light);
+		for (const glm::dvec3 &scale :
+				{ glm::dvec3(0), glm::dvec3(1, 0, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1e-9) }) {
+			scene.joint->posed_parent_from_node = glm::scale(glm::dmat4(1.0), scale);
+			const MaskResult mask = fixture.render(make_request(scene.snap(), p_info.id));
+			for (const float visibility : mask.visibility) {
+				CHECK_UNARY(visibility >= 0.0f && visibility <= 1.0f);
+			}
+		}
+	});
+}
+
+TEST_CASE("topology: vertices of different joints, weights or targets are not welded") {
+	MeshRig rig;
+	rig.influence_count = 4;
+	std::vector<glm::vec3> positions;
+	for (int i = 0; i < 6; ++i) {
+		positions.emplace_back(i % 3 == 1, i % 3 == 2, 0);
+		rig.joints.insert(rig.joints.end(), { uint32_t(i == 4), 0, 0, 0 });
+		rig.weights.insert(rig.weights.end(), { 1, 0, 0, 0 });
+	}
+	rig.targets.resize(1);
+	rig.targets[0].positions.assign(6, glm::vec3(0));
+	rig.targets[0].positions[5].z = 1;
+	MeshAttributes attributes;
+	attributes.rig = make_mesh_rig(std::move(rig), positions, "mesh");
+	const auto mesh = make_mesh("mesh", positions, {}, { 0, 1, 2, 3, 5, 4 }, attributes);
+	const auto topology = get_topology(mesh);
+	CHECK(topology->welded_positions_node.size() == 5); // 0 and 3 alone are one
+	CHECK(topology->is_deformable);
+	// A flat quad bends: its diagonal is never left out.
+	const auto quad = make_mesh("quad", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, {},
+			{ 0, 1, 2, 0, 2, 3 });
+	const auto count_flat = [](const Mesh &p_mesh) {
+		size_t count = 0;
+		for (const MeshEdge &edge : build_topology(p_mesh).edges) {
+			count += edge.is_coplanar ? 1 : 0;
+		}
+		return count;
+	};
+	CHECK(count_flat(*quad) == 1);
+	MeshRig bent;
+	bent.targets.resize(1);
+	attributes.rig = make_mesh_rig(std::move(bent), quad->positions_node, "quad");
+	CHECK(count_flat(*make_mesh("quad", quad->positions_node, {}, quad->indices, attributes)) == 0);
+}

@@ -1,0 +1,246 @@
+#!/usr/bin/env python3
+"""Measures deformed casters: the scene `courtyard` along its walk, and writes the tables of doc/animation.md.
+
+    measure_animation.py [--write] [--errors | --times] [--techniques A,B]
+
+Errors at eight times of the walk against 2304 rays a receiver, 512 x 512, from the camera that follows the figure, under
+the sun and the lamp. Times: a mesh of 70,000 triangles that a skin of 20 joints moves, against the same mesh that its node moves: ms of the
+mask's passes, medians of 20 frames in which all moves.
+"""
+
+import argparse
+import json
+import math
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+SCENES = os.path.join(ROOT, "demo_project", "scenes")
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from mask_file import load_mask  # noqa: E402
+
+PAGE = os.path.join(ROOT, "doc", "animation.md")
+SIZE = "512x512"
+SAMPLES = 2304
+WRONG = 0.2
+TIMES_S = [0.3 + 0.75 * index for index in range(8)]
+LIGHTS = {"Sun": "light_angular_distance=2", "Lamp": "light_size=0.1"}
+CAMERA = "Walk camera"
+MOVING = ("Figure", "Flag")
+TECHNIQUES = ("edge_count", "pcss", "views", "jittered_pcf", "penumbra_fins", "shadow_volume", "planar", "shadow_map")
+TIMED = ("edge_count", "pcss", "penumbra_fins", "shadow_volume")
+RINGS, SIDES = 350, 100  # 70,000 triangles
+
+
+def run(*arguments):
+    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
+    return result.stdout
+
+
+def make_still_scene(folder):
+    """The scene without what moves."""
+    with open(os.path.join(SCENES, "courtyard.gltf"), encoding="utf-8") as file:
+        document = json.load(file)
+    for node in document["nodes"]:
+        if node.get("name") in MOVING:
+            for key in ("mesh", "skin", "weights"):
+                node.pop(key, None)
+    for element in document["buffers"] + document["images"]:
+        if "uri" in element:
+            shutil.copy(os.path.join(SCENES, element["uri"]), folder)
+    document.pop("animations")
+    path = os.path.join(folder, "still.gltf")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(document, file)
+    return path
+
+
+def load_depths(folder):
+    with open(os.path.join(folder, "depth.f32"), "rb") as file:
+        data = file.read()
+    return struct.unpack("<%df" % (len(data) // 4), data)
+
+
+def find_moving_pixels(still, words, folder):
+    """Pixels that show the figure or the flag: those whose depth is another without them."""
+    depths = []
+    for scene in ([os.path.join(SCENES, "courtyard.gltf"), *words], [still]):
+        run("visibility", *scene, "--camera", CAMERA, "--light", "Sun", "--size", SIZE, "--technique", "shadow_map",
+            "--surfaces", folder, "--out", os.path.join(folder, "mask.exr"))
+        depths.append(load_depths(folder))
+    return [index for index, (one, other) in enumerate(zip(*depths)) if one != other]
+
+
+def measure_errors(techniques):
+    """Of each light and technique: the greatest of the eight times' penumbra MAE, wrong receivers in 100,000, and
+    those among what moves."""
+    greatest = {}
+    with tempfile.TemporaryDirectory() as folder:
+        still = make_still_scene(folder)
+        reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
+        for time_s in TIMES_S:
+            at = ["--at", "%g" % time_s]
+            moving = find_moving_pixels(still, at, folder)
+            for light, setting in LIGHTS.items():
+                words = ["visibility", os.path.join(SCENES, "courtyard.gltf"), *at, "--camera", CAMERA, "--light", light,
+                         "--size", SIZE, "--set", setting]
+                run(*words, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
+                truth = load_mask(reference)
+                receivers = [index for index in moving if truth.receiver[index] >= 0.5]
+                for technique in techniques:
+                    run(*words, "--technique", technique, "--out", mask)
+                    error = json.loads(run("compare", reference, mask))
+                    found = load_mask(mask)
+                    wrong = sum(abs(found.visibility[i] - truth.visibility[i]) > WRONG for i in receivers)
+                    row = (error["penumbra"]["mae"], error["receiver"]["wrong"] * 1e5, wrong / len(receivers) * 1e5)
+                    before = greatest.get((light, technique), (0, 0, 0))
+                    greatest[light, technique] = tuple(map(max, before, row))
+                    print("%.2f s, %s, %s: MAE %.4f, wrong %.1f, of %d that move %.1f" % (
+                        time_s, light, technique, row[0], row[1], len(receivers), row[2]), flush=True)
+    lines = ["| technique | %s |" % " | ".join(LIGHTS), "|---" * (1 + len(LIGHTS)) + "|"]
+    for technique in techniques:
+        cells = ["%.4f, %.0f, %.0f" % greatest[light, technique] for light in LIGHTS]
+        lines.append("| `%s` | %s |" % (technique, " | ".join(cells)))
+    return lines
+
+
+class Document:
+    """A glTF document whose buffer grows."""
+
+    def __init__(self):
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "bufferViews": [],
+                     "accessors": []}
+        self.bytes = bytearray()
+
+    def add(self, code, kind, type_name, values, width):
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes),
+                                         "byteLength": len(values) * struct.calcsize(code)})
+        self.bytes += struct.pack("<%d%s" % (len(values), code), *values)
+        self.bytes += bytes(-len(self.bytes) % 4)
+        accessor = {"bufferView": len(self.json["bufferViews"]) - 1, "componentType": kind, "type": type_name,
+                    "count": len(values) // width}
+        if type_name in ("VEC3", "SCALAR") and code == "f":
+            columns = [values[axis::width] for axis in range(width)]
+            accessor.update(min=[min(column) for column in columns], max=[max(column) for column in columns])
+        self.json["accessors"].append(accessor)
+        return len(self.json["accessors"]) - 1
+
+    def save(self, path):
+        with open(path + ".bin", "wb") as file:
+            file.write(self.bytes)
+        self.json["buffers"] = [{"uri": os.path.basename(path) + ".bin", "byteLength": len(self.bytes)}]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(self.json, file)
+
+
+def make_tube(path, is_skinned):
+    """A tube of 70,000 triangles, turned by its node or by the joints of a skin, of which there are 20."""
+    document = Document()
+    joint_count = 20
+    points, normals, joints, weights = [], [], [], []
+    for ring in range(RINGS):
+        height = 2.0 * ring / (RINGS - 1)
+        place = height / 2.0 * (joint_count - 1)
+        first = min(int(place), joint_count - 2)
+        for side in range(SIDES):
+            angle = math.tau * side / SIDES
+            radius = 0.15 + 0.03 * math.sin(9.0 * height) * math.cos(3.0 * angle)
+            points += [radius * math.cos(angle), height, radius * math.sin(angle)]
+            normals += [math.cos(angle), 0.0, math.sin(angle)]
+            joints += [first, first + 1, 0, 0]
+            weights += [1.0 - (place - first), place - first, 0.0, 0.0]
+    indices = []
+    for ring in range(RINGS - 1):
+        for side in range(SIDES):
+            a, b = ring * SIDES + side, ring * SIDES + (side + 1) % SIDES
+            indices += [a, a + SIDES, b, b, a + SIDES, b + SIDES]
+    attributes = {"POSITION": document.add("f", 5126, "VEC3", points, 3), "NORMAL": document.add("f", 5126, "VEC3", normals, 3)}
+    if is_skinned:
+        attributes["JOINTS_0"] = document.add("B", 5121, "VEC4", joints, 4)
+        attributes["WEIGHTS_0"] = document.add("f", 5126, "VEC4", weights, 4)
+    primitive = {"attributes": attributes, "indices": document.add("I", 5125, "SCALAR", indices, 1)}
+    document.json["meshes"] = [{"name": "tube", "primitives": [primitive]}]
+    nodes = document.json["nodes"]
+    nodes.append({"name": "Tube", "mesh": 0, **({"skin": 0} if is_skinned else {})})
+    step = 2.0 / (joint_count - 1)
+    for joint in range(joint_count):
+        nodes.append({"name": "Joint %d" % joint, "translation": [0, step if joint else 0, 0],
+                      **({"children": [joint + 2]} if joint + 1 < joint_count else {})})
+    binds = []
+    for joint in range(joint_count):
+        binds += [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -step * joint, 0, 1]
+    if is_skinned:
+        document.json["skins"] = [{"joints": list(range(1, joint_count + 1)),
+                                   "inverseBindMatrices": document.add("f", 5126, "MAT4", binds, 16)}]
+    moved = 1 if is_skinned else 0  # the root joint, or the mesh itself: the same shape at the same place
+    angle = 0.3
+    times = document.add("f", 5126, "SCALAR", [0.0, 1.0], 1)
+    turns = document.add("f", 5126, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)
+    document.json["animations"] = [{
+        "samplers": [{"input": times, "output": turns}],
+        "channels": [{"sampler": 0, "target": {"node": moved, "path": "rotation"}}]}]
+    document.json["scenes"][0]["nodes"] = [0, 1]
+    document.save(path)
+
+
+def measure_time(path, technique, folder):
+    times = os.path.join(folder, "times.json")
+    run("visibility", path, "--at", "0.7", "--size", SIZE, "--technique", technique, "--time", times, "--out",
+        os.path.join(folder, "timed.exr"))
+    with open(times, encoding="utf-8") as file:
+        document = json.load(file)
+    deform = sum(item["gpu_ms"] for item in document["passes"] if item["name"] == "deform")
+    return document["total"]["gpu_ms"], deform
+
+
+def measure_times():
+    lines = ["| technique | moved by its node, ms | by a skin, ms | ratio | of which `deform` |", "|---" * 5 + "|"]
+    with tempfile.TemporaryDirectory() as folder:
+        paths = {}
+        for is_skinned in (False, True):
+            paths[is_skinned] = os.path.join(folder, "skin.gltf" if is_skinned else "rigid.gltf")
+            make_tube(paths[is_skinned], is_skinned)
+        for technique in TIMED:
+            rigid, _ = measure_time(paths[False], technique, folder)
+            skinned, deform = measure_time(paths[True], technique, folder)
+            lines.append("| `%s` | %.1f | %.1f | %.2f | %.1f |" % (technique, rigid, skinned, skinned / rigid, deform))
+            print(lines[-1], flush=True)
+    return lines
+
+
+def write_table(name, lines):
+    with open(PAGE, encoding="utf-8") as file:
+        page = file.read()
+    table = "<!-- begin %s -->\n%s\n<!-- end %s -->" % (name, "\n".join(lines), name)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(re.sub("<!-- begin %s -->.*?<!-- end %s -->" % (name, name), lambda _: table, page, flags=re.DOTALL))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="writes the tables into doc/animation.md")
+    parser.add_argument("--errors", action="store_true", help="errors alone")
+    parser.add_argument("--times", action="store_true", help="times alone")
+    parser.add_argument("--techniques", default=",".join(TECHNIQUES))
+    options = parser.parse_args()
+    if not options.times:
+        lines = measure_errors(options.techniques.split(","))
+        print("\n".join(lines))
+        if options.write:
+            write_table("errors", lines)
+    if not options.errors:
+        lines = measure_times()
+        if options.write:
+            write_table("times", lines)
+
+
+if __name__ == "__main__":
+    main()
