@@ -52,6 +52,7 @@ inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";
 inline constexpr const char *LIGHTS_GROUP = "lights";
 inline constexpr const char *RESOLUTION_GROUP = "resolution";
+inline constexpr const char *ANIMATION_GROUP = "animation"; // value: the time in s
 inline constexpr const char *STABILITY_GROUP = "stability"; // points of sweeps, see StabilitySweep
 
 /// A scene, a light and its size: one question that all techniques answer.
@@ -110,10 +111,10 @@ struct VisibilityCondition {
 	ErrorCause cause = ErrorCause::METHOD;
 };
 
-/// What else a point of a stability sweep is asked; a part of the report (ReportPart) fills it in.
+/// What else a point of a stability sweep or of an animation is asked; a part of the report (ReportPart) fills it in.
 struct ReportStability {
-	/// Over penumbra pixels, when the light moves by a thousandth of its radius: see
-	/// TemporalMetrics. None where the light has no place to move to.
+	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
+	/// plays on for a frame: see TemporalMetrics. None where the light has no place to move to.
 	std::optional<double> temporal_rmse;
 	/// Of the receivers: the share whose truth is 0 or 1 and that are wrong by more than a half.
 	double wrong_share = 0;

@@ -73,6 +73,10 @@ uint64_t compute_question_hash(const MaskQuestion &p_question) {
 			hash = add_light(light, hash);
 		}
 	}
+	for (size_t index = 0; p_question.next_scene && index < p_question.next_scene->instances.size();
+			++index) {
+		hash = add_instance(p_question.next_scene->instances[index], hash);
+	}
 	hash = compute_value_hash(p_question.filter_hash, hash);
 	return compute_value_hash(p_question.size_px, hash);
 }

@@ -45,6 +45,8 @@ struct ReportOptions {
 	ReportExtent stability = ReportExtent::QUICK; // NONE where no module adds the sweeps
 	std::vector<std::string> sweeps;			  // of stability; empty: all
 	std::vector<ReportScene> stability_scenes;	  // of the sweep "scenes"
+	ReportExtent animation = ReportExtent::QUICK;
+	std::vector<ReportScene> animated_scenes; // those without an animation are skipped
 
 	bool has_sweep(const std::string &p_id) const;
 };

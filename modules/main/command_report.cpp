@@ -141,6 +141,7 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);
 	const std::vector<ReportScene> scenes = load_scenes(selected.scenes, p_common, options.size_px);
+	options.animated_scenes = scenes;
 	if (options.has_sweep(PROJECT_SCENES_SWEEP)) {
 		options.stability_scenes =
 				load_scenes(selected.stability_scenes, p_common, options.size_px);
@@ -199,6 +200,9 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "Of the truth, per pixel; default 1024")
 			->check(CLI::Range(1u, 65536u));
 	command->add_option("--scaling", arguments.scaling, "Curves of cost: none, quick or full")
+			->check(CLI::IsMember({ "none", "quick", "full" }));
+	command->add_option("--change", arguments.animation,
+				   "Errors of change while each scene's animation plays: none, quick or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));
 	command->add_option("--stability", arguments.stability,
 				   "Sweeps into stiff and extreme cases: none, quick or full")

@@ -128,6 +128,7 @@ ReportOptions make_report_options(
 	}
 	options.size_px = parse_size(p_arguments.size);
 	options.scaling = parse_extent(p_arguments.scaling);
+	options.animation = parse_extent(p_arguments.animation);
 	read_stability_options(p_arguments, options);
 	return options;
 }

@@ -19,6 +19,7 @@ struct ReportArguments {
 	std::vector<std::string> light_types;
 	std::string size = "256x256";
 	std::string scaling = "quick";
+	std::string animation = "quick";
 	std::optional<std::string> stability; // absent: "quick" where a module adds the sweeps
 	ReportOptions options;				  // those that are taken as they are
 	std::string out;

@@ -92,6 +92,41 @@ std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_t
 	return poses;
 }
 
+void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_time_s) {
+	std::map<int, NodePose> poses;
+	std::map<int, const AnimatedNode *> parts;
+	if (p_animation) {
+		poses = sample_channels(*p_animation, p_time_s);
+		for (const AnimatedNode &node : p_animation->nodes) {
+			parts[node.node] = &node;
+		}
+	}
+	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
+		node->posed_parent_from_node.reset();
+		auto *instance = dynamic_cast<MeshInstance3D *>(node);
+		if (instance) {
+			instance->posed_morph_weights.reset();
+		}
+		// The first of an index: what else the node of the file is, such as a light, hangs below.
+		const auto pose = poses.find(node->file_index);
+		if (node->file_index < 0 || pose == poses.end()) {
+			continue;
+		}
+		const NodePose channels = std::move(pose->second);
+		poses.erase(pose);
+		if (channels.weights && instance) {
+			instance->posed_morph_weights = channels.weights;
+		}
+		if (channels.translation || channels.rotation || channels.scale) {
+			AnimatedNode moved = choose_parts(*parts.at(node->file_index), *node);
+			moved.translation = channels.translation.value_or(moved.translation);
+			moved.rotation = channels.rotation.value_or(moved.rotation);
+			moved.scale = channels.scale.value_or(moved.scale);
+			node->posed_parent_from_node = moved.compose();
+		}
+	}
+}
+
 } // namespace
 
 std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation) const {
@@ -154,38 +189,37 @@ double Animation::wrap_time(double p_time_s) const {
 }
 
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s) {
-	std::map<int, NodePose> poses;
-	std::map<int, const AnimatedNode *> parts;
-	if (p_animation) {
-		poses = sample_channels(*p_animation, p_time_s);
-		for (const AnimatedNode &node : p_animation->nodes) {
-			parts[node.node] = &node;
-		}
+	pose_nodes(r_scene, p_animation, p_time_s);
+}
+
+std::shared_ptr<const SceneSnapshot> build_posed_snapshot(const Scene &p_scene,
+		const Camera3D &p_camera, const Animation *p_animation, double p_time_s) {
+	std::vector<std::pair<Node3D *, std::optional<glm::dmat4>>> transforms;
+	std::vector<std::pair<MeshInstance3D *, std::optional<std::vector<float>>>> weights;
+	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
+		transforms.emplace_back(node, node->posed_parent_from_node);
 	}
-	for (Node3D *node : r_scene.find_nodes<Node3D>()) {
-		node->posed_parent_from_node.reset();
-		auto *instance = dynamic_cast<MeshInstance3D *>(node);
-		if (instance) {
-			instance->posed_morph_weights.reset();
-		}
-		// The first of an index: what else the node of the file is, such as a light, hangs below.
-		const auto pose = poses.find(node->file_index);
-		if (node->file_index < 0 || pose == poses.end()) {
-			continue;
-		}
-		const NodePose channels = std::move(pose->second);
-		poses.erase(pose);
-		if (channels.weights && instance) {
-			instance->posed_morph_weights = channels.weights;
-		}
-		if (channels.translation || channels.rotation || channels.scale) {
-			AnimatedNode moved = choose_parts(*parts.at(node->file_index), *node);
-			moved.translation = channels.translation.value_or(moved.translation);
-			moved.rotation = channels.rotation.value_or(moved.rotation);
-			moved.scale = channels.scale.value_or(moved.scale);
-			node->posed_parent_from_node = moved.compose();
-		}
+	for (MeshInstance3D *node : p_scene.find_nodes<MeshInstance3D>()) {
+		weights.emplace_back(node, node->posed_morph_weights);
 	}
+	pose_nodes(p_scene, p_animation, p_time_s);
+	const auto restore = [&] {
+		for (const auto &[node, transform] : transforms) {
+			node->posed_parent_from_node = transform;
+		}
+		for (const auto &[node, weight] : weights) {
+			node->posed_morph_weights = weight;
+		}
+	};
+	std::shared_ptr<const SceneSnapshot> snapshot;
+	try {
+		snapshot = build_snapshot(p_scene, p_camera);
+	} catch (...) {
+		restore();
+		throw;
+	}
+	restore();
+	return snapshot;
 }
 
 std::shared_ptr<const Animation> find_animation(const Scene &p_scene, const std::string &p_name) {

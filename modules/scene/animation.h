@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/scene/nodes.h"
+#include "modules/scene/scene_snapshot.h"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -62,6 +63,11 @@ struct Animation {
 /// values; all others back where they belong. Null: all of them. The nodes' own transforms and
 /// weights stay as they are: see Node3D::posed_parent_from_node.
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s);
+
+/// As build_snapshot, of the scene as the animation has it at a time; null: at rest. The scene is left
+/// as it was posed before.
+std::shared_ptr<const SceneSnapshot> build_posed_snapshot(const Scene &p_scene,
+		const Camera3D &p_camera, const Animation *p_animation, double p_time_s);
 
 /// By its name; empty: the first, or null where there is none. Another name: an Error that lists
 /// those that there are.

@@ -225,7 +225,10 @@
 		const scenes = d3.groups(report.matrix, (item) => item.scene);
 		const sections = [makeRanking(data), report.makeBudget(data),
 			...scenes.map(([scene, configurations], index) => makeScene(scene, configurations, index)), makeScaling(data)];
-		if (data.stability) { // absent where the build lacks that part of the report
+		if (data.animation) { // absent where the build lacks that part of the report
+			sections.push(report.makeChange(data.animation, drawOnEverySize));
+		}
+		if (data.stability) { // likewise
 			sections.push(report.makeStability(data.stability, drawOnEverySize));
 		}
 		const against = report.makeAgainst(data.against);

@@ -1,0 +1,149 @@
+#include "modules/animation_report/animation_part.h"
+
+#include "modules/core/error.h"
+#include "modules/scene/animation.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const double FRAME_S = 1.0 / 30;
+const size_t QUICK_TIME_COUNT = 4;
+const size_t FULL_TIME_COUNT = 16;
+
+/// In the middle of equal parts of the animation.
+std::vector<double> list_times(const Animation &p_animation, ReportExtent p_extent) {
+	const size_t count = p_extent == ReportExtent::FULL ? FULL_TIME_COUNT : QUICK_TIME_COUNT;
+	std::vector<double> times_s;
+	for (size_t index = 0; index < count; ++index) {
+		times_s.push_back(p_animation.duration_s * (double(index) + 0.5) / double(count));
+	}
+	return times_s;
+}
+
+MaskQuestion make_question(const ReportScene &p_scene, const Animation &p_animation,
+		const std::string &p_light, double p_time_s, glm::uvec2 p_size_px, uint64_t p_filter_hash) {
+	const Camera3D &camera = *find_report_view(p_scene).camera;
+	MaskQuestion question;
+	question.scene = build_posed_snapshot(*p_scene.scene, camera, &p_animation, p_time_s);
+	question.next_scene = build_posed_snapshot(
+			*p_scene.scene, camera, &p_animation, p_animation.wrap_time(p_time_s + FRAME_S));
+	question.light = p_light;
+	question.size_px = p_size_px;
+	question.filter_hash = p_filter_hash;
+	return question;
+}
+
+MaskQuestion get_next(const MaskQuestion &p_question) {
+	MaskQuestion next = p_question;
+	next.scene = p_question.next_scene;
+	next.next_scene = nullptr;
+	return next;
+}
+
+} // namespace
+
+void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const {
+	if (p_options.animation == ReportExtent::NONE) {
+		return;
+	}
+	for (const ReportScene &item : p_options.animated_scenes) {
+		if (!item.scene || item.scene->animations.empty() ||
+				!(item.scene->animations[0]->duration_s > 0)) {
+			continue; // not loaded: the matrix says so
+		}
+		const std::shared_ptr<const Animation> animation = item.scene->animations[0];
+		ReportConfiguration configuration;
+		configuration.group = ANIMATION_GROUP;
+		configuration.scene = item.name;
+		configuration.size_px = p_options.size_px;
+		std::vector<std::string> lights;
+		try {
+			for (const Light3D *light : find_report_view(item).lights) {
+				lights.push_back(light->name);
+			}
+		} catch (const Error &) {
+			continue; // likewise
+		}
+		configuration.light_count = uint32_t(lights.size());
+		for (const std::string &light : lights) {
+			configuration.light = light;
+			for (const double time_s : list_times(*animation, p_options.animation)) {
+				configuration.value = time_s;
+				configuration.id =
+						text(ANIMATION_GROUP, "/", item.name, "/", light, "/", time_s, " s");
+				p_add(configuration,
+						[=, size_px = p_options.size_px, filter_hash = p_options.filter_hash](
+								const PropertyValues &) {
+							return make_question(
+									item, *animation, light, time_s, size_px, filter_hash);
+						});
+			}
+		}
+	}
+}
+
+std::vector<TracedTruth> AnimationPart::trace_truths(
+		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
+	std::vector<TracedTruth> truths;
+	truths.push_back(r_source.trace_truth(p_question, p_sample_count));
+	truths.push_back(r_source.trace_truth(get_next(p_question), p_sample_count));
+	return truths;
+}
+
+MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
+		std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const {
+	ReportCell &cell = r_report.cells[p_cell];
+	const MaskQuestion questions[] = { p_question, get_next(p_question) };
+	const DrawnMasks drawn = r_source.draw(questions, cell.technique);
+	if (drawn.validation_message_count > 0) {
+		fail(drawn.validation_message_count, " validation messages.");
+	}
+	const MaskImage truths[] = { p_truths[0].mask, p_truths[1].mask };
+	cell.error = ReportError{ compute_mask_metrics(truths[0], drawn.frames[0]), {} };
+	cell.error->whole_light = cell.error->all;
+	cell.stability = ReportStability();
+	cell.stability->temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
+	cell.stability->warnings = drawn.warnings;
+	return {};
+}
+
+Json AnimationPart::to_json(const Report &p_report) const {
+	Json json = Json::array();
+	std::map<std::pair<std::string, std::string>, size_t> plots; // by scene and light
+	for (size_t index = 0; index < p_report.cells.size(); ++index) {
+		const ReportCell &cell = p_report.cells[index];
+		const ReportConfiguration &configuration =
+				p_report.configurations[cell.configuration_index];
+		if (configuration.group != ANIMATION_GROUP || !cell.is_ok() || !cell.error ||
+				!cell.stability || !cell.stability->temporal_rmse) {
+			continue;
+		}
+		const auto [place, is_new] =
+				plots.try_emplace({ configuration.scene, configuration.light }, json.size());
+		if (is_new) {
+			json.push_back({ { "scene", configuration.scene }, { "light", configuration.light },
+					{ "series", Json::array() } });
+		}
+		Json &series = json[place->second]["series"];
+		auto found = std::find_if(series.begin(), series.end(),
+				[&](const Json &p_one) { return p_one["technique"] == cell.technique; });
+		if (found == series.end()) {
+			series.push_back({ { "technique", cell.technique }, { "points", Json::array() } });
+			found = series.end() - 1;
+		}
+		(*found)["points"].push_back({ { "time_s", configuration.value }, { "cell", index },
+				{ "temporal_rmse", *cell.stability->temporal_rmse },
+				{ "mae", cell.error->all.penumbra.mae } });
+	}
+	return json;
+}
+
+} // namespace gnomon
