@@ -258,7 +258,7 @@ part_embed() {
 }
 part_command_line() {
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
-        tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py \
+        tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py tests/command_line/test_animation.py \
         tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
         tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py \
