@@ -28,7 +28,7 @@ DoubleVisibility::DoubleVisibility(const SceneSnapshot &p_scene, const LightSnap
 				node_from_world[0][0] + node_from_world[1][1] + node_from_world[2][2]);
 		if (instance.casts_shadow && !is_flat) {
 			bodies.push_back({ node_from_world, instance.bounds_world,
-					std::make_unique<RayTree>(instance.caster_mesh) });
+					std::make_unique<RayTree>(instance.get_posed_caster_mesh()) });
 		}
 	}
 }
