@@ -37,6 +37,9 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	if (!had_mesh || document->node_surfaces.at(p_entry.index) != key) {
 		const std::optional<size_t> mesh_index = find_or_append_mesh(p_instance, key);
 		get_node(p_entry).mesh = mesh_index ? static_cast<int>(*mesh_index) : -1;
+		if (!had_mesh && mesh_index) {
+			write_motion(model.meshes[*mesh_index], p_instance, get_node(p_entry));
+		}
 	}
 	const GltfNodeState fresh;
 	const GltfNodeState &before = p_entry.is_new ? fresh : document->nodes[p_entry.index];
@@ -47,6 +50,31 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	if (p_instance.is_planar_receiver != before.is_planar_receiver) {
 		require_extras(get_node(p_entry).extras)["shadow_planar_receiver"] =
 				tinygltf::Value(p_instance.is_planar_receiver);
+	}
+}
+
+/// The skin and the weights of a node that had no mesh in the file. p_mesh: its mesh there, which
+/// has joints and targets where it is one of the document's.
+void GltfNodeWriter::write_motion(const tinygltf::Mesh &p_mesh, const MeshInstance3D &p_instance,
+		tinygltf::Node &r_node) const {
+	bool has_joints = false;
+	bool has_targets = false;
+	for (const tinygltf::Primitive &primitive : p_mesh.primitives) {
+		has_joints |= primitive.attributes.contains("JOINTS_0");
+		has_targets |= !primitive.targets.empty();
+	}
+	if (document && has_joints) {
+		const auto skin = document->skin_indices.find(p_instance.skin.get());
+		r_node.skin = skin == document->skin_indices.end() ? -1 : static_cast<int>(skin->second);
+	}
+	std::vector<double> weights;
+	for (const float weight : p_instance.morph_weights) {
+		weights.push_back(to_shortest(weight));
+	}
+	std::vector<double> of_mesh = p_mesh.weights;
+	of_mesh.resize(weights.size(), 0.0);
+	if (has_targets && weights != of_mesh) {
+		r_node.weights = std::move(weights);
 	}
 }
 

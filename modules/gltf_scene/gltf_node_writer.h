@@ -46,6 +46,8 @@ private:
 	void write_name(
 			const Entry &p_entry, const std::string &p_before, tinygltf::Node &r_node) const;
 	void write_mesh(const Entry &p_entry, const MeshInstance3D &p_instance);
+	void write_motion(const tinygltf::Mesh &p_mesh, const MeshInstance3D &p_instance,
+			tinygltf::Node &r_node) const;
 	std::optional<size_t> find_or_append_mesh(
 			const MeshInstance3D &p_instance, const GltfDocument::SurfaceKey &p_key);
 	void write_light_of(const Entry &p_entry, const Light3D &p_light);

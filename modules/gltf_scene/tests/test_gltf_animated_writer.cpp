@@ -1,0 +1,116 @@
+#include "modules/gltf_scene/tests/animated_test_file.h"
+#include "modules/scene/animation.h"
+
+#include <doctest/doctest.h>
+
+using namespace gnomon;
+
+namespace {
+
+MeshInstance3D &find(const Scene &p_scene, const char *p_name) {
+	return p_scene.find_node<MeshInstance3D>(p_name, "mesh");
+}
+
+/// A copy of the node, which the file does not have yet.
+MeshInstance3D &copy(Scene &r_scene, const char *p_name) {
+	std::unique_ptr<Node3D> made = find(r_scene, p_name).copy();
+	made->name += " 2";
+	made->file_index = -1;
+	return static_cast<MeshInstance3D &>(*r_scene.root->add_child(std::move(made)));
+}
+
+} // namespace
+
+TEST_CASE("[GltfWriter] no pose of an animation is saved") {
+	GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	save_gltf(*scene, folder.path / "rest.gltf");
+	pose_scene(*scene, find_animation(*scene, "Move").get(), 1.5);
+	REQUIRE(find(*scene, "Flag").posed_morph_weights);
+	save_gltf(*scene, folder.path / "posed.gltf");
+	CHECK(load_text_file(folder.path / "posed.gltf") == load_text_file(folder.path / "rest.gltf"));
+}
+
+TEST_CASE("[GltfWriter] a copied node has the skin and the weights of its origin") {
+	GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	copy(*scene, "Skinned");
+	copy(*scene, "Flag");
+	save_gltf(*scene, folder.path / "again.gltf");
+	const Json json = folder.read_json("again.gltf");
+	REQUIRE(json["nodes"].size() == 6);
+	CHECK(json["nodes"][4] == Json::parse(R"({"mesh": 0, "name": "Skinned 2", "skin": 0})"));
+	CHECK(sort(json["nodes"][5])["weights"] == Json::parse("[0.25]"));
+	CHECK(json["nodes"][5]["mesh"] == 1);
+	CHECK(json["skins"].size() == 1);
+	CHECK(json["meshes"].size() == 2);
+	const auto again = load_gltf(folder.path / "again.gltf");
+	CHECK(find(*again, "Skinned 2").skin == find(*again, "Skinned").skin);
+	CHECK(find(*again, "Flag 2").get_morph_weights() == std::vector<float>{ 0.25f });
+}
+
+TEST_CASE("[GltfWriter] a copy of another material keeps skin and weights, too") {
+	GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	auto red = std::make_shared<Material>();
+	red->base_color = glm::vec3(1, 0, 0);
+	for (const char *name : { "Skinned", "Flag" }) {
+		copy(*scene, name).surfaces[0].material = red;
+	}
+	save_gltf(*scene, folder.path / "again.gltf");
+	const auto again = load_gltf(folder.path / "again.gltf");
+	for (const char *name : { "Skinned 2", "Flag 2" }) {
+		const MeshInstance3D &node = find(*again, name);
+		CHECK(node.surfaces[0].mesh->attributes.rig);
+		CHECK(node.surfaces[0].material->base_color == red->base_color);
+	}
+	CHECK(find(*again, "Skinned 2").skin);
+	CHECK(find(*again, "Flag 2").get_morph_weights() == std::vector<float>{ 0.25f });
+}
+
+TEST_CASE("[GltfWriter] weights that are the mesh's own are not written to a copy") {
+	GltfTestFolder folder;
+	Json json = make_animated(folder);
+	json["meshes"][1]["weights"] = { 0.25 };
+	json["nodes"][3].erase("weights");
+	const auto scene = folder.load(json);
+	copy(*scene, "Flag");
+	save_gltf(*scene, folder.path / "again.gltf");
+	CHECK_FALSE(folder.read_json("again.gltf")["nodes"][4].contains("weights"));
+	CHECK(find(*load_gltf(folder.path / "again.gltf"), "Flag 2").get_morph_weights() ==
+			std::vector<float>{ 0.25f });
+}
+
+TEST_CASE("[GltfWriter] a mesh in another file's scene has no skin that is not there") {
+	GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	Scene other;
+	auto node = find(*scene, "Skinned").copy();
+	node->file_index = -1;
+	other.root->add_child(std::move(node));
+	save_gltf(other, folder.path / "other.gltf");
+	CHECK_FALSE(folder.read_json("other.gltf")["nodes"][0].contains("skin"));
+	CHECK_FALSE(find(*load_gltf(folder.path / "other.gltf"), "Skinned").skin);
+}
+
+TEST_CASE("[GltfWriter] a node whose mesh is removed loses skin and weights with it") {
+	GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	for (const char *name : { "Skinned", "Flag" }) {
+		const MeshInstance3D &mesh = find(*scene, name);
+		auto plain = std::make_unique<Node3D>();
+		plain->name = mesh.name;
+		plain->file_index = mesh.file_index;
+		plain->parent_from_node = mesh.parent_from_node;
+		scene->root->remove_child(mesh);
+		scene->root->add_child(std::move(plain));
+	}
+	save_gltf(*scene, folder.path / "again.gltf");
+	const Json nodes = folder.read_json("again.gltf")["nodes"];
+	REQUIRE(nodes.size() == 4);
+	for (const char *member : { "mesh", "skin", "weights" }) {
+		CHECK_FALSE(nodes[2].contains(member));
+		CHECK_FALSE(nodes[3].contains(member));
+	}
+	CHECK(load_gltf(folder.path / "again.gltf")->find_nodes<MeshInstance3D>().empty());
+}
