@@ -1,6 +1,9 @@
 #include "modules/editor/scene_rays.h"
 
+#include "modules/core/error.h"
+#include "modules/core/text.h"
 #include "modules/scene/cut_mesh.h"
+#include "modules/scene/mesh_pose.h"
 
 #include <cmath>
 #include <limits>
@@ -9,27 +12,51 @@ namespace gnomon {
 
 void SceneRays::follow(const Scene &p_scene) {
 	instances.clear();
-	std::map<uint64_t, std::unique_ptr<RayTree>> used_trees;
+	const WorldTransforms world_from_nodes = compute_world_transforms(*p_scene.root);
 	for (MeshInstance3D *node : p_scene.find_nodes<MeshInstance3D>()) {
 		const glm::dmat4 world_from_node = node->compute_world_from_node();
-		const double determinant = glm::determinant(world_from_node);
-		if (!(std::abs(determinant) > 0.0 && std::isfinite(determinant))) {
-			continue;
-		}
 		for (const MeshInstance3D::Surface &surface : node->surfaces) {
-			const std::shared_ptr<const Mesh> mesh =
-					get_cut_mesh(surface.mesh, surface.material).mesh;
-			if (!mesh || mesh->bounds_node.is_empty()) {
-				continue;
-			}
-			instances.push_back({ node, mesh, world_from_node, glm::inverse(world_from_node),
-					transform_bounds(mesh->bounds_node, world_from_node), node->casts_shadow });
-			if (std::unique_ptr<RayTree> &tree = trees[mesh->id]) {
-				used_trees[mesh->id] = std::move(tree);
+			try {
+				add_surface(*node, surface, world_from_node, world_from_nodes);
+			} catch (const Error &) {
+				// A pose that is refused: the scene cannot be drawn either, and the image says why.
 			}
 		}
 	}
+	std::map<uint64_t, std::unique_ptr<RayTree>> used_trees;
+	for (const Instance &instance : instances) {
+		if (std::unique_ptr<RayTree> &tree = trees[instance.mesh->id]) {
+			used_trees[instance.mesh->id] = std::move(tree);
+		}
+	}
 	trees = std::move(used_trees);
+}
+
+void SceneRays::add_surface(MeshInstance3D &r_node, const MeshInstance3D::Surface &p_surface,
+		const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes) {
+	if (!p_surface.mesh) {
+		return;
+	}
+	std::shared_ptr<const Mesh> mesh = get_cut_mesh(p_surface.mesh, p_surface.material).mesh;
+	if (!mesh || mesh->bounds_node.is_empty()) {
+		return;
+	}
+	SkinPlaces places =
+			place_surface(r_node, *p_surface.mesh, p_world_from_node, p_world_from_nodes);
+	const double determinant = glm::determinant(places.world_from_mesh);
+	if (!(std::abs(determinant) > 0.0 && std::isfinite(determinant))) {
+		return;
+	}
+	if (p_surface.mesh->attributes.rig) {
+		// The pose that the snapshot has too.
+		mesh = r_node.get_pose_slot(p_surface.mesh)
+					   ->make_pose(std::move(places.joints), r_node.get_morph_weights(),
+							   text("Node \"", r_node.name, "\""))
+					   ->get_mesh(mesh);
+	}
+	instances.push_back({ &r_node, mesh, places.world_from_mesh,
+			glm::inverse(places.world_from_mesh),
+			transform_bounds(mesh->bounds_node, places.world_from_mesh), r_node.casts_shadow });
 }
 
 std::optional<SceneRays::Hit> SceneRays::find_nearest(const glm::dvec3 &p_origin_world,

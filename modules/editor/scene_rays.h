@@ -2,6 +2,7 @@
 
 #include "modules/mesh_tools/ray_tree.h"
 #include "modules/scene/nodes.h"
+#include "modules/scene/skin_places.h"
 
 #include <map>
 #include <memory>
@@ -15,8 +16,8 @@ class SceneRays {
 public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
-		std::shared_ptr<const Mesh> mesh; // what is there of it, see CutMesh
-		glm::dmat4 world_from_node = glm::dmat4(1.0);
+		std::shared_ptr<const Mesh> mesh;			  // what is there of it, see CutMesh; as posed
+		glm::dmat4 world_from_node = glm::dmat4(1.0); // of a skin: from the mesh, see place_skin
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
 		bool casts_shadow = true;
@@ -26,16 +27,22 @@ public:
 		const Instance *instance = nullptr;
 	};
 
-	/// Looks at the scene anew. Nodes that are flat are left out: no ray meets them in a way that
-	/// could be undone. Trees of meshes that were there before are kept.
+	/// Reads the scene again, as it is posed. Flat nodes are skipped: no ray meets them in a way
+	/// that could be inverted; so are nodes whose pose is refused. Trees of meshes, and of poses,
+	/// that were there before are reused.
 	void follow(const Scene &p_scene);
 	const std::vector<Instance> &get_instances() const { return instances; }
+	/// Of meshes that a ray came near.
+	size_t get_tree_count() const { return trees.size(); }
 	/// The nearest beyond p_begin, but for one instance.
 	std::optional<Hit> find_nearest(const glm::dvec3 &p_origin_world,
 			const glm::dvec3 &p_direction_world, double p_begin = 0.0,
 			const Instance *p_ignored = nullptr);
 
 private:
+	void add_surface(MeshInstance3D &r_node, const MeshInstance3D::Surface &p_surface,
+			const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes);
+
 	std::vector<Instance> instances;
 	std::map<uint64_t, std::unique_ptr<RayTree>> trees; // by Mesh::id; null: no ray came near yet
 };

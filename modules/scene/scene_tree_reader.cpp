@@ -120,9 +120,8 @@ private:
 			if (!surface.mesh || surface.mesh->indices.empty() || !surface.mesh->attributes.rig) {
 				continue;
 			}
-			const bool is_skinned = p_node.skin && surface.mesh->attributes.rig->joint_count > 0;
-			SkinPlaces places = is_skinned ? place_skin(*p_node.skin, world_from_nodes)
-										   : SkinPlaces{ p_world_from_node, {} };
+			SkinPlaces places =
+					place_surface(p_node, *surface.mesh, p_world_from_node, world_from_nodes);
 			const std::vector<float> &weights =
 					is_posed ? p_node.get_morph_weights() : p_node.morph_weights;
 			const std::string object = text("Node \"", p_node.name, "\"");

@@ -1,5 +1,7 @@
 #include "modules/scene/skin_places.h"
 
+#include "modules/scene/mesh_rig.h"
+
 #include <cmath>
 
 namespace gnomon {
@@ -46,6 +48,13 @@ SkinPlaces place_skin(const Skin &p_skin, const WorldTransforms &p_world_from_no
 		places.joints.push_back(mesh_from_joint * p_skin.joint_from_mesh[index]);
 	}
 	return places;
+}
+
+SkinPlaces place_surface(const MeshInstance3D &p_node, const Mesh &p_mesh,
+		const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes) {
+	const MeshRig *rig = p_mesh.attributes.rig.get();
+	return p_node.skin && rig && rig->joint_count > 0 ? place_skin(*p_node.skin, p_world_from_nodes)
+													  : SkinPlaces{ p_world_from_node, {} };
 }
 
 } // namespace gnomon

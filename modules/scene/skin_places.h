@@ -23,4 +23,9 @@ struct SkinPlaces {
 /// any more rests in the frame.
 SkinPlaces place_skin(const Skin &p_skin, const WorldTransforms &p_world_from_nodes);
 
+/// Where a surface of the node is: with its skin where it has joints, else where the node is, with
+/// no joints.
+SkinPlaces place_surface(const MeshInstance3D &p_node, const Mesh &p_mesh,
+		const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes);
+
 } // namespace gnomon

@@ -1,5 +1,6 @@
 #include "modules/editor/penumbra_guide.h"
 #include "modules/renderer/tests/render_fixture.h"
+#include "modules/scene/mesh_rig.h"
 
 #include <doctest/doctest.h>
 
@@ -101,4 +102,25 @@ TEST_CASE("A ray through the scene finds the node it meets first, whatever its s
 	const auto past_flat = scene.rays.find_nearest({ 0.1, 5.0, 0.1 }, { 0.0, -1.0, 0.0 });
 	REQUIRE(past_flat);
 	CHECK(past_flat->instance->node == scene.ground);
+}
+
+TEST_CASE("The penumbra of a deformed mesh ends where its vertices are, not where they rest") {
+	// A morph target takes the box 1 m along X; at half of it the light's edges are 0.5 m on.
+	GuidedScene moved(LightType::DIRECTIONAL);
+	moved.box->parent_from_node[3].x += 0.5;
+	const double expected = find_x(moved.find_lines(), true);
+	GuidedScene scene(LightType::DIRECTIONAL);
+	const Mesh &rest = *scene.box->surfaces[0].mesh;
+	const size_t count = rest.positions_node.size();
+	MeshAttributes attributes = rest.attributes;
+	MeshRig rig;
+	rig.targets.push_back({ std::vector<glm::vec3>(count, glm::vec3(1, 0, 0)), {}, {} });
+	attributes.rig = make_mesh_rig(std::move(rig), rest.positions_node, "box");
+	scene.box->surfaces[0].mesh =
+			make_mesh("box", rest.positions_node, rest.normals_node, rest.indices, attributes);
+	scene.box->morph_weights = { 0 };
+	const double at_rest = find_x(scene.find_lines(), true);
+	CHECK(at_rest == doctest::Approx(expected - 0.5).epsilon(1e-4));
+	scene.box->posed_morph_weights = { 0.5f };
+	CHECK(find_x(scene.find_lines(), true) == doctest::Approx(expected).epsilon(1e-4));
 }

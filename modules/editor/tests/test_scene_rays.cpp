@@ -1,4 +1,6 @@
 #include "modules/editor/scene_rays.h"
+#include "modules/gltf_scene/tests/animated_test_file.h"
+#include "modules/scene/animation.h"
 #include "modules/scene/box_mesh.h"
 
 #include <doctest/doctest.h>
@@ -50,4 +52,47 @@ TEST_CASE("[SceneRays] a ray through a hole picks what is behind it") {
 		CHECK(pick(rays, 2.0) == "Wall");
 		CHECK(pick(rays, 9.0) == "");
 	}
+}
+
+TEST_CASE("[SceneRays] a ray picks what is posed where it is at that time") {
+	const GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	const auto animation = find_animation(*scene, "Move");
+	SceneRays rays;
+	// Skinned is before Flag, which morphs at x 0: at rest a quarter of the way up.
+	for (const double time_s : { 0.0, 0.4, 1.0, 2.0 }) {
+		CAPTURE(time_s);
+		pose_scene(*scene, animation.get(), time_s);
+		rays.follow(*scene);
+		CHECK(pick(rays, 5 * time_s) == "Skinned");
+		CHECK(pick(rays, 5 * time_s + 0.4) == "Skinned");
+		CHECK(pick(rays, 5 * time_s + 0.6) == "");
+		const auto flag =
+				rays.find_nearest(glm::dvec3(0.2, 1.5 * time_s + 0.9, -4), glm::dvec3(0, 0, -1));
+		REQUIRE(flag);
+		CHECK(flag->instance->node->name == "Flag");
+		CHECK_FALSE(
+				rays.find_nearest(glm::dvec3(0.2, 1.5 * time_s + 1.1, -4), glm::dvec3(0, 0, -1)));
+	}
+	CHECK(pick(rays, 0) == ""); // where it was
+	// The same pose is the same mesh, whose tree is reused; another pose is another one.
+	const uint64_t id = rays.get_instances().front().mesh->id;
+	rays.follow(*scene);
+	CHECK(rays.get_instances().front().mesh->id == id);
+	CHECK(rays.get_tree_count() == 2);
+	pose_scene(*scene, nullptr, 0);
+	rays.follow(*scene);
+	CHECK(rays.get_instances().front().mesh->id != id);
+	CHECK(rays.get_tree_count() == 0);
+	CHECK(pick(rays, 0) == "Skinned");
+}
+
+TEST_CASE("[SceneRays] a pose that is refused hides its node, and nothing else") {
+	const GltfTestFolder folder;
+	const auto scene = folder.load(make_animated(folder));
+	scene->find_node<MeshInstance3D>("Flag", "mesh").morph_weights[0] = 1e30f;
+	SceneRays rays;
+	rays.follow(*scene);
+	CHECK(rays.get_instances().size() == 1);
+	CHECK(pick(rays, 0) == "Skinned");
 }
