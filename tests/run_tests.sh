@@ -262,7 +262,7 @@ part_command_line() {
         tests/command_line/test_window.py tests/command_line/test_report.py \
         tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
         tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py \
-        tests/command_line/test_editor_staging.py \
+        tests/command_line/test_editor_staging.py tests/command_line/test_editor_timeline.py \
         tests/command_line/test_device_failures.py tests/command_line/test_kills.py
 }
 part_blender() {
@@ -357,7 +357,7 @@ part_editor_repeats() {
     for repeat in 1 2 3 4 5 6 7 8 9 10; do
         run_part "editor, time $repeat" python3 tests/run_unittest.py tests/command_line/test_editor.py \
             tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
-            tests/command_line/test_editor_materials.py
+            tests/command_line/test_editor_materials.py tests/command_line/test_editor_timeline.py
     done
 }
 

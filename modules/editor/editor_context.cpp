@@ -71,12 +71,18 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 		places[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
 	}
 	const Node3D *selected = document.get_selected();
+	const Timeline &timeline = document.get_timeline();
+	const Animation *animation = timeline.get_animation();
 	return nlohmann::json(
 			{ { "items", places }, { "selected", selected ? selected->name : "" },
 					{ "status", status }, { "is_changed", document.is_changed() },
 					{ "pictures", p_progress.picture_count },
 					{ "is_resting", p_progress.is_resting },
 					{ "answers_ms", p_progress.answers_ms }, { "frame", p_progress.frame },
+					{ "timeline",
+							{ { "animation", animation ? animation->name : "" },
+									{ "time_s", timeline.get_time_s() },
+									{ "is_playing", timeline.is_playing() } } },
 					{ "error",
 							{ { "light", error.light }, { "is_tracing", error.is_tracing },
 									{ "refusal", error.refusal },

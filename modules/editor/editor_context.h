@@ -78,6 +78,7 @@ enum class EditorCommand {
 	REDO,
 	FRAME,
 	PLAY,
+	PLAY_ANIMATION,
 	DUPLICATE,
 	DELETE,
 	READ_PAGE,
@@ -174,6 +175,7 @@ void draw_toolbar(EditorContext &r_context);
 void draw_scene_tree(EditorContext &r_context);
 void draw_inspector(EditorContext &r_context);
 void draw_viewport(EditorContext &r_context);
+void draw_timeline(EditorContext &r_context);
 void draw_error(EditorContext &r_context);	  // within a tab bar
 void draw_plan(EditorContext &r_context);	  // likewise
 void draw_modules(EditorContext &r_context);  // likewise

@@ -54,6 +54,9 @@ EditorDocument::EditorDocument(const fs::path &p_path, StageMode p_stage) : stag
 	const ProjectScene place = find_project_scene(p_path);
 	project = place.project;
 	path = fs::absolute(place.scene_path);
+	if (const auto name = project.defaults.find("animation"); name != project.defaults.end()) {
+		timeline = Timeline(name->second);
+	}
 	disable_modules(project);
 	std::error_code code;
 	if (!fs::exists(path, code)) {
@@ -63,6 +66,7 @@ EditorDocument::EditorDocument(const fs::path &p_path, StageMode p_stage) : stag
 		read_file();
 	} catch (const Error &error) {
 		scene = std::make_unique<Scene>();
+		timeline.set_scene(*scene);
 		failure = error.what();
 		log_error(failure);
 	}
@@ -86,6 +90,7 @@ void EditorDocument::open(const fs::path &p_file) {
 	selected = nullptr;
 	history = UndoHistory();
 	scene = std::move(loaded);
+	timeline.set_scene(*scene);
 	failure.clear();
 	autosaved_serial = 0;
 	changed_since.reset();
@@ -128,8 +133,10 @@ Bounds EditorDocument::compute_selected_bounds() const {
 	if (selected == nullptr) {
 		return snapshot->compute_caster_bounds();
 	}
-	const glm::dvec3 place(selected->compute_world_from_node()[3]);
 	Bounds bounds = selected->compute_bounds();
+	// A skinned mesh is where its joints are, wherever its node is.
+	const glm::dvec3 place = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
+											   : 0.5 * (bounds.minimum + bounds.maximum);
 	bounds.add(place - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
 	bounds.add(place + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
 	return bounds;
@@ -140,6 +147,7 @@ void EditorDocument::set_property(Node3D &r_node, const std::string &p_name,
 	history.change(r_node, text(p_value ? "Set " : "Reset ", p_name, " of ", r_node.name),
 			p_is_drag ? p_name : std::string(),
 			[&] { set_node_property(r_node, p_name, p_value); });
+	timeline.pose();
 }
 
 void EditorDocument::rename(Node3D &r_node, const std::string &p_name) {
@@ -159,6 +167,7 @@ void EditorDocument::remove(Node3D &r_node) {
 		fail("The scene's root cannot be deleted. Select one of its children.");
 	}
 	history.remove(r_node, text("Delete ", r_node.name));
+	timeline.pose();
 	selected = nullptr;
 }
 
@@ -170,6 +179,7 @@ void EditorDocument::duplicate(Node3D &r_node) {
 	Node3D *made = copy.get();
 	made->is_staged = false; // a copy is the user's own
 	history.add(*r_node.parent, std::move(copy), text("Duplicate ", r_node.name));
+	timeline.pose();
 	selected = made;
 }
 
@@ -179,6 +189,7 @@ std::string EditorDocument::undo() {
 	}
 	const std::string name = history.get_undo_name();
 	Node3D *node = history.undo();
+	timeline.pose();
 	selected = node->parent != nullptr ? node : nullptr; // it may just have left the tree
 	return name;
 }
@@ -189,6 +200,7 @@ std::string EditorDocument::redo() {
 	}
 	const std::string name = history.get_redo_name();
 	Node3D *node = history.redo();
+	timeline.pose();
 	selected = node->parent != nullptr ? node : nullptr;
 	return name;
 }

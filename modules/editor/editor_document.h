@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/core/project.h"
+#include "modules/editor/timeline.h"
 #include "modules/editor/undo_history.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/stage.h"
@@ -34,6 +35,9 @@ public:
 	const Project &get_project() const { return project; }
 	const std::filesystem::path &get_path() const { return path; }
 	UndoHistory &get_history() { return history; }
+	/// What is shown of the scene's animations; no change of it.
+	Timeline &get_timeline() { return timeline; }
+	const Timeline &get_timeline() const { return timeline; }
 	/// Why there is nothing of the file: what is wrong with it. Empty: it was read. Such a document
 	/// is not saved, for the file would be lost; it is read anew once it has changed.
 	const std::string &get_failure() const { return failure; }
@@ -113,6 +117,7 @@ private:
 	std::string failure;
 	std::string staged;
 	UndoHistory history;
+	Timeline timeline;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;
 	bool owns_recovery = false; // what lies aside is this document's, not an earlier one's

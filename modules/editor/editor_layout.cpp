@@ -53,6 +53,8 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	const float middle = std::max(window.x - left - right - 2.0f * line, 32.0f);
 	const float height = std::max(window.y - 2.0f * bar, 64.0f);
 	const float bottom = std::floor(height * r_layout.bottom);
+	const bool has_timeline = !r_context.document.get_scene().animations.empty();
+	const float viewport = height - bottom - line - (has_timeline ? bar : 0.0f);
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(16, 16));
 	place_next(ImVec2(0, 0), ImVec2(window.x, bar));
 	draw_toolbar(r_context);
@@ -60,8 +62,12 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	draw_scene_tree(r_context);
 	draw_splitter(
 			"##left", ImVec2(left, bar), ImVec2(line, height), true, window.x, 1.0f, r_layout.left);
-	place_next(ImVec2(left + line, bar), ImVec2(middle, height - bottom - line));
+	place_next(ImVec2(left + line, bar), ImVec2(middle, viewport));
 	draw_viewport(r_context);
+	if (has_timeline) {
+		place_next(ImVec2(left + line, bar + viewport), ImVec2(middle, bar));
+		draw_timeline(r_context);
+	}
 	draw_splitter("##bottom", ImVec2(left + line, bar + height - bottom - line),
 			ImVec2(middle, line), false, height, -1.0f, r_layout.bottom);
 	place_next(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));

@@ -164,6 +164,14 @@ void EditorSession::run(EditorCommand p_command) {
 					get_stage_mode_name(document.get_stage()) });
 			context.say(text("The game runs in a window of its own.", describe_staged()));
 			break;
+		case EditorCommand::PLAY_ANIMATION:
+			if (Timeline &timeline = document.get_timeline(); timeline.is_playing()) {
+				timeline.pause();
+			} else {
+				timeline.play();
+				context.viewport.is_moving = timeline.is_playing();
+			}
+			break;
 		case EditorCommand::READ_PAGE:
 			read_page();
 			break;

@@ -56,6 +56,8 @@ EditorCommand find_command(const Window::KeyPress &p_press) {
 			return EditorCommand::DELETE;
 		case GLFW_KEY_F5:
 			return EditorCommand::PLAY;
+		case GLFW_KEY_SPACE:
+			return EditorCommand::PLAY_ANIMATION;
 		case GLFW_KEY_Q:
 			return has_control ? EditorCommand::QUIT : EditorCommand::NONE;
 		default:
@@ -120,12 +122,15 @@ public:
 private:
 	void loop() {
 		uint32_t drawn_count = 0;
+		Clock::time_point last_start = Clock::now();
 		const auto is_done = [&] {
 			return session.is_closed() ||
 					(options.frame_count > 0 && drawn_count >= options.frame_count);
 		};
 		while (!is_done()) {
 			const Clock::time_point start = Clock::now();
+			const double seconds = std::chrono::duration<double>(start - last_start).count();
+			last_start = start;
 			if (!window.poll()) {
 				window.keep_open();
 				session.close();
@@ -140,6 +145,10 @@ private:
 			if (shaders.update(context, start)) {
 				pictures.forget_kept();
 				error_meter.forget_cost();
+			}
+			if (document.get_timeline().advance(seconds)) {
+				context.viewport.is_moving = true;
+				context.viewport.needs_picture = true;
 			}
 			// First what the user does, then the picture: one frame shows what it has changed.
 			build_panels();
@@ -162,7 +171,7 @@ private:
 	void draw_pictures() {
 		pictures.update(context);
 		guides.update(context, pictures.get_drawn_count());
-		if (pictures.is_sharp()) {
+		if (pictures.is_sharp() || document.get_timeline().is_playing()) {
 			error_meter.update(context, pictures.get_count());
 		}
 		for (const std::string &line : sink.take()) {
@@ -228,7 +237,8 @@ private:
 			return;
 		}
 		const bool is_quiet = !context.viewport.needs_picture && !context.viewport.pick &&
-				!context.is_picture_coarse && document.get_selected() == last_selected;
+				!context.is_picture_coarse && document.get_selected() == last_selected &&
+				!document.get_timeline().is_playing();
 		last_selected = document.get_selected();
 		quiet_count = is_quiet ? quiet_count + 1 : 0;
 		const std::string written = context.describe_items(
@@ -250,6 +260,10 @@ private:
 		}
 		for (const Window::KeyPress &press : window.get_key_presses()) {
 			const EditorCommand command = find_command(press);
+			// Where the keyboard has moved to a widget, Space presses that.
+			if (command == EditorCommand::PLAY_ANIMATION && ImGui::GetIO().NavVisible) {
+				continue;
+			}
 			context.command = command != EditorCommand::NONE ? command : context.command;
 		}
 	}

@@ -34,14 +34,17 @@ std::string describe_cost(const LightSnapshot &p_light, uint64_t p_truth_hash) {
 void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 	ErrorState &state = r_context.error;
 	const bool is_watched = state.is_shown || r_context.viewport.debug_view == "error";
-	if (!is_watched || state.is_stopped) {
+	const bool is_playing = r_context.document.get_timeline().is_playing();
+	if (!is_watched || state.is_stopped || is_playing) {
 		if (truth.is_running()) {
 			traced_sample_count = 0; // goes on when somebody looks again; what is known stays
 		}
 		truth.stop();
 	}
 	state.is_tracing = truth.is_running();
-	if (!is_watched || p_picture_count == 0) {
+	// A mask, its cost and its reference take longer than a frame: while the scene is animated none
+	// would be of what is shown.
+	if (!is_watched || is_playing || p_picture_count == 0) {
 		measured_picture = 0;
 		return;
 	}

@@ -1,5 +1,7 @@
 #include "modules/editor/viewport_guides.h"
 
+#include <utility>
+
 namespace gnomon {
 
 namespace {
@@ -14,12 +16,17 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 	ViewportState &viewport = r_context.viewport;
 	EditorDocument &document = r_context.document;
 	const bool is_changed = p_drawn_count != followed_count || viewport.is_guide_changed;
-	if (is_changed || viewport.pick || document.get_selected() != guided_node) {
-		rays.follow(document.get_scene());
-	}
+	// Read when there is something to find: the vertices of what is posed are computed for it.
+	bool is_followed = false;
+	const auto follow = [&] {
+		if (!std::exchange(is_followed, true)) {
+			rays.follow(document.get_scene());
+		}
+	};
 	if (viewport.pick) {
 		const ViewportPick pick = *viewport.pick;
 		viewport.pick.reset();
+		follow();
 		const std::optional<SceneRays::Hit> hit =
 				rays.find_nearest(pick.origin_world, pick.direction_world);
 		document.select(hit ? hit->instance->node : nullptr);
@@ -38,8 +45,11 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 	try {
 		const auto scene = r_context.build_viewport_snapshot();
 		if (const LightSnapshot *light = scene->find_light(selected->name)) {
-			viewport.penumbra_lines = find_penumbra_lines(rays, *scene, *light,
-					r_context.is_picture_coarse ? MOVING_EDGE_COUNT : EDGE_COUNT);
+			const bool is_moving =
+					r_context.is_picture_coarse || document.get_timeline().is_playing();
+			follow();
+			viewport.penumbra_lines = find_penumbra_lines(
+					rays, *scene, *light, is_moving ? MOVING_EDGE_COUNT : EDGE_COUNT);
 		}
 	} catch (const std::exception &) {
 		// The scene cannot be drawn either, and the picture says why.

@@ -62,6 +62,8 @@ void draw_truth(EditorContext &r_context) {
 	if (state.is_tracing) {
 		const std::string label = std::to_string(state.round_sample_count) + " rays a pixel";
 		ImGui::ProgressBar(state.progress, ImVec2(-1.0f, 0.0f), label.c_str());
+	} else if (r_context.document.get_timeline().is_playing()) {
+		ImGui::TextDisabled("measured when paused");
 	} else if (!state.truth) {
 		ImGui::TextDisabled(state.is_stopped ? "no truth" : "measuring the cost");
 	} else {

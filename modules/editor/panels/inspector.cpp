@@ -197,6 +197,23 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::PopID();
 }
 
+/// That the values below are not those that the viewport shows.
+void draw_pose(EditorContext &r_context, const Node3D &p_node) {
+	const Animation *animation = r_context.document.get_timeline().get_animation();
+	const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node);
+	if (animation == nullptr ||
+			!(p_node.posed_parent_from_node || (instance && instance->posed_morph_weights))) {
+		return;
+	}
+	ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.25f, 1.0f), "Posed by %s", animation->name.c_str());
+	r_context.note_item("posed");
+	if (ImGui::IsItemHovered()) {
+		ImGui::SetTooltip("The viewport shows the node where the animation has it.\n"
+						  "Below is the node's own transform, which is edited and saved;\n"
+						  "what the animation replaces of it shows at rest.");
+	}
+}
+
 bool is_wanted(const EditorContext &p_context, const PropertyInfo &p_info) {
 	return p_info.name.find(p_context.inspector_filter) != std::string::npos ||
 			p_info.group.find(p_context.inspector_filter) != std::string::npos;
@@ -238,6 +255,7 @@ void draw_inspector(EditorContext &r_context) {
 	ImGui::TextUnformatted(node->name.c_str());
 	ImGui::SameLine();
 	ImGui::TextDisabled("%s", node->get_class_name());
+	draw_pose(r_context, *node);
 	char filter[128] = {};
 	std::strncpy(filter, r_context.inspector_filter.c_str(), sizeof(filter) - 1);
 	ImGui::SetNextItemWidth(-1.0f);
