@@ -262,6 +262,7 @@ void draw_inspector(EditorContext &r_context) {
 	if (ImGui::InputTextWithHint("##filter", "Search properties", filter, sizeof(filter))) {
 		r_context.inspector_filter = filter;
 	}
+	r_context.note_item("search properties");
 	const std::vector<PropertyInfo> properties = list_node_properties(*node).get_properties();
 	std::vector<std::string> groups;
 	for (const PropertyInfo &info : properties) {
