@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gnomon {
 
@@ -162,9 +163,8 @@ std::shared_ptr<const Mesh> GltfMeshes::load_primitive(const tinygltf::Primitive
 		indices = accessors.read_indices(
 				static_cast<size_t>(p_primitive.indices), all_positions->size());
 	} else {
-		for (uint32_t vertex = 0; vertex < all_positions->size(); ++vertex) {
-			indices.push_back(vertex);
-		}
+		indices.resize(all_positions->size());
+		std::iota(indices.begin(), indices.end(), 0u);
 	}
 	indices = make_triangles(std::move(indices), p_primitive.mode);
 	if (indices.empty()) {
