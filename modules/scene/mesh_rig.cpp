@@ -54,7 +54,10 @@ void normalize_weights(MeshRig &r_rig, const std::string &p_name) {
 			}
 			sum += weights[i];
 		}
-		if (sum > 0) {
+		if (r_rig.keeps_weight_sums) {
+			r_rig.least_weight_sum = std::min(r_rig.least_weight_sum, sum);
+			r_rig.greatest_weight_sum = std::max(r_rig.greatest_weight_sum, sum);
+		} else if (sum > 0) {
 			for (size_t i = 0; i < influences; ++i) {
 				weights[i] = static_cast<float>(weights[i] / sum);
 			}
@@ -209,7 +212,13 @@ Bounds bound_deformed_vertices(const Mesh &p_mesh, std::span<const glm::dmat4> p
 			bounds.add(transform_bounds(widen(rig.joint_bounds[joint]), p_joints[joint]));
 		}
 	}
-	return bounds;
+	// What the joints blend is within; a sum other than 1 scales it.
+	Bounds scaled;
+	for (const double sum : { rig.least_weight_sum, rig.greatest_weight_sum }) {
+		scaled.add(sum * bounds.minimum);
+		scaled.add(sum * bounds.maximum);
+	}
+	return scaled;
 }
 
 } // namespace gnomon

@@ -27,21 +27,26 @@ struct MeshRig {
 	uint32_t influence_count = 0; // joints a vertex: 0 (no skin), 4 or 8
 	std::vector<uint32_t> joints; // influence_count a vertex
 	std::vector<float> weights;	  // likewise; 0..1, the sum of a vertex is 1
+	/// The sums stay as they are: a host draws the mesh so, although its rounding made them less.
+	bool keeps_weight_sums = false;
 	std::vector<MorphTarget> targets;
 
 	// Of what follows make_mesh_rig takes care.
 	uint32_t joint_count = 0;		  // one more than the greatest joint
 	std::vector<Bounds> joint_bounds; // of the vertices at rest that each joint moves; may be empty
 	std::vector<Bounds> target_bounds; // of what each target adds
+	double least_weight_sum = 1;	   // of a vertex, at most 1
+	double greatest_weight_sum = 1;	   // at least 1
 	uint64_t content_hash = 0;
 
 	/// Of one vertex: vertices of different values must not be welded.
 	uint64_t compute_vertex_hash(uint32_t p_vertex) const;
 };
 
-/// Checks sizes, fills in what derives, and makes the weights of each vertex sum up to 1; those of
-/// a vertex that has none become 1 for its first joint. A count that does not fit, or a number that
-/// is not finite or a weight below 0, is an Error that begins with p_name, the mesh's.
+/// Checks sizes, fills in what derives, and makes the weights of each vertex sum up to 1, unless it
+/// keeps sums; those of a vertex that has none become 1 for its first joint. A count that does not
+/// fit, or a number that is not finite or a weight below 0, is an Error that begins with p_name,
+/// the mesh's.
 std::shared_ptr<const MeshRig> make_mesh_rig(
 		MeshRig p_rig, std::span<const glm::vec3> p_positions_node, const std::string &p_name);
 
