@@ -14,7 +14,8 @@
 
 namespace gnomon {
 
-/// A simpler mesh, and its deviation from the full one as Godot compares it.
+/// A simpler mesh of the same vertices, at rest, and its deviation from the full one as Godot
+/// compares it.
 struct DetailLevel {
 	float edge_length_m = 0; // in the node's space; ascending in a list
 	std::shared_ptr<const Mesh> mesh;

@@ -2,6 +2,7 @@
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
+#include "modules/godot_addon/rig_reader.h"
 
 #include <cstring>
 
@@ -50,19 +51,25 @@ std::vector<uint32_t> read_indices(std::span<const uint8_t> p_bytes, size_t p_ve
 	return indices;
 }
 
-/// Null: there are no triangles. p_uvs: may be empty.
-std::shared_ptr<const Mesh> make_mesh_of(const std::string &p_name,
-		std::span<const glm::vec3> p_positions, std::span<const glm::vec3> p_normals,
-		std::span<const glm::vec2> p_uvs, std::vector<uint32_t> p_triangles) {
-	if (p_triangles.empty()) {
-		return nullptr;
+/// Null: there are none. A level's triangles have the vertices of the full mesh.
+std::shared_ptr<const DetailLevels> read_levels(
+		const godot::Mesh &p_mesh, int64_t p_surface, const Mesh &p_full, bool p_is_strip) {
+	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+	const godot::Array levels(
+			server.mesh_get_surface(p_mesh.get_rid(), p_surface).to_variant().get_keyed("lods"));
+	auto read = std::make_shared<DetailLevels>();
+	for (int64_t index = 0; index < levels.get_size(); ++index) {
+		const godot::Variant level = levels.get_value(index);
+		const godot::PackedByteArray bytes(level.get_keyed("index_data"));
+		std::vector<uint32_t> triangles = make_triangles(
+				read_indices(bytes.get_values(), p_full.positions_node.size()), p_is_strip);
+		if (!triangles.empty()) {
+			read->push_back({ static_cast<float>(level.get_keyed("edge_length").to_float()),
+					make_mesh(p_full.name, p_full.positions_node, p_full.normals_node,
+							std::move(triangles)) });
+		}
 	}
-	MeshAttributes attributes;
-	if (p_uvs.size() == p_positions.size()) {
-		attributes.uvs[0].assign(p_uvs.begin(), p_uvs.end()); // for holes, see CutOutMaterials
-	}
-	return make_mesh(p_name, { p_positions.begin(), p_positions.end() },
-			{ p_normals.begin(), p_normals.end() }, std::move(p_triangles), std::move(attributes));
+	return read->empty() ? nullptr : read;
 }
 
 ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std::string &p_name) {
@@ -87,28 +94,20 @@ ReadSurface read_surface(const godot::Mesh &p_mesh, int64_t p_surface, const std
 			order.push_back(vertex);
 		}
 	}
-	surface.mesh = make_mesh_of(p_name, points, normals.get_values(), uvs.get_values(),
-			make_triangles(order, is_strip));
-	if (!surface.mesh || !godot::cast<godot::ArrayMesh>(p_mesh)) {
-		return surface; // others have no levels
+	std::vector<uint32_t> triangles = make_triangles(order, is_strip);
+	if (triangles.empty()) {
+		return surface;
 	}
-	const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
-	const godot::Array levels(
-			server.mesh_get_surface(p_mesh.get_rid(), p_surface).to_variant().get_keyed("lods"));
-	auto read = std::make_shared<DetailLevels>();
-	for (int64_t index = 0; index < levels.get_size(); ++index) {
-		const godot::Variant level = levels.get_value(index);
-		const godot::PackedByteArray bytes(level.get_keyed("index_data"));
-		const std::shared_ptr<const Mesh> mesh =
-				make_mesh_of(p_name, points, normals.get_values(), uvs.get_values(),
-						make_triangles(read_indices(bytes.get_values(), points.size()), is_strip));
-		if (mesh) {
-			read->push_back(
-					{ static_cast<float>(level.get_keyed("edge_length").to_float()), mesh });
-		}
+	MeshAttributes attributes;
+	if (uvs.get_values().size() == points.size()) { // for holes, see CutOutMaterials
+		attributes.uvs[0].assign(uvs.get_values().begin(), uvs.get_values().end());
 	}
-	if (!read->empty()) {
-		surface.levels = std::move(read);
+	attributes.rig = read_rig(p_mesh, p_surface, arrays, points, p_name);
+	surface.mesh = make_mesh(p_name, { points.begin(), points.end() },
+			{ normals.get_values().begin(), normals.get_values().end() }, std::move(triangles),
+			std::move(attributes));
+	if (godot::cast<godot::ArrayMesh>(p_mesh)) { // others have no levels
+		surface.levels = read_levels(p_mesh, p_surface, *surface.mesh, is_strip);
 	}
 	return surface;
 }

@@ -15,13 +15,15 @@ const uint32_t LEAST_LAYER_COUNT = 2;
 
 } // namespace
 
+glm::uvec2 ScaledMasks::compute_size(glm::uvec2 p_size_px, float p_scale) {
+	return glm::max(glm::uvec2(glm::ceil(glm::vec2(p_size_px) * p_scale)), 1u);
+}
+
 ScaledMasks::ScaledMasks(RenderGraph &r_graph, RenderingDevice &p_device, RGTexture p_depth,
 		float p_scale, uint32_t p_count) :
 		graph(r_graph),
 		device(p_device), full_depth(p_depth), full_size_px(r_graph.get_desc(p_depth).size_px),
-		count(p_count),
-		size_px(glm::max(glm::uvec2(glm::ceil(glm::vec2(full_size_px) * p_scale)), 1u)),
-		depth(p_depth) {
+		count(p_count), size_px(compute_size(full_size_px, p_scale)), depth(p_depth) {
 	if (size_px == full_size_px) {
 		return;
 	}

@@ -13,6 +13,8 @@ public:
 	/// own. p_count: of masks, at least 1.
 	ScaledMasks(RenderGraph &r_graph, RenderingDevice &p_device, RGTexture p_depth, float p_scale,
 			uint32_t p_count);
+	/// What get_size_px is for a view of p_size_px.
+	static glm::uvec2 compute_size(glm::uvec2 p_size_px, float p_scale);
 	glm::uvec2 get_size_px() const { return size_px; }
 	RGTexture get_depth() const { return depth; }
 	/// An array with a layer for each mask, that ShadowFrame::hold writes. p_result: R16_SFLOAT, at

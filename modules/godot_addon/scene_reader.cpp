@@ -94,6 +94,11 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 		instance.layers = p_body.layers;
 		instance.casts_shadow =
 				instance.casts_shadow && p_body.casts_shadow && shadow.kind != ShadowKind::NONE;
+		const bool is_ready = meshes.is_ready(surface) &&
+				(instance.caster_mesh == surface.mesh || meshes.is_cut_ready(instance.caster_mesh));
+		if (mesh_instance && surface.mesh->attributes.rig) {
+			poses.pose(mesh_instance, surface.mesh, surface.index, instance);
+		}
 		receivers.read(p_body, material, p_mesh, surface.index, instance.bounds_world);
 		if (instance.casts_shadow && shadow.kind == ShadowKind::CUT_OUT && !shadow.cut_out) {
 			warn_once(p_body,
@@ -102,8 +107,6 @@ void SceneReader::read_mesh(const SceneBody &p_body, const godot::Mesh &p_mesh,
 					"surface. Use a StandardMaterial3D with alpha scissor, without triplanar "
 					"coordinates, MSDF textures and albedo from vertex colours.");
 		}
-		const bool is_ready = meshes.is_ready(surface) &&
-				(instance.caster_mesh == surface.mesh || meshes.is_cut_ready(instance.caster_mesh));
 		if (instance.casts_shadow && !is_ready) {
 			instance.casts_shadow = false;
 			++pending_count;
@@ -132,7 +135,14 @@ void SceneReader::finish_details(
 	}
 	Bounds bounds_world;
 	for (size_t index = p_first; index < details.size(); ++index) {
-		bounds_world.add(p_scene.instances[details[index].instance].bounds_world);
+		const InstanceSnapshot &instance = p_scene.instances[details[index].instance];
+		bounds_world.add(instance.bounds_world);
+		if (instance.pose && instance.pose->get_joints().empty()) {
+			// Godot's box of blend shapes has all of them, whatever their weights.
+			const godot::AABB box = godot::cast<godot::VisualInstance3D>(p_body.node).get_aabb();
+			bounds_world.add(transform_bounds(
+					{ box.position, box.position + box.size }, instance.world_from_node));
+		}
 	}
 	const glm::dmat3 axes(get_drawn_transform(p_body.node).to_matrix());
 	const double scale =
@@ -230,13 +240,6 @@ void SceneReader::read_node(uint64_t p_id, SceneSnapshot &r_scene) {
 		const godot::Ref<godot::Mesh> mesh = mesh_instance.get_mesh();
 		if (!mesh) {
 			return;
-		}
-		const auto array_mesh = godot::cast<godot::ArrayMesh>(mesh);
-		if (mesh_instance.get_skin_reference() ||
-				(array_mesh && array_mesh.get_blend_shape_count() > 0)) {
-			warn_once(body,
-					"is animated by bones or blend shapes, and casts the shadow of its "
-					"rest pose.");
 		}
 		read_mesh(body, mesh, get_drawn_transform(body.node).to_matrix(), r_scene);
 	} else if (const auto multi = godot::cast<godot::MultiMeshInstance3D>(object)) {
@@ -355,6 +358,7 @@ ReadWorld SceneReader::read(godot::RID p_scenario, const godot::SceneTree &p_tre
 
 void SceneReader::end_frame() {
 	meshes.forget_unused();
+	poses.end_frame();
 	materials.forget_unused();
 	std::erase_if(warned,
 			[](const auto &p_entry) { return godot::get_instance(p_entry.first) == nullptr; });

@@ -2,6 +2,7 @@
 
 #include "modules/godot_addon/grid_maps.h"
 #include "modules/godot_addon/mesh_reader.h"
+#include "modules/godot_addon/pose_reader.h"
 #include "modules/godot_addon/receiver_reader.h"
 #include "modules/godot_addon/scenario_frame.h"
 #include "modules/godot_addon/shadow_materials.h"
@@ -54,6 +55,7 @@ private:
 	ReadWorld world;
 	std::unique_ptr<GridMaps> grid_maps;
 	MeshReader meshes;
+	PoseReader poses;
 	ShadowMaterials materials;
 	std::set<std::pair<uint64_t, std::string>> warned; // id of the node, warning
 	int64_t pending_count = 0;

@@ -41,7 +41,7 @@ RGTexture create_depth(RenderGraph &r_graph, const char *p_name, glm::uvec2 p_si
 			TextureUsage::DEPTH_ATTACHMENT | TextureUsage::SAMPLED });
 }
 
-/// p_mesh: which of the two.
+/// p_mesh: whose triangles.
 RGTexture add_mesh_depth(RenderGraph &r_graph, MeshStore &r_meshes, const char *p_name,
 		glm::uvec2 p_size_px, const std::shared_ptr<const ReducedInstances> &p_reduced,
 		std::shared_ptr<const Mesh> ReducedInstance::*p_mesh) {
@@ -53,7 +53,7 @@ RGTexture add_mesh_depth(RenderGraph &r_graph, MeshStore &r_meshes, const char *
 				p_context.commands.bind_pipeline(pipeline);
 				for (const ReducedInstance &instance : p_reduced->list) {
 					const GpuMesh &mesh = r_meshes.get(instance.*p_mesh);
-					const BufferRID vertices[] = { mesh.positions.get() };
+					const BufferRID vertices[] = { r_meshes.get(instance.full).positions.get() };
 					p_context.commands.push_constants(shader::DepthPush{ instance.clip_from_node });
 					p_context.commands.bind_vertex_buffers(vertices);
 					p_context.commands.bind_index_buffer(mesh.indices.get());

@@ -24,8 +24,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 
 /// An instance that Godot draws with fewer triangles.
 struct ReducedInstance {
-	std::shared_ptr<const Mesh> full;
-	std::shared_ptr<const Mesh> drawn;
+	std::shared_ptr<const Mesh> full;			// as posed
+	std::shared_ptr<const Mesh> drawn;			// its triangles are of the full one's vertices
 	glm::mat4 clip_from_node = glm::mat4(1.0f); // reversed depth: near / z
 };
 struct ReducedInstances {
@@ -37,7 +37,8 @@ struct ReducedInstances {
 ReducedInstances find_reduced_instances(
 		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view);
 
-/// The depth as shadows read it, near / z, of the full meshes. p_depth: Godot's.
+/// The depth as shadows read it, near / z, of the full meshes. p_depth: Godot's. After the pass
+/// that deforms meshes.
 RGTexture add_view_depth(RenderGraph &r_graph, MeshStore &r_meshes, const GodotView &p_view,
 		RGTexture p_depth, std::shared_ptr<const ReducedInstances> p_reduced);
 

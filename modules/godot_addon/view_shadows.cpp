@@ -70,6 +70,9 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 	scene->camera = p_view.camera;
 	RenderGraph graph(device, transients);
 	FramePlan plan;
+	// First, as it deforms the meshes whose depth is drawn below.
+	ShadowFrame frame(shadows, graph, plan, scene,
+			ScaledMasks::compute_size(p_view.size_px, p_frame.mask_scale));
 	// Godot's own format differs; shaders read the same number from each.
 	const RGTexture drawn_depth =
 			graph.import_texture(depth.get(device, p_view.depth,
@@ -80,7 +83,6 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			std::make_shared<const ReducedInstances>(
 					find_reduced_instances(p_frame, *scene, p_view)));
 	ScaledMasks scaled(graph, device, full_depth, p_frame.mask_scale, count);
-	ShadowFrame frame(shadows, graph, plan, scene, scaled.get_size_px());
 	HostSurfaces surfaces;
 	surfaces.depth = scaled.get_depth();
 	frame.set_surfaces(surfaces);

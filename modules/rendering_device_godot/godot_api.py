@@ -76,7 +76,8 @@ USED = {
             light_omni_set_shadow_mode light_directional_set_shadow_mode light_directional_set_blend_splits
             light_directional_set_sky_mode instance_create2 instance_set_layer_mask instance_set_transform
             instance_set_visible
-            instances_cull_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface free_rid
+            instances_cull_aabb multimesh_instance_get_transform multimesh_get_buffer mesh_get_surface
+            skeleton_get_bone_count skeleton_bone_get_transform free_rid
         """,
         "enums": """CompositorEffectFlags CompositorEffectCallbackType GlobalShaderParameterType
             TextureLayeredType""",
@@ -100,7 +101,9 @@ USED = {
         "methods": "get_cast_shadows_setting get_material_override get_material_overlay get_lod_bias",
         "enums": "ShadowCastingSetting",
     },
-    "MeshInstance3D": {"methods": "get_mesh get_active_material get_skin_reference"},
+    "MeshInstance3D": {
+        "methods": "get_mesh get_active_material get_skin_reference get_blend_shape_count get_blend_shape_value"
+    },
     "MultiMeshInstance3D": {"methods": "get_multimesh"},
     "CSGShape3D": {"methods": "get_meshes is_root_shape"},
     "GridMap": {"methods": "get_meshes"},
@@ -128,9 +131,12 @@ USED = {
     "Resource": {"methods": "get_rid get_path get_name duplicate"},
     "Compositor": {"methods": "get_compositor_effects"},
     "World3D": {"methods": "get_scenario get_environment"},
-    "SkinReference": {"methods": ""},
-    "Mesh": {"methods": "get_surface_count surface_get_arrays surface_get_material", "enums": "ArrayType PrimitiveType"},
-    "ArrayMesh": {"methods": "surface_get_primitive_type get_blend_shape_count"},
+    "SkinReference": {"methods": "get_skeleton"},
+    "Mesh": {
+        "methods": "get_surface_count surface_get_arrays surface_get_blend_shape_arrays surface_get_material",
+        "enums": "ArrayType PrimitiveType BlendShapeMode",
+    },
+    "ArrayMesh": {"methods": "surface_get_primitive_type get_blend_shape_mode"},
     "PrimitiveMesh": {"methods": ""},
     "MultiMesh": {
         "methods": """get_mesh get_instance_count get_visible_instance_count get_transform_format is_using_colors

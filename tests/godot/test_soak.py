@@ -1,19 +1,26 @@
 #!/usr/bin/env python3
 """Many frames inside $GODOT: no message, and no growth.
 
-2,000 in which everything comes and goes (tests/godot/addon/soak.gd), and those of the room with eight lights (room_soak.gd).
+2,000 in which everything comes and goes (tests/godot/addon/soak.gd), those of the room with eight lights (room_soak.gd), and 1,000
+of courtyard, in which a skinned figure walks and a flag of morph targets waves (walk_soak.gd).
 After the first ones Godot's objects, nodes and resources must stay as many, and the memory of its RenderingDevice must not
 grow. Last line: N passed, N failed, N skipped.
 """
 
 import argparse
+import os
 import re
 import sys
 
 import addon_project
 import godot_project
 
+sys.path.insert(0, os.path.join(addon_project.ROOT, "demo_project", "scenes"))
+import gltf_writer  # noqa: E402
+import make_foliage_scenes  # noqa: E402
+
 FRAMES = 2000
+WALK_FRAMES = 1000
 SETTLED = 200  # frames; of the room those in which everything was seen once
 NAMES = ("objects", "nodes", "resources", "bytes of textures", "bytes of buffers", "bytes of the device")
 PROCESS_GROWTH = 1.1  # of the process's memory, which the allocator and the driver round
@@ -44,12 +51,25 @@ def soak(scene, frames, options):
     return failures + ["%s: %s" % (scene, growth) for growth in find_growth(reports)]
 
 
+def make_walk():
+    """The path of its file."""
+    folder = os.path.join(addon_project.FOLDER, "walk")
+    os.makedirs(folder)
+    open(os.path.join(folder, ".gdignore"), "w").close()  # it is read while the game runs
+    gltf_writer.save_files(make_foliage_scenes.build_scene("courtyard").build_files("courtyard"), folder)
+    return os.path.join(folder, "courtyard.gltf")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--room-frames", type=int, default=FRAMES, help="hundreds, more than %d (default %d)" % (SETTLED, FRAMES))
     options = parser.parse_args()
     addon_project.write()
-    results = {"soak": soak("soak", FRAMES, []), "room_soak": soak("room_soak", options.room_frames, [str(options.room_frames)])}
+    results = {
+        "soak": soak("soak", FRAMES, []),
+        "room_soak": soak("room_soak", options.room_frames, [str(options.room_frames)]),
+        "walk_soak": soak("walk_soak", WALK_FRAMES, [str(WALK_FRAMES), make_walk()]),
+    }
     passed = [scene for scene, failures in results.items() if not failures]
     return addon_project.report(passed, sum(results.values(), []))
 

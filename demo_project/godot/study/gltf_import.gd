@@ -19,6 +19,14 @@ static func load_scene(path: String) -> Node3D:
 	return root
 
 
+## Poses the scene, in the tree, as its one animation has it at that time, and holds it there.
+static func show_time(root: Node3D, seconds: float) -> void:
+	var player: AnimationPlayer = root.find_children("*", "AnimationPlayer", true, false)[0]
+	player.play(player.get_animation_list()[0])
+	player.seek(seconds, true)
+	player.pause()
+
+
 ## Mip levels, which GLTFDocument does not make: without them Godot draws other pixels of leaves than `gnomon`.
 ## And names of the file's own: GLTFDocument numbers textures, and an export to the same folder overwrites those of its name.
 static func _finish_textures(root: Node3D, stem: String) -> void:

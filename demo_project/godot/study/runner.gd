@@ -3,8 +3,9 @@ extends Node
 ##   godot --path demo_project/godot res://study/runner.tscn -- out=DIR size=800 cases=omni/box/edge_count,...
 ## Of each case: LIGHT_CASTER_TECHNIQUE.f32, the mask (float32, rows from the top, -1: no receiver), and once for each
 ## light and caster the scene as LIGHT_CASTER.gltf. imported/Spot/TECHNIQUE is a light of three_lights.tscn, and
-## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file. Without cases: all, with
-## file_lights=PATH.gltf/LIGHT,... those lights of glTF files, and cut_out_lights, alike, with a technique that draws maps too.
+## PATH.gltf/LIGHT/TECHNIQUE a light of a glTF file, whose results are named after the file; LIGHT@SECONDS is one at that time
+## of the file's animation. Without cases: all, with file_lights=PATH.gltf/LIGHT,... those lights of glTF files, and
+## cut_out_lights, alike, with a technique that draws maps too.
 
 const IMPORTED := "imported"
 const IMPORTED_LIGHTS: Array[String] = ["Spot", "Omni", "Sun"]
@@ -51,11 +52,14 @@ func _run_case(case: String) -> void:
 		shadow = scene.get_node("Model/%s/Shadow" % parts[1])
 	elif parts[0].ends_with(".gltf"):
 		scene = GltfImport.load_scene(parts[0])
-		shadow = scene.find_child(parts[1], true, false).find_child("Shadow", false, false)
+		shadow = scene.find_child(parts[1].get_slice("@", 0), true, false).find_child("Shadow", false, false)
 	else:
 		scene = StudyScene.create(parts[0], parts[1])
 		shadow = scene.shadow
 	add_child(scene)
+	var is_posed := "@" in parts[1]
+	if is_posed:
+		GltfImport.show_time(scene, float(parts[1].get_slice("@", 1)))
 	shadow.technique = parts[2]
 	var shadows := scene.find_children("Shadow", "GnomonShadow3D", true, false)
 	for other: Node3D in shadows:
@@ -65,7 +69,8 @@ func _run_case(case: String) -> void:
 	_options.store_values("%s_%s.f32" % [stem, parts[2]], (await reader.read()).get_data())
 	for other: Node3D in shadows:
 		other.visible = true  # `gnomon` reads no files with hidden nodes
-	GltfExport.save(scene, _options.path(stem + ".gltf"))
+	if not is_posed:  # who poses it reads the file itself
+		GltfExport.save(scene, _options.path(stem + ".gltf"))
 	scene.queue_free()
 	await get_tree().process_frame
 

@@ -4,6 +4,7 @@ extends Node
 const CASES: Array[GDScript] = [
 	preload("res://tests/frames.gd"),
 	preload("res://tests/casters.gd"),
+	preload("res://tests/skeletons.gd"),
 	preload("res://tests/views.gd"),
 	preload("res://tests/nodes.gd"),
 	preload("res://tests/settings.gd"),

@@ -1,0 +1,74 @@
+#include "modules/godot_addon/pose_reader.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+const uint64_t KEPT_FRAMES = 600;
+
+std::vector<float> read_weights(const godot::MeshInstance3D &p_node) {
+	std::vector<float> weights(size_t(p_node.get_blend_shape_count()));
+	for (size_t index = 0; index < weights.size(); ++index) {
+		weights[index] = static_cast<float>(p_node.get_blend_shape_value(int64_t(index)));
+	}
+	return weights;
+}
+
+} // namespace
+
+/// Several nodes share a skin: a figure's body and its clothes.
+const std::vector<glm::dmat4> &PoseReader::read_bones(const godot::MeshInstance3D &p_node) {
+	static const std::vector<glm::dmat4> NONE;
+	const godot::Ref<godot::SkinReference> skin = p_node.get_skin_reference();
+	if (!skin) {
+		return NONE;
+	}
+	const godot::RID skeleton = skin.get_skeleton();
+	const auto [found, is_new] = skeletons.try_emplace(skeleton);
+	if (is_new) {
+		const godot::RenderingServer server(godot::find_singleton("RenderingServer"));
+		const int64_t count = server.skeleton_get_bone_count(skeleton);
+		for (int64_t bone = 0; bone < count; ++bone) {
+			found->second.push_back(server.skeleton_bone_get_transform(skeleton, bone).to_matrix());
+		}
+	}
+	return found->second;
+}
+
+void PoseReader::pose(const godot::MeshInstance3D &p_node,
+		const std::shared_ptr<const Mesh> &p_rest, int64_t p_surface,
+		InstanceSnapshot &r_instance) {
+	const MeshRig &rig = *p_rest->attributes.rig;
+	std::vector<glm::dmat4> joints;
+	if (rig.influence_count > 0) {
+		joints = read_bones(p_node);
+	}
+	if (!joints.empty()) {
+		joints.resize(std::max<size_t>(joints.size(), rig.joint_count), glm::dmat4(1.0));
+	}
+	std::vector<float> weights;
+	if (!rig.targets.empty()) {
+		weights = read_weights(p_node);
+	}
+	Entry &entry = entries[{ godot::get_instance_id(p_node.get_owner()), p_surface }];
+	entry.last_use = frame;
+	if (!entry.slot || entry.slot->get_rest() != p_rest) {
+		entry.slot = std::make_shared<PoseSlot>(p_rest);
+	}
+	r_instance.set_pose(entry.slot,
+			entry.slot->make_pose(std::move(joints), std::move(weights),
+					"Node \"" + r_instance.node_name + "\""));
+}
+
+void PoseReader::end_frame() {
+	skeletons.clear();
+	++frame;
+	std::erase_if(entries, [&](const auto &p_entry) {
+		return frame - p_entry.second.last_use > KEPT_FRAMES ||
+				godot::get_instance(p_entry.first.first) == nullptr;
+	});
+}
+
+} // namespace gnomon
