@@ -1,5 +1,5 @@
 extends Node
-## 2,000 frames in which scenes, lights and casters come and go, techniques change and the window is resized. Prints
+## 2,000 frames in which scenes, lights, casters and figures come and go, techniques change and the window is resized. Prints
 ## what Godot holds every 100 frames.
 
 const FRAMES := 2000
@@ -40,6 +40,7 @@ func _change(step: int) -> void:
 			_scene.queue_free()
 		_scene = StudyScene.create(StudyScene.LIGHTS[(step / 20) % 3], StudyScene.CASTERS[(step / 20) % 4])
 		add_child(_scene)
+		_add_figure()
 	if step % 5 == 0:
 		_scene.shadow.technique = TECHNIQUES[(step / 5) % TECHNIQUES.size()]
 		_scene.shadow.show_mask = step % 2 == 0
@@ -60,6 +61,30 @@ func _change(step: int) -> void:
 		viewport.add_child(camera)
 		_scene.add_child(viewport)
 	_scene.light.position.x += 0.01
+	var skeleton: Skeleton3D = _scene.get_node("Skeleton")
+	skeleton.set_bone_pose_rotation(0, Quaternion(Vector3.BACK, 0.05 * (step % 20)))
+
+
+## A box that a bone turns.
+func _add_figure() -> void:
+	var skeleton := Skeleton3D.new()
+	skeleton.name = "Skeleton"
+	skeleton.add_bone("Bone")
+	_scene.add_child(skeleton)
+	var arrays := BoxMesh.new().get_mesh_arrays()
+	var bones := PackedInt32Array()
+	bones.resize(4 * (arrays[Mesh.ARRAY_VERTEX] as PackedVector3Array).size())
+	var weights := PackedFloat32Array()
+	weights.resize(bones.size())
+	for index in range(0, weights.size(), 4):
+		weights[index] = 1.0
+	arrays[Mesh.ARRAY_BONES] = bones
+	arrays[Mesh.ARRAY_WEIGHTS] = weights
+	var mesh := ArrayMesh.new()
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	var node := _scene.add_mesh("Figure", mesh, Transform3D(Basis(), Vector3(1.5, 0.6, 0)))
+	node.skin = skeleton.create_skin_from_rest_transforms()
+	node.skeleton = node.get_path_to(skeleton)
 
 
 ## With the permanent world alone in the tree, so that anything more that is held then was leaked.
