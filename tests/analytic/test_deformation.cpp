@@ -316,6 +316,10 @@ TEST_CASE("deformation: vertices agree with a computation in double at ten times
 	} else {
 		MESSAGE("assimp-testmodels are not there");
 	}
-	check_file(fixture, COURTYARD, "Figure", "Figure", 6);
-	check_file(fixture, COURTYARD, "Flag", "Flag", 6);
+	if (fs::exists(COURTYARD)) { // which the demo's scripts make
+		check_file(fixture, COURTYARD, "Figure", "Figure", 6);
+		check_file(fixture, COURTYARD, "Flag", "Flag", 6);
+	} else {
+		MESSAGE(COURTYARD, " is not there");
+	}
 }
