@@ -21,7 +21,7 @@ struct MaskQuestion {
 	glm::uvec2 size_px = glm::uvec2(0u);
 	uint64_t filter_hash =
 			0; // of the mask filters that there are, which masks and truths depend on
-	/// The scene a frame later, for errors of change; null: not asked for.
+	/// The scene a frame later, for errors of change; null: not requested.
 	std::shared_ptr<const SceneSnapshot> next_scene = nullptr;
 };
 

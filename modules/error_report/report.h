@@ -111,7 +111,7 @@ struct VisibilityCondition {
 	ErrorCause cause = ErrorCause::METHOD;
 };
 
-/// What else a point of a stability sweep or of an animation is asked; a part of the report (ReportPart) fills it in.
+/// What else a point of a stability sweep or of an animation has; a part of the report (ReportPart) fills it in.
 struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
 	/// plays on for a frame: see TemporalMetrics. None where the light has no place to move to.

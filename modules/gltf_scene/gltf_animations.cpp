@@ -34,8 +34,8 @@ private:
 };
 
 bool AnimationReader::refuse(const std::string &p_path, const std::string &p_problem) {
-	messages.report(messages.describe(p_path,
-			p_problem + "; this channel is left out. Correct it or export the file again."));
+	messages.report(messages.describe(
+			p_path, p_problem + "; this channel is skipped. Correct it or export the file again."));
 	return false;
 }
 

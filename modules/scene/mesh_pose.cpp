@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-// Poses after which a mesh that nobody asks for is dropped: of a material that is gone.
+// Poses after which an unused mesh is dropped: of a material that is gone.
 const uint64_t LONGEST_UNUSED = 100;
 const double GREATEST_PLACE_M = 1e18; // its square is a float
 

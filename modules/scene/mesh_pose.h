@@ -28,7 +28,7 @@ public:
 	/// Encloses the vertices.
 	const Bounds &get_bounds() const { return bounds; }
 	/// p_rest, or a mesh that was cut out of it, with its vertices where the pose puts them, for
-	/// what runs on the CPU. Computed when first asked for; from any thread.
+	/// what runs on the CPU. Computed at the first call; thread-safe.
 	std::shared_ptr<const Mesh> get_mesh(const std::shared_ptr<const Mesh> &p_rest) const;
 
 private:
@@ -42,7 +42,7 @@ private:
 };
 
 /// The pose of one surface of a node. While it is the same, so are the pose and all that is made of
-/// it; the meshes stay the same for as long as the slot lives. From any thread.
+/// it; the meshes stay the same for as long as the slot lives. Thread-safe.
 class PoseSlot {
 public:
 	explicit PoseSlot(std::shared_ptr<const Mesh> p_rest);
@@ -60,7 +60,7 @@ private:
 	uint64_t id = 0; // unique in the process
 	std::mutex mutex;
 	std::shared_ptr<const MeshPose> pose;
-	uint64_t pose_count = 0; // that were asked for
+	uint64_t pose_count = 0; // calls of make_pose
 	struct Deformed {
 		std::shared_ptr<const Mesh> mesh;
 		uint64_t last_use = 0; // pose_count then

@@ -107,7 +107,7 @@ public:
 	const std::vector<float> &get_morph_weights() const {
 		return posed_morph_weights ? *posed_morph_weights : morph_weights;
 	}
-	/// The slot of a surface's mesh, which has a rig; made when first asked for.
+	/// The slot of a surface's mesh, which has a rig; made at the first call.
 	std::shared_ptr<PoseSlot> get_pose_slot(const std::shared_ptr<const Mesh> &p_mesh) const;
 
 	const char *get_class_name() const override { return "MeshInstance3D"; }

@@ -10,7 +10,7 @@
 namespace gnomon {
 
 /// The work of MeshStore::add_deform_pass, found when the pass is recorded: by then all that reads
-/// vertices has asked for its buffers. In three steps, each with what the one before wrote:
+/// vertices has requested its buffers. In three steps, each with what the one before wrote:
 /// vertices of the meshes with rigs, those of what was cut out of them, welded ones.
 class DeformPass {
 public:

@@ -20,7 +20,7 @@ struct GpuMesh {
 	OwnedBuffer positions;	 // VERTEX | STORAGE, three floats each
 	OwnedBuffer normals;	 // VERTEX | STORAGE, likewise
 	SharedBuffer indices;	 // INDEX | STORAGE
-	OwnedBuffer tangents;	 // of a mesh that poses deform, once somebody asked: four floats each
+	OwnedBuffer tangents;	 // of a mesh that poses deform, once requested: four floats each
 	BufferRID rest_tangents; // from which those come
 	uint32_t index_count = 0;
 	uint64_t pose_hash = 0; // of the pose that the vertices have; 0: at rest
@@ -55,7 +55,7 @@ public:
 		return *static_cast<const T *>(entry.value.get());
 	}
 	/// Before all passes that read vertices: brings those of meshes that poses deform up to the
-	/// scene's poses, also of buffers that are asked for later in the frame. Those whose pose is
+	/// scene's poses, also of buffers that are requested later in the frame. Those whose pose is
 	/// the same as before stay as they are, where p_may_keep. Returns how many instances' vertices
 	/// the pass moves now.
 	uint32_t add_deform_pass(

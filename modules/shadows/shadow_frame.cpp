@@ -106,7 +106,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 	}
 	if (posed_count > moved_count) {
 		plan.leave_out(text("deform, meshes: ", posed_count - moved_count),
-				"kept: their pose is the same");
+				"cached: their pose is the same");
 	}
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
 			BufferUsage::STORAGE | BufferUsage::UNIFORM); // as the host's own passes like it

@@ -33,7 +33,7 @@
 			return report.add(section, make("p", { class: "soft" }, "Nothing measured: no scene has an animation, or --change is none."));
 		}
 		section.append(make("p", { class: "soft" }, "The first animation of each scene. Error of change: over penumbra pixels, the root mean square of " +
-			"how the mask's change in a thirtieth of a second differs from that of the truth; flicker and lag that single frames do not show."),
+			"how the mask's change in a thirtieth of a second differs from the reference's; flicker and lag that single frames do not show."),
 		make("div", { class: "grid two" }, plots.flatMap((plot) => [
 			makeFigure(plot, "temporal_rmse", "Error of change", "error of change", drawOnEverySize),
 			makeFigure(plot, "mae", "Error", "MAE", drawOnEverySize)])));
