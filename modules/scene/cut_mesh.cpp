@@ -57,6 +57,7 @@ private:
 	void cut_triangle(uint32_t p_triangle);
 	void add_pieces(const std::vector<ClippedPiece> &p_pieces, const MeshTriangle &p_cut,
 			uint32_t p_triangle);
+	void sort_side_points();
 	void add_whole(uint32_t p_triangle);
 	uint32_t add_point(const glm::vec3 &p_position);
 	void add_triangle(uint32_t p_a, uint32_t p_b, uint32_t p_c, uint32_t p_source);
@@ -71,8 +72,10 @@ private:
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
 	std::vector<uint32_t> whole;				// triangles
-	/// Points of cut triangles on the mesh's edges, by their place along it.
-	std::map<std::pair<PositionBits, PositionBits>, std::map<double, glm::vec3>> side_points;
+	/// Points of cut triangles on the mesh's edges, with their shares along them: unsorted, and
+	/// both triangles' at an edge.
+	using SidePoints = std::vector<std::pair<double, glm::vec3>>;
+	std::map<std::pair<PositionBits, PositionBits>, SidePoints> side_points;
 
 	std::map<PositionBits, uint32_t> point_indices;
 	std::vector<glm::vec3> positions;
@@ -180,13 +183,18 @@ void MeshCutter::cut_triangle(uint32_t p_triangle) {
 
 void MeshCutter::add_pieces(
 		const std::vector<ClippedPiece> &p_pieces, const MeshTriangle &p_cut, uint32_t p_triangle) {
+	SidePoints *sides[3];
+	for (int side = 0; side < 3; ++side) {
+		sides[side] = &side_points[p_cut.sides[side].get_key()];
+	}
+	std::vector<uint32_t> corners;
 	for (const ClippedPiece &piece : p_pieces) {
-		std::vector<uint32_t> corners;
+		corners.clear();
 		for (const ClippedPiece::Point &point : piece.get_points()) {
 			const glm::vec3 position = piece.get_position(point);
 			corners.push_back(add_point(position));
 			if (point.side >= 0 && point.corner < 0) {
-				side_points[p_cut.sides[point.side].get_key()][point.share] = position;
+				sides[point.side]->emplace_back(point.share, position);
 			}
 		}
 		const bool is_turned = (piece.compute_area() < 0) != (p_cut.area < 0);
@@ -194,6 +202,20 @@ void MeshCutter::add_pieces(
 			add_triangle(corners[0], corners[is_turned ? i + 1 : i], corners[is_turned ? i : i + 1],
 					p_triangle);
 		}
+	}
+}
+
+/// By their shares, each once: the same share has the same position.
+void MeshCutter::sort_side_points() {
+	for (auto &[key, points] : side_points) {
+		std::sort(points.begin(), points.end(), [](const auto &p_left, const auto &p_right) {
+			return p_left.first < p_right.first;
+		});
+		points.erase(std::unique(points.begin(), points.end(),
+							 [](const auto &p_left, const auto &p_right) {
+								 return p_left.first == p_right.first;
+							 }),
+				points.end());
 	}
 }
 
@@ -253,6 +275,9 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 	}
 	if (is_whole()) {
 		return p_mesh;
+	}
+	if (!whole.empty()) {
+		sort_side_points();
 	}
 	for (const uint32_t triangle : whole) {
 		add_whole(triangle);

@@ -54,14 +54,20 @@ void TileCover::add(const MeshTriangle &p_triangle) {
 	area += std::abs(p_triangle.area) / 2;
 	box_area += size.x * size.y;
 	long_sides += std::max(size.x - 1, 0.0) + std::max(size.y - 1, 0.0);
+	longest_side = std::max({ longest_side, size.x, size.y });
 	farthest = std::max(
 			{ farthest, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y) });
 }
 
 bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
 	const double MOST_PLACES = double(uint64_t(1) << 40);
+	// No texture repeats so often on one triangle: such coordinates are damaged, and each tile
+	// takes its time.
+	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 15);
 	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
-			long_sides / p_tile_size <= p_most_tiles && farthest / p_tile_size <= MOST_PLACES;
+			long_sides / p_tile_size <= p_most_tiles &&
+			longest_side / p_tile_size <= MOST_TILES_OF_SIDE &&
+			farthest / p_tile_size <= MOST_PLACES;
 }
 
 OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCover &p_cover,

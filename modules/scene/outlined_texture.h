@@ -20,9 +20,10 @@ struct OutlineBudget {
 /// How much of a texture's plane the triangles of a mesh cover, in tiles.
 struct TileCover {
 	double area = 0;
-	double box_area = 0;   // of the boxes around them
-	double long_sides = 0; // of those boxes, beyond one tile each
-	double farthest = 0;   // of their coordinates
+	double box_area = 0;	 // of the boxes around them
+	double long_sides = 0;	 // of those boxes, beyond one tile each
+	double longest_side = 0; // of those boxes
+	double farthest = 0;	 // of their coordinates
 
 	void add(const MeshTriangle &p_triangle);
 	/// Tiles of that size are few enough to be visited one by one, and distinct in double.

@@ -213,6 +213,23 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 	CHECK(many.mesh->get_triangle_count() < 12u * small.edges_per_mesh);
 }
 
+TEST_CASE("[CutMesh] a coordinate that is far out of line makes few tiles") {
+	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
+	for (const float far_u : { -1.02236e8f, 3e5f, -7e11f }) {
+		CAPTURE(far_u);
+		MeshAttributes attributes;
+		attributes.uvs[0] = { { -1, 1 }, { 1.5f, 0 }, { far_u, 0 } };
+		const auto mesh =
+				make_mesh("card", { { -0.5f, -0.5f, 0 }, { 0.5f, -0.5f, 0 }, { 0.5f, 0.125f, 0 } },
+						{}, { 0, 1, 2 }, attributes);
+		const CutMesh cut = cut_mesh(mesh, material);
+		CHECK(cut.block_size_px > 0);
+		// Squares of many tiles: a few triangles each, in at most 2 to the power of 15 columns.
+		CHECK((cut.mesh ? cut.mesh->get_triangle_count() : 0) < 4u << 15);
+		CHECK((cut.mesh ? compute_area(*cut.mesh) : 0) <= 1.001 * compute_area(*mesh));
+	}
+}
+
 TEST_CASE("[CutMesh] triangles that are thin in their coordinates stay within the mesh's budget") {
 	const Material material = make_material(make_wave_image({ 24, 24 }, 0.9));
 	const OutlineBudget small = { 1 << 10, 1 << 14 };
