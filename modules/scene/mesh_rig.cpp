@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gnomon {
 
@@ -120,11 +121,17 @@ double get_weight(std::span<const float> p_weights, size_t p_target) {
 } // namespace
 
 uint64_t MeshRig::compute_vertex_hash(uint32_t p_vertex) const {
-	uint64_t hash = 1;
+	std::map<uint32_t, float> moved_by; // in an order of its own
 	for (size_t i = 0; i < influence_count; ++i) {
-		const size_t place = size_t(p_vertex) * influence_count + i;
-		hash = compute_value_hash(joints[place], hash);
-		hash = compute_value_hash(weights[place], hash);
+		const size_t index = size_t(p_vertex) * influence_count + i;
+		if (weights[index] > 0) {
+			moved_by[joints[index]] += weights[index];
+		}
+	}
+	uint64_t hash = 1;
+	for (const auto &[joint, weight] : moved_by) {
+		hash = compute_value_hash(joint, hash);
+		hash = compute_value_hash(weight, hash);
 	}
 	for (const MorphTarget &target : targets) {
 		if (!target.positions.empty()) {

@@ -39,7 +39,8 @@ struct MeshRig {
 	double greatest_weight_sum = 1;	   // at least 1
 	uint64_t content_hash = 0;
 
-	/// Of one vertex: vertices of different values must not be welded.
+	/// Of all that moves one vertex: vertices of different values must not be welded. Joints of
+	/// weight 0, their order, and a joint that is named twice make no difference.
 	uint64_t compute_vertex_hash(uint32_t p_vertex) const;
 };
 

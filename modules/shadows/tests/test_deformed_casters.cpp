@@ -282,7 +282,15 @@ TEST_CASE("topology: vertices of different joints, weights or targets are not we
 	const auto topology = get_topology(mesh);
 	CHECK(topology->welded_positions_node.size() == 5); // 0 and 3 alone are one
 	CHECK(topology->is_deformable);
-	// A flat quad bends: its diagonal is never left out.
+	// Unused joints, another order and a joint that is named twice move a vertex alike.
+	MeshRig alike;
+	alike.influence_count = 4;
+	alike.joints = { 2, 3, 0, 0, 3, 2, 7, 1, 2, 2, 3, 5 };
+	alike.weights = { 0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0, 0.25f, 0.25f, 0.5f, 0 };
+	const auto made = make_mesh_rig(alike, std::vector<glm::vec3>(3), "mesh");
+	CHECK(made->compute_vertex_hash(0) == made->compute_vertex_hash(1));
+	CHECK(made->compute_vertex_hash(0) == made->compute_vertex_hash(2));
+	// A flat quad bends: its diagonal is never skipped.
 	const auto quad = make_mesh("quad", { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, {},
 			{ 0, 1, 2, 0, 2, 3 });
 	const auto count_flat = [](const Mesh &p_mesh) {
