@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_animations.h"
 
 #include "modules/core/error.h"
+#include "modules/gltf_scene/gltf_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,22 +110,6 @@ bool AnimationReader::read_channel(const tinygltf::Animation &p_animation, size_
 	return true;
 }
 
-/// A matrix that is animated all the same is taken apart when it is: see pose_scene.
-AnimatedNode read_animated_node(int p_index, const tinygltf::Node &p_node) {
-	AnimatedNode node;
-	node.node = p_index;
-	if (!p_node.rotation.empty()) {
-		const std::vector<double> &turn = p_node.rotation;
-		node.rotation = glm::normalize(glm::dquat(turn[3], turn[0], turn[1], turn[2]));
-	}
-	for (int axis = 0; axis < 3; ++axis) {
-		const size_t place = static_cast<size_t>(axis);
-		node.scale[axis] = p_node.scale.empty() ? 1.0 : p_node.scale[place];
-		node.translation[axis] = p_node.translation.empty() ? 0.0 : p_node.translation[place];
-	}
-	return node;
-}
-
 std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std::string &p_name) {
 	const tinygltf::Animation &source = model.animations[p_index];
 	auto animation = std::make_shared<Animation>();
@@ -139,8 +124,9 @@ std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std
 		animation->duration_s =
 				std::max(animation->duration_s, double(channel.sampler.times_s.back()));
 		if (moved.insert(channel.node).second) {
-			animation->nodes.push_back(read_animated_node(
-					channel.node, model.nodes[static_cast<size_t>(channel.node)]));
+			// A matrix that is animated all the same is taken apart by pose_scene.
+			animation->nodes.push_back(
+					{ channel.node, read_parts(model.nodes[static_cast<size_t>(channel.node)]) });
 		}
 		animation->channels.push_back(std::move(channel));
 	}

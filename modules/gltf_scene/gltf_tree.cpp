@@ -29,28 +29,13 @@ void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMes
 	}
 }
 
-struct Parts {
-	glm::dvec3 translation;
-	glm::dquat rotation;
-	glm::dvec3 scale;
-};
-
 /// Nothing when the axes are not at right angles, or one has no length.
-std::optional<Parts> decompose(const glm::dmat4 &p_matrix) {
-	glm::dmat3 axes(p_matrix);
-	Parts parts{ glm::dvec3(p_matrix[3]), {}, {} };
+std::optional<NodeTransform> decompose(const glm::dmat4 &p_matrix) {
+	const NodeTransform parts = decompose_transform(p_matrix);
+	const glm::dmat3 axes = glm::mat3_cast(parts.rotation);
 	for (int axis = 0; axis < 3; ++axis) {
-		parts.scale[axis] = glm::length(axes[axis]);
-		axes[axis] /= parts.scale[axis];
-	}
-	if (glm::determinant(axes) < 0) {
-		parts.scale.x = -parts.scale.x;
-		axes[0] = -axes[0];
-	}
-	parts.rotation = glm::normalize(glm::quat_cast(axes));
-	const glm::dmat3 again = glm::mat3_cast(parts.rotation);
-	for (int axis = 0; axis < 3; ++axis) {
-		if (!(glm::length(again[axis] - axes[axis]) <= RECOMPOSED_TOLERANCE)) {
+		const glm::dvec3 unit = glm::dvec3(p_matrix[axis]) / parts.scale[axis];
+		if (!(glm::length(axes[axis] - unit) <= RECOMPOSED_TOLERANCE)) {
 			return std::nullopt;
 		}
 	}
@@ -105,23 +90,27 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 	return tree;
 }
 
-glm::dmat4 read_transform(const tinygltf::Node &p_node) {
-	glm::dmat4 matrix(1.0);
-	if (!p_node.matrix.empty()) {
-		matrix = glm::make_mat4(p_node.matrix.data());
-		for (int column = 0; column < 4; ++column) {
-			matrix[column].w = column == 3 ? 1 : 0;
-		}
-		return matrix;
-	}
+NodeTransform read_parts(const tinygltf::Node &p_node) {
+	NodeTransform parts;
 	if (!p_node.rotation.empty()) {
 		const std::vector<double> &turn = p_node.rotation;
-		matrix = glm::mat4_cast(glm::normalize(glm::dquat(turn[3], turn[0], turn[1], turn[2])));
+		parts.rotation = glm::normalize(glm::dquat(turn[3], turn[0], turn[1], turn[2]));
 	}
 	for (int axis = 0; axis < 3; ++axis) {
-		const size_t place = static_cast<size_t>(axis);
-		matrix[axis] *= p_node.scale.empty() ? 1.0 : p_node.scale[place];
-		matrix[3][axis] = p_node.translation.empty() ? 0.0 : p_node.translation[place];
+		const size_t index = static_cast<size_t>(axis);
+		parts.scale[axis] = p_node.scale.empty() ? 1.0 : p_node.scale[index];
+		parts.translation[axis] = p_node.translation.empty() ? 0.0 : p_node.translation[index];
+	}
+	return parts;
+}
+
+glm::dmat4 read_transform(const tinygltf::Node &p_node) {
+	if (p_node.matrix.empty()) {
+		return read_parts(p_node).compose();
+	}
+	glm::dmat4 matrix = glm::make_mat4(p_node.matrix.data());
+	for (int column = 0; column < 4; ++column) {
+		matrix[column].w = column == 3 ? 1 : 0;
 	}
 	return matrix;
 }
@@ -143,7 +132,7 @@ void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf:
 	r_written.translation.clear();
 	r_written.rotation.clear();
 	r_written.scale.clear();
-	const std::optional<Parts> parts =
+	const std::optional<NodeTransform> parts =
 			has_affine_row(matrix) && r_written.matrix.empty() ? decompose(matrix) : std::nullopt;
 	if (!parts) {
 		const double *first = glm::value_ptr(matrix);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "modules/gltf_scene/gltf_json.h"
+#include "modules/scene/node_transform.h"
 #include "modules/scene/nodes.h"
 
 #include <glm/glm.hpp>
@@ -23,7 +24,9 @@ struct GltfTree {
 /// A node with two parents, a cycle or too deep a nesting, also where no scene looks: an Error.
 GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_messages);
 
-/// A node's matrix, or its translation, rotation and scale.
+/// A node's translation, rotation and scale; those that it does not have are 0, none and 1.
+NodeTransform read_parts(const tinygltf::Node &p_node);
+/// Its matrix, or those parts.
 glm::dmat4 read_transform(const tinygltf::Node &p_node);
 
 /// Writes a node's changed transform. Translation, rotation and scale are kept apart where they can

@@ -2,8 +2,6 @@
 
 #include "modules/core/error.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -38,26 +36,12 @@ glm::dvec3 to_vector(const std::vector<double> &p_values) {
 	return glm::dvec3(p_values[0], p_values[1], p_values[2]);
 }
 
-/// The parts of a node's transform: those of its file unless the user has moved it since.
-AnimatedNode choose_parts(const AnimatedNode &p_of_file, const Node3D &p_node) {
-	if (p_of_file.compose() == p_node.parent_from_node) {
-		return p_of_file;
-	}
-	AnimatedNode parts = p_of_file;
-	glm::dmat3 axes(p_node.parent_from_node);
-	parts.translation = glm::dvec3(p_node.parent_from_node[3]);
-	for (int axis = 0; axis < 3; ++axis) {
-		const double length = glm::length(axes[axis]);
-		parts.scale[axis] = p_of_file.scale[axis] < 0 ? -length : length;
-		axes[axis] =
-				length > 0 ? axes[axis] / parts.scale[axis] : glm::dvec3(glm::dmat3(1.0)[axis]);
-	}
-	if (glm::determinant(axes) < 0) {
-		parts.scale.x = -parts.scale.x;
-		axes[0] = -axes[0];
-	}
-	parts.rotation = glm::normalize(glm::quat_cast(axes));
-	return parts;
+/// The parts of a node's transform: those of its file unless the user has moved it since. Which
+/// axis mirrors no matrix says: as the file has it, or x.
+NodeTransform choose_parts(const NodeTransform &p_of_file, const Node3D &p_node) {
+	return p_of_file.compose() == p_node.parent_from_node
+			? p_of_file
+			: decompose_transform(p_node.parent_from_node);
 }
 
 /// What channels set of one node.
@@ -94,11 +78,11 @@ std::map<int, NodePose> sample_channels(const Animation &p_animation, double p_t
 
 void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_time_s) {
 	std::map<int, NodePose> poses;
-	std::map<int, const AnimatedNode *> parts;
+	std::map<int, NodeTransform> parts;
 	if (p_animation) {
 		poses = sample_channels(*p_animation, p_time_s);
 		for (const AnimatedNode &node : p_animation->nodes) {
-			parts[node.node] = &node;
+			parts[node.node] = node.transform;
 		}
 	}
 	for (Node3D *node : p_scene.find_nodes<Node3D>()) {
@@ -118,7 +102,7 @@ void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_tim
 			instance->posed_morph_weights = channels.weights;
 		}
 		if (channels.translation || channels.rotation || channels.scale) {
-			AnimatedNode moved = choose_parts(*parts.at(node->file_index), *node);
+			NodeTransform moved = choose_parts(parts.at(node->file_index), *node);
 			moved.translation = channels.translation.value_or(moved.translation);
 			moved.rotation = channels.rotation.value_or(moved.rotation);
 			moved.scale = channels.scale.value_or(moved.scale);
@@ -166,15 +150,6 @@ std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation
 							 : from[i] + t * (to[i] - from[i]);
 	}
 	return p_is_rotation ? normalize(std::move(result)) : result;
-}
-
-glm::dmat4 AnimatedNode::compose() const {
-	glm::dmat4 matrix = glm::mat4_cast(rotation);
-	for (int axis = 0; axis < 3; ++axis) {
-		matrix[axis] *= scale[axis];
-		matrix[3][axis] = translation[axis];
-	}
-	return matrix;
 }
 
 double Animation::wrap_time(double p_time_s) const {

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "modules/scene/node_transform.h"
 #include "modules/scene/nodes.h"
 #include "modules/scene/scene_snapshot.h"
 
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -38,14 +38,10 @@ struct AnimationChannel {
 	AnimationSampler sampler;
 };
 
-/// A node's transform in parts, as its file has them: channels replace some of them.
+/// A node's transform as its file has it: channels replace parts of it.
 struct AnimatedNode {
-	int node = -1;
-	glm::dvec3 translation = glm::dvec3(0.0);
-	glm::dquat rotation = glm::dquat(1, 0, 0, 0);
-	glm::dvec3 scale = glm::dvec3(1.0);
-
-	glm::dmat4 compose() const;
+	int node = -1; // Node3D::file_index
+	NodeTransform transform;
 };
 
 /// Never changes once it is shared.
@@ -64,8 +60,8 @@ struct Animation {
 /// weights stay as they are: see Node3D::posed_parent_from_node.
 void pose_scene(Scene &r_scene, const Animation *p_animation, double p_time_s);
 
-/// As build_snapshot, of the scene as the animation has it at a time; null: at rest. The scene is left
-/// as it was posed before.
+/// As build_snapshot, of the scene as the animation has it at a time; null: at rest. The scene is
+/// left as it was posed before.
 std::shared_ptr<const SceneSnapshot> build_posed_snapshot(const Scene &p_scene,
 		const Camera3D &p_camera, const Animation *p_animation, double p_time_s);
 

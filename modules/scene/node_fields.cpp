@@ -169,26 +169,25 @@ void MeshInstance3D::assign(const Node3D &p_other) {
 
 Bounds MeshInstance3D::compute_bounds() const {
 	Bounds bounds;
-	SkinPlaces places;
+	WorldTransforms world_from_nodes;
 	if (skin) {
 		const Node3D *root = this;
 		while (root->parent) {
 			root = root->parent;
 		}
-		places = place_skin(*skin, compute_world_transforms(*root));
+		world_from_nodes = compute_world_transforms(*root);
 	}
 	const glm::dmat4 world_from_node = compute_world_from_node();
 	for (const Surface &surface : surfaces) {
 		if (!surface.mesh || surface.mesh->indices.empty()) {
 			continue;
 		}
-		const MeshRig *rig = surface.mesh->attributes.rig.get();
-		const bool is_skinned = skin && rig && rig->joint_count > 0;
-		const Bounds own = rig ? bound_deformed_vertices(*surface.mesh,
-										 is_skinned ? places.joints : std::vector<glm::dmat4>(),
-										 get_morph_weights())
-							   : surface.mesh->bounds_node;
-		bounds.add(transform_bounds(own, is_skinned ? places.world_from_mesh : world_from_node));
+		const SkinPlaces places =
+				place_surface(*this, *surface.mesh, world_from_node, world_from_nodes);
+		const Bounds own = surface.mesh->attributes.rig
+				? bound_deformed_vertices(*surface.mesh, places.joints, get_morph_weights())
+				: surface.mesh->bounds_node;
+		bounds.add(transform_bounds(own, places.world_from_mesh));
 	}
 	return bounds;
 }

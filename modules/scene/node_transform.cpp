@@ -1,0 +1,30 @@
+#include "modules/scene/node_transform.h"
+
+namespace gnomon {
+
+glm::dmat4 NodeTransform::compose() const {
+	glm::dmat4 matrix = glm::mat4_cast(rotation);
+	for (int axis = 0; axis < 3; ++axis) {
+		matrix[axis] *= scale[axis];
+		matrix[3][axis] = translation[axis];
+	}
+	return matrix;
+}
+
+NodeTransform decompose_transform(const glm::dmat4 &p_matrix) {
+	glm::dmat3 axes(p_matrix);
+	NodeTransform parts{ glm::dvec3(p_matrix[3]), {}, {} };
+	for (int axis = 0; axis < 3; ++axis) {
+		parts.scale[axis] = glm::length(axes[axis]);
+		axes[axis] = parts.scale[axis] > 0 ? axes[axis] / parts.scale[axis]
+										   : glm::dvec3(glm::dmat3(1.0)[axis]);
+	}
+	if (glm::determinant(axes) < 0) {
+		parts.scale.x = -parts.scale.x;
+		axes[0] = -axes[0];
+	}
+	parts.rotation = glm::normalize(glm::quat_cast(axes));
+	return parts;
+}
+
+} // namespace gnomon
