@@ -57,7 +57,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const
 	for (const ReportScene &item : p_options.animated_scenes) {
 		if (!item.scene || item.scene->animations.empty() ||
 				!(item.scene->animations[0]->duration_s > 0)) {
-			continue; // not loaded: the matrix says so
+			continue; // not loaded: the matrix reports it
 		}
 		const std::shared_ptr<const Animation> animation = item.scene->animations[0];
 		ReportConfiguration configuration;
@@ -70,7 +70,7 @@ void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const
 				lights.push_back(light->name);
 			}
 		} catch (const Error &) {
-			continue; // likewise
+			continue; // the matrix reports it
 		}
 		configuration.light_count = uint32_t(lights.size());
 		for (const std::string &light : lights) {

@@ -17,8 +17,8 @@ struct CommonOptions {
 	std::string device; // index or part of the name; empty: the best
 	bool validation = false;
 	std::string stage = "auto"; // of commands that draw scenes: see stage_scene; auto, on or off
-	std::string animation;		// likewise: its name; empty: the scene's first
-	std::optional<double> at_s; // likewise: the time of it that is drawn; empty: none is
+	std::string animation;		// of commands that draw scenes: its name; empty: the first
+	std::optional<double> at_s; // the time of it that is drawn; empty: the scene is at rest
 };
 
 struct CommandInfo {

@@ -8,7 +8,7 @@ const uint64_t GLTF_MAX_JOINT_COUNT = 65536;			   // of one skin
 const uint64_t GLTF_MAX_CHANNEL_COUNT = uint64_t(1) << 20; // of all animations
 
 /// The same as check_gltf, for a document's skins and animations. A channel of an animation that
-/// cannot be read is reported; its path becomes "", which nobody reads.
+/// cannot be read is reported; its path becomes "", which the reader skips.
 void check_skins(const GltfObject &p_root);
 void check_animations(const GltfObject &p_root);
 /// Of a node or a mesh: numbers, else reported and removed.

@@ -1,6 +1,7 @@
 #include "modules/gltf_scene/gltf_mesh_writer.h"
 
 #include "modules/core/files.h"
+#include "modules/core/log.h"
 #include "modules/gltf_scene/gltf_materials.h"
 
 #include <algorithm>
@@ -66,6 +67,10 @@ size_t GltfMeshWriter::append_mesh(
 }
 
 GltfMeshWriter::Accessors GltfMeshWriter::append_vertices(const Mesh &p_mesh) {
+	if (p_mesh.attributes.rig) { // only files make them, and keep theirs
+		log_warning("Mesh \"", p_mesh.name, "\" is saved at rest, without its joints and morph ",
+				"targets: only those that a file has can be saved.");
+	}
 	const size_t vertex_count = p_mesh.positions_node.size();
 	const tinygltf::Accessor vectors =
 			make_accessor(TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT, vertex_count);

@@ -46,7 +46,7 @@ uint32_t choose_antialiasing(
 /// of that size.
 std::unique_ptr<Scene> load_scene(
 		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
-/// `--animation` and `--at`, likewise.
+/// `--animation` and `--at`, for a command that draws scenes.
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
 /// Poses the scene as those say: at rest where neither is given.
 void pose_as_asked(Scene &r_scene, const CommonOptions &p_common);

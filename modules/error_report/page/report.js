@@ -228,7 +228,7 @@
 		if (data.animation) { // absent where the build lacks that part of the report
 			sections.push(report.makeChange(data.animation, drawOnEverySize));
 		}
-		if (data.stability) { // likewise
+		if (data.stability) { // absent where the build lacks it
 			sections.push(report.makeStability(data.stability, drawOnEverySize));
 		}
 		const against = report.makeAgainst(data.against);

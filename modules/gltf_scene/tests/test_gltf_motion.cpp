@@ -192,7 +192,7 @@ TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its place")
 	find(json, "accessors[4].type is \"VEC4\", must be \"MAT4\"");
 }
 
-TEST_CASE("gltf motion: a channel that cannot be played is left out, and all else is there") {
+TEST_CASE("gltf motion: a channel that cannot be played is skipped, and all else is there") {
 	const GltfTestFolder folder;
 	const auto check = [&](const Json &p_json, const std::string &p_part, size_t p_channels) {
 		std::vector<std::string> messages;
