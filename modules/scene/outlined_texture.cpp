@@ -63,7 +63,7 @@ bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
 	const double MOST_PLACES = double(uint64_t(1) << 40);
 	// No texture repeats so often on one triangle: such coordinates are damaged, and each tile
 	// takes its time.
-	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 15);
+	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 13);
 	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
 			long_sides / p_tile_size <= p_most_tiles &&
 			longest_side / p_tile_size <= MOST_TILES_OF_SIDE &&
