@@ -83,6 +83,11 @@ def make_added_page(item):
         lines += format_table(item["properties"])
     else:
         lines.append("It has none of its own.")
+    if item.get("settings"):
+        lines += ["", "## Settings of the technique", ""]
+        lines += ["For all lights; the image is the same. In `project.cfg` below `[technique.%s]`, or for one run" % item["id"]]
+        lines += ["`--set technique.%s.NAME=value`." % item["id"], ""]
+        lines += format_table(item["settings"])
     return "\n".join(lines + ["", "Those of every light: [Light3D](light_3d.md).", ""])
 
 
@@ -102,7 +107,7 @@ def make_index(names):
 def make_pages():
     """File name -> text of every page."""
     added = json.loads(run_gnomon("techniques", "--json")) + json.loads(run_gnomon("filters", "--json"))
-    pages = {item["id"] + ".md": make_added_page(item) for item in added}
+    pages = {item["id"] + ".md": make_added_page(item) for item in added if not item.get("is_example")}
     pages["light_3d.md"] = make_light_page(parse_common_properties(run_gnomon("techniques")))
     kept = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
     names = {name for name in [*pages, *kept] if name.endswith(".md")} - {"light_3d.md", "index.md"}

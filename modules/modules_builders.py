@@ -9,6 +9,7 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     get_include_folders(env) -> list of folders        (optional; of others' headers, for this module and its tests)
     get_source() -> str, get_doc() -> str              (optional; where it comes from, its doc page)
     can_disable() -> bool                              (optional; default: layer 4 and up)
+    is_example() -> bool                               (optional; default False: there to be copied, lists for users omit it)
     is_enabled() -> bool                               (optional; built unless told otherwise)
     get_optional_dependencies() -> list of module names (optional; used only where they are built)
     is_program() -> bool                               (optional; main: linked into bin/gnomon only)
@@ -45,6 +46,7 @@ class Module:
         self.has_registration = os.path.isfile(os.path.join(folder, "register_types.cpp"))
         self.is_program = getattr(config, "is_program", lambda: False)()
         self.hosts = getattr(config, "get_hosts", lambda: ("program", "godot"))()
+        self.is_example = getattr(config, "is_example", lambda: False)()
         self.can_disable = getattr(config, "can_disable", lambda: self.layer >= 4)()
 
 
@@ -126,7 +128,7 @@ def write_registration(target, source, env):
         dependencies = ", ".join(_quote(name) for name in module.dependencies)
         functions = "initialize_{0}_module, uninitialize_{0}_module" if module.has_registration else "nullptr, nullptr"
         lines.append(
-            "\tModuleRegistry::add({ %s, %s, %s, %s, %s, %d, %s, { %s }, %s });"
+            "\tModuleRegistry::add({ %s, %s, %s, %s, %s, %d, %s, %s, { %s }, %s });"
             % (
                 _quote(module.name),
                 _quote(module.description),
@@ -135,6 +137,7 @@ def write_registration(target, source, env):
                 _quote(module.doc),
                 module.layer,
                 "true" if module.can_disable else "false",
+                "true" if module.is_example else "false",
                 dependencies,
                 functions.format(module.name),
             )

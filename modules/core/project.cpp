@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr uint64_t MAX_PROJECT_BYTES = 1 << 20;
+constexpr std::string_view TECHNIQUE_SECTION = "technique.";
 
 std::string trim(const std::string &p_text) {
 	const char *const blanks = " \t\r";
@@ -151,6 +152,9 @@ Project Project::parse(const std::string &p_text, const fs::path &p_path) {
 			project.disabled_modules = parse_list(entry.value);
 		} else if (section == "defaults") {
 			project.defaults[key] = unquote(entry.value);
+		} else if (section.starts_with(TECHNIQUE_SECTION)) {
+			project.technique_settings[section.substr(TECHNIQUE_SECTION.size())][key] =
+					unquote(entry.value);
 		}
 	}
 	std::set<fs::path> seen;

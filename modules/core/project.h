@@ -20,6 +20,8 @@ public:
 	std::vector<std::filesystem::path> missing_scenes; // absolute; listed, but not there; each once
 	std::vector<std::string> disabled_modules;
 	std::map<std::string, std::string> defaults; // [defaults] as written, quotes removed
+	/// Of each [technique.ID], the same; by ID.
+	std::map<std::string, std::map<std::string, std::string>> technique_settings;
 
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
 	/// line.

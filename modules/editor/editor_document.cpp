@@ -8,6 +8,7 @@
 #include "modules/scene/node_properties.h"
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/light_properties.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 
@@ -58,6 +59,7 @@ EditorDocument::EditorDocument(const fs::path &p_path, StageMode p_stage) : stag
 		timeline = Timeline(name->second);
 	}
 	disable_modules(project);
+	apply_technique_settings(project);
 	std::error_code code;
 	if (!fs::exists(path, code)) {
 		fail("Scene ", path, " does not exist. Check the path.");

@@ -36,9 +36,19 @@ Json describe_properties(const PropertyList &p_list) {
 	return properties;
 }
 
-void print_properties(const PropertyList &p_list) {
+PropertyList omit_test_settings(const PropertyList &p_list) {
+	PropertyList list;
 	for (const PropertyInfo &info : p_list.get_properties()) {
-		std::printf("    %s = %s (%s): %s\n", info.name.c_str(),
+		if (info.group != TEST_SETTINGS_GROUP) {
+			list.add(info);
+		}
+	}
+	return list;
+}
+
+void print_properties(const PropertyList &p_list, const std::string &p_prefix = {}) {
+	for (const PropertyInfo &info : p_list.get_properties()) {
+		std::printf("    %s%s = %s (%s): %s\n", p_prefix.c_str(), info.name.c_str(),
 				format_property(info.default_value).c_str(), describe_range(info).c_str(),
 				info.tooltip.c_str());
 	}
@@ -49,14 +59,17 @@ Json list_techniques(bool p_as_text, const CommonOptions & /*p_common*/) {
 	const ShadowTechniqueInfo *chosen = ShadowRegistry::find_default();
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		const PropertyList &properties = ShadowRegistry::get_light_properties(info.id);
+		const PropertyList settings = omit_test_settings(ShadowRegistry::get_settings(info.id));
 		list.push_back({ { "id", info.id }, { "name", info.name }, { "source", info.source },
 				{ "is_default", &info == chosen }, { "is_fallback", info.is_fallback },
-				{ "is_reference", info.is_reference },
-				{ "properties", describe_properties(properties) } });
-		if (p_as_text) {
+				{ "is_reference", info.is_reference }, { "is_example", info.is_example },
+				{ "properties", describe_properties(properties) },
+				{ "settings", describe_properties(settings) } });
+		if (p_as_text && !info.is_example) {
 			std::printf("%s%s\n    %s. Source: %s\n", info.id.c_str(),
 					&info == chosen ? " (default)" : "", info.name.c_str(), info.source.c_str());
 			print_properties(properties);
+			print_properties(settings, "technique." + info.id + ".");
 		}
 	}
 	if (p_as_text) {
@@ -87,8 +100,9 @@ Json list_modules(bool p_as_text, const CommonOptions & /*p_common*/) {
 		list.push_back({ { "name", module.name }, { "description", module.description },
 				{ "source", module.source }, { "version", module.version }, { "doc", module.doc },
 				{ "layer", module.layer }, { "can_disable", module.can_disable },
-				{ "is_enabled", module.is_enabled }, { "dependencies", module.dependencies } });
-		if (p_as_text) {
+				{ "is_example", module.is_example }, { "is_enabled", module.is_enabled },
+				{ "dependencies", module.dependencies } });
+		if (p_as_text && !module.is_example) {
 			std::printf("%-20s %s%s\n", module.name.c_str(), module.description.c_str(),
 					module.is_enabled ? "" : " (disabled)");
 		}

@@ -9,6 +9,7 @@
 #include "modules/scene/light_setting.h"
 #include "modules/scene/stage.h"
 #include "modules/shadows/light_properties.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -142,6 +143,7 @@ std::unique_ptr<Scene> load_scene(
 		const fs::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	const ProjectScene place = find_project_scene(p_path);
 	disable_modules(place.project);
+	apply_technique_settings(place.project);
 	GltfLoadOptions options;
 	options.project_folder = place.project.folder;
 	options.find_technique_property = &find_added_light_property;
@@ -190,7 +192,27 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 			"--light, or use --stage auto.");
 }
 
+/// "technique.ID.NAME=value": true where p_setting is of that kind.
+static bool apply_technique_setting(const std::string &p_setting) {
+	constexpr std::string_view PREFIX = "technique.";
+	if (!p_setting.starts_with(PREFIX)) {
+		return false;
+	}
+	const size_t equals = p_setting.find('=');
+	const size_t dot = p_setting.rfind('.', equals);
+	if (equals == std::string::npos || dot <= PREFIX.size()) {
+		throw UsageError(text("--set is \"", p_setting, "\", must be technique.ID.NAME=value."));
+	}
+	const std::string_view all = p_setting;
+	ShadowRegistry::set_setting(all.substr(PREFIX.size(), dot - PREFIX.size()),
+			all.substr(dot + 1, equals - dot - 1), all.substr(equals + 1));
+	return true;
+}
+
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {
+	if (apply_technique_setting(p_setting)) {
+		return;
+	}
 	const LightSetting setting = parse_light_setting(p_setting);
 	if (!setting.light_name.empty()) {
 		p_light = &p_scene.find_node<Light3D>(setting.light_name, "Light");
@@ -200,6 +222,10 @@ void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_
 	}
 	const PropertyInfo *info = find_property(setting.property);
 	if (!info) {
+		if (const RemovedProperty *removed = find_removed_light_property(setting.property)) {
+			fail("Light \"", p_light->name, "\": ", setting.property, " is not used any more. ",
+					removed->advice);
+		}
 		fail("Light \"", p_light->name, "\": there is no property \"", setting.property,
 				"\". There are: ", list_properties(), ".");
 	}

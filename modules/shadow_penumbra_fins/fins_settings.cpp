@@ -1,6 +1,7 @@
 #include "modules/shadow_penumbra_fins/fins_settings.h"
 
 #include "modules/rendering_device/rendering_device.h"
+#include "modules/shadows/shadow_registry.h"
 
 #include <algorithm>
 
@@ -53,14 +54,22 @@ void add_fins_properties(const std::string &p_id, bool p_has_inner_half, Propert
 			"How the light falls off across the penumbra: in two smooth curves, or evenly.", "",
 			group });
 	if (p_has_inner_half) {
-		r_list.add({ p_id + "_peeling", PropertyType::ENUM, {}, "auto,passes,one_pass",
+		add_moved_setting(p_id, "peeling", r_list);
+	}
+	add_moved_setting(p_id, "method", r_list);
+}
+
+void add_fins_settings(bool p_has_inner_half, PropertyList &r_list) {
+	const std::string group = p_has_inner_half ? "Penumbra fins" : "Outer fins";
+	if (p_has_inner_half) {
+		r_list.add({ "peeling", PropertyType::ENUM, {}, "auto,passes,one_pass",
 				"How the layers are found: one pass after the other, all in one pass with atomics, "
-				"or whichever is faster here. The picture is the same.",
+				"or whichever is faster here.",
 				"", group });
 	}
-	r_list.add({ p_id + "_method", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
+	r_list.add({ "method", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
 			"How silhouette edges and fins are made: by a geometry shader, by compute shaders and "
-			"an indirect draw, or whichever is faster here. The picture is the same.",
+			"an indirect draw, or whichever is faster here.",
 			"", group });
 }
 
@@ -81,15 +90,15 @@ FinsSettings read_fins_settings(
 			read_fins_view_settings(p_id, p_has_inner_half, p_inputs.light, properties);
 	settings.curve = read_choice(properties, p_id + "_curve") == "linear" ? FINS_CURVE_LINEAR
 																		  : FINS_CURVE_SINE;
-	settings.method = choose_method(
-			read_choice(properties, p_id + "_method"), p_inputs.device.get_features());
+	settings.method =
+			choose_method(read_choice(p_inputs.settings, "method"), p_inputs.device.get_features());
 	if (p_has_inner_half) {
 		const float beta_m = static_cast<float>(std::get<double>(properties.at(p_id + "_beta")));
 		settings.beta_m = beta_m >= 0
 				? beta_m
 				: DERIVED_BETA_PER_SCENE_SIZE * static_cast<float>(p_inputs.scene.scene_size_m);
 		settings.layer_count = static_cast<uint32_t>(read_int(properties, p_id + "_layers"));
-		const std::string &peeling = read_choice(properties, p_id + "_peeling");
+		const std::string &peeling = read_choice(p_inputs.settings, "peeling");
 		if (peeling != "auto") {
 			settings.peeling = peeling == "passes" ? Peeling::PASSES : Peeling::ONE_PASS;
 		}

@@ -34,6 +34,9 @@ struct FinsSettings {
 /// The properties of a technique of this module. p_id begins their names.
 void add_fins_properties(const std::string &p_id, bool p_has_inner_half, PropertyList &r_list);
 
+/// Its settings.
+void add_fins_settings(bool p_has_inner_half, PropertyList &r_list);
+
 /// Widths and map size alone: what the light's views depend on.
 FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_half,
 		const LightSnapshot &p_light, const PropertyValues &p_properties);

@@ -27,6 +27,10 @@ void ShadowPenumbraFins::get_light_properties(PropertyList &r_list) const {
 	add_fins_properties(id, has_inner_half, r_list);
 }
 
+void ShadowPenumbraFins::get_settings(PropertyList &r_list) const {
+	add_fins_settings(has_inner_half, r_list);
+}
+
 void ShadowPenumbraFins::get_quality_settings(
 		const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const {
 	// Near the best widths of tests/benchmark/search_fins.py over scenes and light sizes.
@@ -175,7 +179,8 @@ RGTexture ShadowPenumbraFins::add_resolve_pass(
 			{ FINS_CONSTANT_STARTS_DARK, has_inner_half ? 0u : 1u } };
 		if (!sampler) {
 			sampler = OwnedSampler(p_inputs.device,
-					p_inputs.device.create_sampler({ "penumbra color", Filter::LINEAR, Filter::LINEAR }));
+					p_inputs.device.create_sampler(
+							{ "penumbra color", Filter::LINEAR, Filter::LINEAR }));
 		}
 		bindings.push_back(PassBinding::read(RESOLVE_BINDING_LAYER_3, maps.get_layer_3()));
 		bindings.push_back(PassBinding::read(RESOLVE_BINDING_COLOR, targets.color, sampler.get()));

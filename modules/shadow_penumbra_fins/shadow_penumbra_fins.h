@@ -21,6 +21,7 @@ public:
 
 	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
+	void get_settings(PropertyList &r_list) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,

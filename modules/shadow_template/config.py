@@ -6,6 +6,10 @@ def get_layer():
     return 4
 
 
+def is_example():  # a copy is none
+    return True
+
+
 def get_description():
     return "The smallest technique that builds and passes; copy it to start a new one"
 

@@ -9,18 +9,11 @@
 namespace gnomon {
 
 void ShadowVolume::get_light_properties(PropertyList &r_list) const {
-	add_volume_properties(id, is_on_cpu, r_list);
+	add_removed_volume_properties(id, r_list);
 }
 
-void ShadowVolume::get_quality_settings(
-		const LightSnapshot & /*p_light*/, std::vector<QualitySetting> &r_settings) const {
-	if (is_on_cpu) {
-		return;
-	}
-	// One picture, at other costs.
-	r_settings.push_back({ "auto", {} });
-	r_settings.push_back({ "z-fail", { { id + "_method", std::string("z_fail") } } });
-	r_settings.push_back({ "robust", { { id + "_robust", std::string("always") } } });
+void ShadowVolume::get_settings(PropertyList &r_list) const {
+	add_volume_settings(is_on_cpu, r_list);
 }
 
 void ShadowVolume::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
@@ -30,7 +23,7 @@ void ShadowVolume::get_light_views(const LightSnapshot &p_light, const LightScen
 }
 
 void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	settings = read_volume_settings(id, is_on_cpu, p_inputs);
+	settings = read_volume_settings(is_on_cpu, p_inputs);
 	casters = build_volume_casters(p_inputs, settings,
 			culling.plan(p_inputs, settings.culling, list_casters(p_inputs, r_plan), r_plan));
 	const size_t count = casters.casters.size();

@@ -1,6 +1,7 @@
 #include "modules/shadow_volume/volume_settings.h"
 
 #include "modules/rendering_device/rendering_device.h"
+#include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
 
@@ -8,60 +9,60 @@ namespace {
 
 const std::string GROUP = "Shadow volume";
 
-const std::string &read_choice(const PropertyValues &p_properties, const std::string &p_name) {
-	return std::get<std::string>(p_properties.at(p_name));
+const std::string &read_choice(const PropertyValues &p_values, const char *p_name) {
+	return std::get<std::string>(p_values.at(p_name));
 }
 
 } // namespace
 
-void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyList &r_list) {
-	r_list.add({ p_id + "_method", PropertyType::ENUM, {}, "auto,z_pass,z_fail",
-			"How volumes are counted: in front of what is seen, which is faster, or behind it, "
-			"which needs caps and holds inside a shadow; auto chooses for each caster. z_pass "
-			"alone is wrong where the camera is in a shadow.",
-			"", GROUP });
-	r_list.add({ p_id + "_robust", PropertyType::ENUM, {}, "auto,always",
-			"Connected parts of a mesh that are open, not manifold or inside out have the shadow "
-			"of "
-			"each of their triangles; auto does that for those alone, always for all.",
-			"", GROUP });
-	r_list.add({ p_id + "_scissor", PropertyType::BOOL, true, "",
-			"Draw each volume only where its shadow can be seen. The picture is the same.", "",
-			GROUP });
+void add_volume_settings(bool p_is_on_cpu, PropertyList &r_list) {
+	r_list.add({ "method", PropertyType::ENUM, {}, "auto,z_pass,z_fail",
+			"How volumes are counted: in front of what is seen, or behind it with caps; auto "
+			"chooses "
+			"for each caster. z_pass alone is wrong where the camera is in a shadow.",
+			"", TEST_SETTINGS_GROUP });
+	r_list.add({ "robust", PropertyType::ENUM, {}, "auto,always",
+			"Which connected parts of a mesh get the shadow of each of their triangles: those that "
+			"are open, not manifold or inside out, or all.",
+			"", TEST_SETTINGS_GROUP });
+	r_list.add({ "scissor", PropertyType::BOOL, true, "",
+			"Draw each volume only where its shadow can be seen.", "", GROUP });
 	if (!p_is_on_cpu) {
-		r_list.add({ p_id + "_extrusion", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
+		r_list.add({ "extrusion", PropertyType::ENUM, {}, "auto,geometry_shader,compute",
 				"How volumes are made: by a geometry shader, or by compute shaders and indirect "
-				"draws; auto takes the first for meshes of up to 4096 triangles. The picture is "
-				"the same.",
+				"draws; auto takes the first for meshes of up to 4096 triangles.",
 				"", GROUP });
-		r_list.add({ p_id + "_culling", PropertyType::ENUM, {}, "auto,on,off",
-				"Leave out casters that others hide from the light; auto does so where it pays. "
-				"The picture is the same.",
-				"", GROUP });
+		r_list.add({ "culling", PropertyType::ENUM, {}, "auto,on,off",
+				"Cull casters that others hide from the light; auto does so where it pays.", "",
+				GROUP });
 	}
 }
 
-VolumeSettings read_volume_settings(
-		const std::string &p_id, bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs) {
-	const PropertyValues &properties = p_inputs.properties;
+void add_removed_volume_properties(const std::string &p_id, PropertyList &r_list) {
+	for (const char *name : { "method", "robust", "scissor", "extrusion", "culling" }) {
+		add_moved_setting(p_id, name, r_list);
+	}
+}
+
+VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs) {
+	const PropertyValues &values = p_inputs.settings;
 	VolumeSettings settings;
-	const std::string &count = read_choice(properties, p_id + "_method");
+	const std::string &count = read_choice(values, "method");
 	if (count != "auto") {
 		settings.count = count == "z_pass" ? VolumeCount::Z_PASS : VolumeCount::Z_FAIL;
 	}
-	settings.is_always_robust = read_choice(properties, p_id + "_robust") == "always";
-	settings.has_scissor =
-			std::get<bool>(properties.at(p_id + "_scissor")) && p_inputs.may_leave_out;
+	settings.is_always_robust = read_choice(values, "robust") == "always";
+	settings.has_scissor = std::get<bool>(values.at("scissor")) && p_inputs.may_leave_out;
 	if (p_is_on_cpu) {
 		settings.maker = VolumeMaker::CPU;
 	} else {
-		const std::string &extrusion = read_choice(properties, p_id + "_extrusion");
+		const std::string &extrusion = read_choice(values, "extrusion");
 		if (extrusion == "geometry_shader" && p_inputs.device.get_features().geometry_shader) {
 			settings.maker = VolumeMaker::GEOMETRY_SHADER;
 		} else if (extrusion != "auto") {
 			settings.maker = VolumeMaker::COMPUTE;
 		}
-		const std::string &culling = read_choice(properties, p_id + "_culling");
+		const std::string &culling = read_choice(values, "culling");
 		// Counted in front alone, volumes are wrong where the camera is in a shadow, hidden ones
 		// too.
 		const bool may_be_wrong = settings.count == VolumeCount::Z_PASS;

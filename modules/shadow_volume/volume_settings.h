@@ -11,7 +11,7 @@ enum class VolumeCount { Z_PASS, Z_FAIL };
 /// How volumes are made; all ways give the same triangles, but for the CPU's rounding.
 enum class VolumeMaker { GEOMETRY_SHADER, COMPUTE, CPU };
 
-/// What one light's properties and the device make of the technique.
+/// What the technique's settings and the device make of it.
 struct VolumeSettings {
 	std::optional<VolumeCount> count; // none: chosen for each caster
 	std::optional<VolumeMaker> maker; // none: likewise
@@ -20,8 +20,9 @@ struct VolumeSettings {
 	CasterCulling::Wish culling = CasterCulling::Wish::OFF;
 };
 
-void add_volume_properties(const std::string &p_id, bool p_is_on_cpu, PropertyList &r_list);
-VolumeSettings read_volume_settings(
-		const std::string &p_id, bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs);
+void add_volume_settings(bool p_is_on_cpu, PropertyList &r_list);
+/// Light properties of files that were written before these were settings.
+void add_removed_volume_properties(const std::string &p_id, PropertyList &r_list);
+VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs);
 
 } // namespace gnomon

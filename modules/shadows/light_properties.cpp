@@ -13,8 +13,8 @@ namespace {
 
 const char TECHNIQUE[] = "shadow_technique";
 
-/// The techniques to choose from, the default first.
-PropertyInfo make_choice(const PropertyInfo &p_info) {
+/// The techniques to choose from, the default first; an example only where it is chosen.
+PropertyInfo make_choice(const PropertyInfo &p_info, const std::string &p_chosen_id) {
 	PropertyInfo info = p_info;
 	if (ShadowRegistry::get_all().empty()) {
 		return info; // nothing to choose from
@@ -24,6 +24,9 @@ PropertyInfo make_choice(const PropertyInfo &p_info) {
 	info.choice_tooltips = { text(
 			"The default", chosen != nullptr ? ": " + chosen->name : std::string()) };
 	for (const ShadowTechniqueInfo &technique : ShadowRegistry::get_all()) {
+		if (technique.is_example && technique.id != p_chosen_id) {
+			continue;
+		}
 		info.hint += "," + technique.id;
 		info.choice_tooltips.push_back(technique.name + "\n" + technique.source);
 	}
@@ -41,6 +44,25 @@ std::vector<const PropertyList *> get_added_lists() {
 	return lists;
 }
 
+/// One warning for all removed properties that have one advice, once a file.
+void warn_of_removed(const LightSnapshot &p_light, const PropertyList &p_list) {
+	static std::set<std::string> reported;
+	std::map<std::string, std::string> names_of_advice;
+	for (const RemovedProperty &removed : p_list.get_removed()) {
+		if (p_light.properties.contains(removed.name)) {
+			std::string &names = names_of_advice[removed.advice];
+			names += (names.empty() ? "" : ", ") + removed.name;
+		}
+	}
+	for (const auto &[advice, names] : names_of_advice) {
+		if (reported.insert(text(p_light.file_path, "\n", names)).second) {
+			log_warning("Light \"", p_light.name, "\" (", p_light.file_path, "): ", names,
+					names.find(',') == std::string::npos ? " is" : " are", " not used any more. ",
+					advice, " Remove it from the extras of the file's lights.");
+		}
+	}
+}
+
 } // namespace
 
 void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
@@ -48,14 +70,14 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (light == nullptr) {
 		return;
 	}
-	if (const PropertyInfo *info = r_list.find(TECHNIQUE)) {
-		r_list.replace(make_choice(*info));
-	}
 	LightSnapshot chosen; // of which the id alone is asked for: the light's place may be singular
 	chosen.name = light->name;
 	const auto stored = light->properties.find(TECHNIQUE);
 	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {
 		chosen.technique_id = std::get<std::string>(stored->second);
+	}
+	if (const PropertyInfo *info = r_list.find(TECHNIQUE)) {
+		r_list.replace(make_choice(*info, chosen.technique_id));
 	}
 	if (const ShadowTechniqueInfo *technique = choose_technique(chosen, {}).info) {
 		for (const PropertyInfo &info :
@@ -69,6 +91,17 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 			r_list.add(info);
 		}
 	}
+}
+
+const RemovedProperty *find_removed_light_property(std::string_view p_name) {
+	for (const PropertyList *list : get_added_lists()) {
+		for (const RemovedProperty &removed : list->get_removed()) {
+			if (removed.name == p_name) {
+				return &removed;
+			}
+		}
+	}
+	return nullptr;
 }
 
 const PropertyInfo *find_added_light_property(std::string_view p_name) {
@@ -109,15 +142,14 @@ PropertyValues resolve_light_properties(const LightSnapshot &p_light, const Prop
 			log_error(line);
 		}
 	}
-	for (const RemovedProperty &removed : p_list.get_removed()) {
-		if (const std::string line = text("Light \"", p_light.name, "\" (", p_light.file_path,
-					"): ", removed.name, " is not used any more. ", removed.advice,
-					" Remove it from the light's extras.");
-				p_light.properties.contains(removed.name) && reported.insert(line).second) {
-			log_warning(line);
-		}
-	}
+	warn_of_removed(p_light, p_list);
 	return values;
+}
+
+void add_moved_setting(const std::string &p_id, const std::string &p_name, PropertyList &r_list) {
+	r_list.add_removed({ text(p_id, "_", p_name),
+			text("Settings of the technique are in [technique.", p_id,
+					"] of project.cfg, or --set technique.", p_id, ".NAME=value.") });
 }
 
 void check_own_properties(const std::string &p_id, const PropertyList &p_list) {

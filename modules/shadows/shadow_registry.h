@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modules/core/project.h"
 #include "modules/shadows/registry.h"
 #include "modules/shadows/shadow_technique.h"
 #include "modules/shadows/truth_source.h"
@@ -44,7 +45,27 @@ public:
 	static const ShadowTechniqueInfo *find_default();
 	static const ShadowTechniqueInfo *find_fallback();
 	static const ShadowTechniqueInfo *find_reference();
+
+	static void add(ShadowTechniqueInfo p_info);
+	static void remove(std::string_view p_id);
+	/// The settings of a technique that must exist: how it computes, for all lights alike; no value
+	/// changes what its masks should be. project.cfg has them as [technique.ID], the command line
+	/// as --set technique.ID.NAME=value.
+	static const PropertyList &get_settings(std::string_view p_id);
+	/// All of them, as set or by default.
+	static const PropertyValues &get_setting_values(std::string_view p_id);
+	/// From the next frame on. p_text as parse_property reads it; an id, name or value that does
+	/// not exist is an Error that lists those that do.
+	static void set_setting(
+			std::string_view p_id, std::string_view p_name, std::string_view p_text);
 };
+
+/// Settings for tests, benchmarks and comparisons: their group. No page and no list shows them.
+extern const char *const TEST_SETTINGS_GROUP;
+
+/// Applies the [technique.ID] sections of a project. What another build knows and this one does not
+/// only warns: the project must open everywhere.
+void apply_technique_settings(const Project &p_project);
 
 /// Which technique a light gets, and why another than it asks for.
 struct TechniqueChoice {

@@ -77,6 +77,7 @@ public:
 		const LightSnapshot &light;
 		/// Of the technique's light properties, with defaults filled in and every value in range.
 		const PropertyValues &properties;
+		const PropertyValues &settings; // of the technique, complete; see get_settings
 		std::span<const LightView> views;
 		std::span<const CasterList> casters; // one list per view
 		glm::uvec2 size_px;
@@ -121,6 +122,9 @@ public:
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on
 	/// any instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
+	/// Settings of the technique for all lights alike: how it computes, not what, so no property of
+	/// a light. Names without the id. Called on any instance, at any time; always the same list.
+	virtual void get_settings(PropertyList & /*r_list*/) const {}
 	/// Settings worth comparing for that light, whose r and t are derived from its size. Cheapest
 	/// first; empty: the defaults alone. Called on any instance, at any time.
 	virtual void get_quality_settings(const LightSnapshot & /*p_light*/,

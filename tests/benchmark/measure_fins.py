@@ -39,9 +39,9 @@ SEGMENTS_PER_SIDE = 500 / 30  # the study's knot
 # Neither way of making the fins depends on how the layers were found: two runs measure two of each.
 VARIANTS = {
     "outer": ("outer_fins",),
-    "peels": ("penumbra_fins", "penumbra_fins_peeling=passes", "penumbra_fins_method=compute"),
-    "one pass": ("penumbra_fins", "penumbra_fins_peeling=one_pass", "penumbra_fins_method=geometry_shader"),
-    "auto": ("penumbra_fins", "penumbra_fins_peeling=auto", "penumbra_fins_method=auto"),
+    "peels": ("penumbra_fins", "technique.penumbra_fins.peeling=passes", "technique.penumbra_fins.method=compute"),
+    "one pass": ("penumbra_fins", "technique.penumbra_fins.peeling=one_pass", "technique.penumbra_fins.method=geometry_shader"),
+    "auto": ("penumbra_fins", "technique.penumbra_fins.peeling=auto", "technique.penumbra_fins.method=auto"),
 }
 FRAME_VARIANTS = ("outer", "auto")
 

@@ -36,7 +36,7 @@ RULES = (
     Rule("light views without casters", lean_scenes.make_tower, "left out, no casters", "shadow_map"),
     Rule("light views without receivers", lean_scenes.make_room, "left out, the camera sees no receiver in it", "shadow_map"),
     Rule("third layer behind an empty second", lean_scenes.make_sheets, "layer 3 only if layer 2", "penumbra_fins",
-         ("penumbra_fins_peeling=passes",)),
+         ("technique.penumbra_fins.peeling=passes",)),
     Rule("fins and layers, r = t = 0", lean_scenes.make_balls, "fins: left out, r and t are 0", "penumbra_fins",
          ("penumbra_outer_width=0", "penumbra_inner_width=0")),
     Rule("layers, t = 0", lean_scenes.make_balls, "layers 2 and 3: left out, t is 0", "penumbra_fins", ("penumbra_inner_width=0",)),
@@ -50,7 +50,7 @@ RULES = (
     Rule("edges and layers at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved", "edge_count",
          (), True),
     Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: left out, kept", "shadow_volume",
-         ("shadow_volume_extrusion=compute",), True),
+         ("technique.shadow_volume.extrusion=compute",), True),
 )  # fmt: skip
 
 

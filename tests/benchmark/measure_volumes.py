@@ -23,11 +23,11 @@ SIZE = "400x400"
 POINT = ("light_size=0", "light_angular_distance=0")
 TIMED = {
     "auto": ("shadow_volume",),
-    "compute": ("shadow_volume", "shadow_volume_extrusion=compute"),
-    "geometry shader": ("shadow_volume", "shadow_volume_extrusion=geometry_shader"),
-    "z-fail": ("shadow_volume", "shadow_volume_method=z_fail"),
-    "no scissor": ("shadow_volume", "shadow_volume_scissor=false"),
-    "robust": ("shadow_volume", "shadow_volume_robust=always"),
+    "compute": ("shadow_volume", "technique.shadow_volume.extrusion=compute"),
+    "geometry shader": ("shadow_volume", "technique.shadow_volume.extrusion=geometry_shader"),
+    "z-fail": ("shadow_volume", "technique.shadow_volume.method=z_fail"),
+    "no scissor": ("shadow_volume", "technique.shadow_volume.scissor=false"),
+    "robust": ("shadow_volume", "technique.shadow_volume.robust=always"),
     "CPU": ("shadow_volume_cpu",),
     "shadow_map 2048": ("shadow_map", "shadow_map_size=2048"),
 }
@@ -101,7 +101,7 @@ def measure_culling(folder):
     for count, has_walls in ((1000, True), (5000, True), (20000, True), (1000, False), (5000, False)):
         scene = volume_scenes.make_yard(count, has_walls, folder)
         hidden = count_hidden(scene, folder)
-        off = measure_time(scene, "Sun", folder, ["shadow_volume_culling=off"])
+        off = measure_time(scene, "Sun", folder, ["technique.shadow_volume.culling=off"])
         moving = measure_time(scene, "Sun", folder, [])
         still = measure_time(scene, "Sun", folder, [], "--still")
         shadow_map = measure_time(scene, "Sun", folder, ["shadow_map_size=2048"], technique="shadow_map")
@@ -118,9 +118,9 @@ def measure_triangles(folder):
     rows = []
     for count in volume_scenes.KNOT_PARTS:
         scene = volume_scenes.make_knot(count, folder)
-        times = [measure_time(scene, "Light", folder, ["shadow_volume_extrusion=" + way]) for way in ways]
-        times.append(measure_time(scene, "Light", folder, ["shadow_volume_method=z_fail"]))
-        times.append(measure_time(scene, "Light", folder, ["shadow_volume_robust=always"]))
+        times = [measure_time(scene, "Light", folder, ["technique.shadow_volume.extrusion=" + way]) for way in ways]
+        times.append(measure_time(scene, "Light", folder, ["technique.shadow_volume.method=z_fail"]))
+        times.append(measure_time(scene, "Light", folder, ["technique.shadow_volume.robust=always"]))
         times.append(measure_time(scene, "Light", folder, [], technique="shadow_volume_cpu"))
         times.append(measure_time(scene, "Light", folder, ["shadow_map_size=2048"], technique="shadow_map"))
         rows.append((count, *("%.1f" % ms for ms in times)))

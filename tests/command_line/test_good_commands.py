@@ -249,10 +249,10 @@ class GoodCommands(CommandLineTest):
 class Listings(CommandLineTest):
     def test_techniques(self):
         techniques = load_json("techniques", "--json")
-        keys = {"id", "name", "source", "is_default", "is_fallback", "is_reference", "properties"}
+        keys = {"id", "name", "source", "is_default", "is_fallback", "is_reference", "is_example", "properties", "settings"}
         for item in techniques:
             self.assertLessEqual(keys, set(item))
-            for value in item["properties"]:
+            for value in item["properties"] + item["settings"]:
                 self.assertLessEqual({"name", "type", "default", "range", "unit", "tooltip"}, set(value))
                 self.assertTrue(value["tooltip"], value["name"])
         for flag in ("is_default", "is_fallback", "is_reference"):
@@ -285,6 +285,12 @@ class Listings(CommandLineTest):
                 result = run(command)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue(result.stdout.strip())
+
+    def test_examples_are_in_no_listing_for_people(self):
+        for command, key in (("techniques", "id"), ("modules", "name")):
+            examples = [item[key] for item in load_json(command, "--json") if item["is_example"]]
+            self.assertEqual(len(examples), 1)
+            self.assertNotRegex(run(command).stdout, r"(?m)^%s\b" % examples[0])
 
 
 if __name__ == "__main__":

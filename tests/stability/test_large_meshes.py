@@ -13,9 +13,9 @@ from make_large_meshes import MESHES, ROOT, fetch_packages, make_scene  # noqa: 
 GNOMON = os.path.abspath(os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon")))
 MOST_WRONG = 0.0005  # of the receivers
 WAYS = {
-    "compute": ("shadow_volume", "shadow_volume_extrusion=compute"),
-    "geometry shader": ("shadow_volume", "shadow_volume_extrusion=geometry_shader"),
-    "z-fail": ("shadow_volume", "shadow_volume_method=z_fail"),
+    "compute": ("shadow_volume", "technique.shadow_volume.extrusion=compute"),
+    "geometry shader": ("shadow_volume", "technique.shadow_volume.extrusion=geometry_shader"),
+    "z-fail": ("shadow_volume", "technique.shadow_volume.method=z_fail"),
     "CPU": ("shadow_volume_cpu",),
 }
 

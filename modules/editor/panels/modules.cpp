@@ -53,7 +53,7 @@ void draw_table(EditorContext &r_context) {
 	// A copy: a checkbox changes the list.
 	const std::vector<ModuleInfo> modules = ModuleRegistry::get_modules();
 	for (const ModuleInfo &module : modules) {
-		if (module.can_disable) {
+		if (module.can_disable && !module.is_example) {
 			draw_module(r_context, module);
 		}
 	}

@@ -21,6 +21,7 @@ struct FinsFixture : MaskFixture {
 		std::vector<LightView> views;
 		std::vector<CasterList> casters;
 		PropertyValues properties;
+		PropertyValues settings;
 	};
 
 	/// All instances are casters of every view.
@@ -39,7 +40,8 @@ struct FinsFixture : MaskFixture {
 
 	ShadowTechnique::Inputs make_inputs(const Frame &p_frame) {
 		return { *device, meshes, *p_frame.scene, p_frame.scene->lights[0], p_frame.properties,
-			p_frame.views, p_frame.casters, glm::uvec2(1), {}, {}, {}, {}, {}, {}, {} };
+			p_frame.settings, p_frame.views, p_frame.casters, glm::uvec2(1), {}, {}, {}, {}, {}, {},
+			{} };
 	}
 
 	/// Calls p_add(graph, inputs) and runs the graph.

@@ -1,4 +1,5 @@
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+#include "modules/shadows/tests/setting_scope.h"
 
 #include <doctest/doctest.h>
 
@@ -204,8 +205,8 @@ TEST_CASE("[GPU][PenumbraFins] every way to peel and to make fins gives the same
 		const MaskResult first = fixture.render_mask(scene, "penumbra_fins");
 		for (const std::string peeling : { "passes", "one_pass" }) {
 			for (const std::string method : { "geometry_shader", "compute" }) {
-				scene.light->properties["penumbra_fins_peeling"] = peeling;
-				scene.light->properties["penumbra_fins_method"] = method;
+				const SettingScope peels("penumbra_fins", "peeling", peeling);
+				const SettingScope fins("penumbra_fins", "method", method);
 				CHECK(fixture.render_mask(scene, "penumbra_fins").visibility == first.visibility);
 			}
 		}

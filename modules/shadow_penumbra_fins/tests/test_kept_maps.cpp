@@ -2,11 +2,13 @@
 
 #include "modules/core/error.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+#include "modules/shadows/tests/setting_scope.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <functional>
+#include <list>
 
 using namespace gnomon;
 
@@ -47,6 +49,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fre
 		std::function<void()> change;
 		bool draws_all; // every view that has casters; else none
 	};
+	std::list<SettingScope> scopes;
 	const std::vector<Step> steps = {
 		{ "first frame", [] {}, true },
 		{ "nothing", [] {}, false },
@@ -56,8 +59,10 @@ TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fre
 		{ "curve", set("penumbra_fins_curve", std::string("linear")), true },
 		{ "layers", set("penumbra_fins_layers", int64_t(2)), true },
 		{ "map size", set("penumbra_fins_map_size", int64_t(128)), true },
-		{ "way to peel", set("penumbra_fins_peeling", std::string("one_pass")), false },
-		{ "way to make fins", set("penumbra_fins_method", std::string("geometry_shader")), false },
+		{ "way to peel", [&] { scopes.emplace_back("penumbra_fins", "peeling", "one_pass"); },
+				false },
+		{ "way to make fins",
+				[&] { scopes.emplace_back("penumbra_fins", "method", "geometry_shader"); }, false },
 		{ "light's place", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
 		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
 		{ "no t", set("penumbra_inner_width", 0.0), true },

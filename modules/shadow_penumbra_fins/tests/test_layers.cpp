@@ -1,5 +1,6 @@
 #include "modules/mesh_tools/tests/test_meshes.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
+#include "modules/shadows/tests/setting_scope.h"
 
 #include <doctest/doctest.h>
 
@@ -125,11 +126,10 @@ TEST_CASE("[GPU][PenumbraFins] the plan says where layer 3 waits for layer 2, wi
 				std::string::npos;
 	};
 	SmallScene sheet = make_scene(make_sheets({ 1.0f }), LightType::SPOT);
-	sheet.light->properties["penumbra_fins_peeling"] = std::string("passes");
+	const SettingScope scope("penumbra_fins", "peeling", "passes");
 	add_mesh(sheet.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
 			.casts_shadow = false;
 	CHECK(is_asked(sheet) == fixture.device->get_features().conditional_rendering);
 	SmallScene solid; // a box has a back: nothing is asked
-	solid.light->properties["penumbra_fins_peeling"] = std::string("passes");
 	CHECK_FALSE(is_asked(solid));
 }

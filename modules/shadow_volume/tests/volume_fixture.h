@@ -3,6 +3,7 @@
 #include "modules/core/text.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
 #include "modules/shadows/tests/hard_truth.h"
+#include "modules/shadows/tests/setting_scope.h"
 
 #include <doctest/doctest.h>
 
@@ -17,9 +18,9 @@ using VolumeWishes = std::map<std::string, PropertyValue>;
 inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 		const VolumeWishes &p_wishes = {}, const std::string &p_id = "shadow_volume",
 		glm::uvec2 p_size_px = glm::uvec2(128), bool p_may_leave_out = true) {
-	const auto before = r_scene.light->properties;
+	std::vector<std::unique_ptr<SettingScope>> scopes;
 	for (const auto &[name, value] : p_wishes) {
-		r_scene.light->properties[p_id + "_" + name] = value;
+		scopes.push_back(std::make_unique<SettingScope>(p_id, name, format_property(value)));
 	}
 	MaskRequest request;
 	request.scene = r_scene.snap();
@@ -30,7 +31,6 @@ inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 	request.may_leave_out = p_may_leave_out;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
-	r_scene.light->properties = before;
 	return result;
 }
 
