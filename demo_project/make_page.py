@@ -242,7 +242,7 @@ class Page:
         )
 
     def choose_shown(self, light):
-        """The default technique's row, else the first that has pictures."""
+        """The default technique's row, else the first that has images."""
         rows = [row for row in light["techniques"] if row["mask"] and row["heat"]]
         return next((row for row in rows if row["id"] == self.default), rows[0] if rows else None)
 

@@ -127,7 +127,7 @@ class Measurement:
             self.total_count += 1 + light_count * (1 + len(self.techniques))
 
     def capture(self, scene_path, name, *settings):
-        """The lit picture; its path in the out folder."""
+        """The lit image; its path in the out folder."""
         path = os.path.join(self.options.out, name)
         self.gnomon.run(
             "run", scene_path, "--headless", "--frames", 2, "--size", self.options.size, "--capture", path, *settings
@@ -145,16 +145,16 @@ class Measurement:
         for light, kind in lights:
             scene["lights"].append(self.measure_light(name, path, light, kind))
         off = [word for light, _ in lights for word in ("--set", "light.%s.shadow_enabled=false" % light)]
-        # The picture shows the best that this build can do, not only what it does by default.
+        # The image shows the best that this build can do, not only what it does by default.
         scene["shown_technique"] = self.find_best_technique(scene["lights"])
         best = ["--technique", scene["shown_technique"]] if scene["shown_technique"] else []
         for kind, settings in (("with", best), ("without", off)):
             try:
-                picture = self.capture(path, "%s.%s.png" % (name, kind), *settings)
-                scene["pictures"][kind] = picture
+                image = self.capture(path, "%s.%s.png" % (name, kind), *settings)
+                scene["pictures"][kind] = image
             except CommandFailed as error:
                 scene["failures"].append(self.fail("%s, %s shadows" % (name, kind), error))
-        self.report("%s: pictures" % name)
+        self.report("%s: images" % name)
         return scene
 
     def find_best_technique(self, lights):
@@ -262,7 +262,7 @@ def select_scenes(project, options):
 def main():
     parser = argparse.ArgumentParser(description="Renders and measures the demo scenes.")
     parser.add_argument("--out", default=os.path.join(PROJECT, "out"), help="folder for PNGs and results.json")
-    parser.add_argument("--size", default="512x512", help="WxH of pictures and masks")
+    parser.add_argument("--size", default="512x512", help="WxH of images and masks")
     parser.add_argument("--samples", type=int, default=0, help="light samples of the reference (0 = its default)")
     parser.add_argument("--frames", type=int, default=0, help="frames that are timed (0 = the program's default)")
     parser.add_argument("--scenes", default="", help="A,B: these scenes only")

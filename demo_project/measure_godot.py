@@ -168,7 +168,7 @@ def main():
     os.makedirs(WORK)
     godot_project.prepare()
     common = ["out=" + WORK, "size=%d" % options.size]
-    output = godot_project.run("res://study/pictures.tscn", common, options.size)
+    output = godot_project.run("res://study/screenshots.tscn", common, options.size)
     output += godot_project.run(
         "res://study/measure.tscn", common + ["frames=%d" % options.frames, "cases=" + options.cases, "scenes=" + options.scenes], options.size
     )

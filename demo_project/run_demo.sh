@@ -6,7 +6,7 @@ set -euo pipefail
 usage() {
     cat <<'TEXT'
 Usage: demo_project/run_demo.sh [options]
-  --size WxH      size of the pictures and masks (default 512x512)
+  --size WxH      size of the images and masks (default 512x512)
   --samples N     light samples of the reference (default: its own)
   --frames N      frames that each technique is timed for (default 20)
   --quick         three scenes only

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Tells the editor's story under Xvfb and writes its pictures: doc/images/editor*.png. Build first: scons.
+"""Tells the editor's story under Xvfb and writes its screenshots: doc/images/editor*.png. Build first: scons.
 
-Look at them afterwards: a picture that shows something else than its page says is worse than none.
+Look at them afterwards: a screenshot that shows something else than its page says is worse than none.
 """
 
 import os
@@ -14,7 +14,7 @@ import editor_story  # noqa: E402
 from editor_case import EditorCase  # noqa: E402
 
 WINDOW = "1280x720+0+0"
-COLORS = 256  # so that a picture stays small in the repository
+COLORS = 256  # so that a screenshot stays small in the repository
 
 
 class Photographer(EditorCase):

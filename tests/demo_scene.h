@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-// The demo scenes and settings from JSON files, for tests that compare pictures and masks of them.
+// The demo scenes and settings from JSON files, for tests that compare images and masks of them.
 
 namespace gnomon {
 

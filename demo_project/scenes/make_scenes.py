@@ -48,7 +48,7 @@ BARK = (0.28, 0.17, 0.10)
 SAND = (0.66, 0.52, 0.34)
 JADE = (0.46, 0.74, 0.56)
 
-# What 16 pixels show of the teapot in a picture of 512 x 512: there both ways to spread light agree.
+# What 16 pixels show of the teapot in an image of 512 x 512: there both ways to spread light agree.
 SCATTER_DISTANCE_M = 0.12
 
 

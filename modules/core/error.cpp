@@ -8,7 +8,7 @@ namespace gnomon {
 
 std::string describe_failure(const std::exception &p_failure) {
 	if (dynamic_cast<const std::bad_alloc *>(&p_failure) != nullptr) {
-		return "Out of memory. Close other programs, or use a smaller scene or picture.";
+		return "Out of memory. Close other programs, or use a smaller scene or image.";
 	}
 	return p_failure.what();
 }

@@ -45,7 +45,7 @@ void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
 	try {
 		bytes = encode_png(p_size_px, p_channel_count, p_pixels);
 	} catch (const Error &error) {
-		fail("Picture ", p_path, ": ", error.what());
+		fail("Image ", p_path, ": ", error.what());
 	}
 	save_file_atomically(p_path, bytes);
 }

@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// Any 8-bit picture of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels, rows from the top.
+/// Any 8-bit image of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels, rows from the top.
 /// A size that is not 1..16384 on each side or an unwritable path is an Error.
 void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
 		uint32_t p_channel_count, std::span<const uint8_t> p_pixels);

@@ -29,11 +29,11 @@ struct ViewportPick {
 /// What the viewport shows, and how.
 struct ViewportState {
 	OrbitCamera camera;
-	std::string debug_view;				// empty: the picture
+	std::string debug_view;				// empty: the image itself
 	glm::uvec2 size_px = glm::uvec2(0); // wanted by the panel
-	bool is_moving = false;				// a coarser picture will do
-	bool needs_picture = true;			// something has changed since the last one
-	/// Of the light in question, other than the picture: "mask", "error", the technique's own.
+	bool is_moving = false;				// a coarser image will do
+	bool needs_redraw = true;			// something has changed since the last one
+	/// Of the light in question, other than the image itself: "mask", "error", the technique's own.
 	std::vector<std::string> debug_views;
 	bool wants_debug_views = false; // that list anew
 	/// A technique's id: right of the line the light in question has that one. Empty: no line.
@@ -63,9 +63,9 @@ struct ErrorState {
 	bool is_tracing = false;
 	float progress = 0; // of the round under way, and its rays a pixel
 	uint32_t round_sample_count = 0;
-	void *mask_picture = nullptr; // ImTextureID; null: none yet
-	void *truth_picture = nullptr;
-	void *error_picture = nullptr;
+	void *mask_texture = nullptr; // ImTextureID; null: none yet
+	void *truth_texture = nullptr;
+	void *error_texture = nullptr;
 };
 
 /// What a button or a key asks for; done once a frame, after the panels.
@@ -88,9 +88,9 @@ enum class EditorCommand {
 /// What a test waits for, and a benchmark reads.
 struct EditorProgress {
 	uint64_t frame = 0;			// counts
-	uint32_t picture_count = 0; // sharp ones that were drawn
+	uint32_t image_count = 0; // sharp ones that were drawn
 	bool is_resting = false;	// nothing waits to be drawn
-	/// From each input that changed the scene to the picture that shows it.
+	/// From each input that changed the scene to the frame that shows it.
 	const std::vector<double> &answers_ms;
 };
 
@@ -99,13 +99,13 @@ struct EditorContext {
 	EditorDocument &document;
 	const DeviceInfo &device;
 	ViewportState viewport;
-	/// Of the last picture.
+	/// Of the last frame.
 	RenderResult shown;
 	double shown_ms = 0; // wall time
-	bool is_picture_coarse = false;
-	void *picture = nullptr;		  // ImTextureID; null: none yet
-	void *compared_picture = nullptr; // likewise, of ViewportState::compared_technique
-	glm::uvec2 picture_size_px = glm::uvec2(0);
+	bool is_image_coarse = false;
+	void *image = nullptr;		  // ImTextureID; null: none yet
+	void *compared_image = nullptr; // likewise, of ViewportState::compared_technique
+	glm::uvec2 image_size_px = glm::uvec2(0);
 	ErrorState error;
 	/// What went wrong or was done last, for the status bar.
 	std::string status;
@@ -154,7 +154,7 @@ struct EditorContext {
 	std::string describe_items(const EditorProgress &p_progress) const;
 	/// Runs what a user asked for; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
-		viewport.needs_picture = true; // also of what was done half
+		viewport.needs_redraw = true; // also of what was done half
 		try {
 			p_action();
 		} catch (const std::exception &failure) {

@@ -8,12 +8,12 @@
 #include "modules/editor/editor_session.h"
 #include "modules/editor/editor_settings.h"
 #include "modules/editor/error_meter.h"
-#include "modules/editor/picture_maker.h"
 #include "modules/editor/shader_reloader.h"
 #include "modules/editor/status_sink.h"
 #include "modules/editor/ui_context.h"
 #include "modules/editor/ui_renderer.h"
 #include "modules/editor/viewport_guides.h"
+#include "modules/editor/viewport_renderer.h"
 #include "modules/render_graph/transient_pool.h"
 #include "modules/renderer/present_pass.h"
 
@@ -74,7 +74,7 @@ public:
 			window("Gnomon", r_settings.window_size_px, "The editor needs one: set DISPLAY."),
 			device(create_rendering_device(make_device_options())),
 			swapchain(window.create_swapchain(*device)), renderer(*device), transients(*device),
-			ui_context(window), ui(*device), pictures(*device, renderer),
+			ui_context(window), ui(*device), viewport_renderer(*device, renderer),
 			error_meter(*device, renderer),
 			shaders(*device, p_options.shaders), context{ document, device->get_info() },
 			session(context, p_options.program) {
@@ -143,19 +143,19 @@ private:
 			}
 			session.follow_file(start);
 			if (shaders.update(context, start)) {
-				pictures.forget_kept();
+				viewport_renderer.forget_kept();
 				error_meter.forget_cost();
 			}
 			if (document.get_timeline().advance(seconds)) {
 				context.viewport.is_moving = true;
-				context.viewport.needs_picture = true;
+				context.viewport.needs_redraw = true;
 			}
-			// First what the user does, then the picture: one frame shows what it has changed.
+			// First what the user does, then the image: one frame shows what it has changed.
 			build_panels();
 			session.run_command();
 			const bool is_changed = seen_serial != document.get_history().get_serial();
 			seen_serial = document.get_history().get_serial();
-			draw_pictures();
+			draw_images();
 			show_frame();
 			if (is_changed && !options.items.empty()) {
 				answers_ms.push_back(
@@ -168,11 +168,11 @@ private:
 		}
 	}
 
-	void draw_pictures() {
-		pictures.update(context);
-		guides.update(context, pictures.get_drawn_count());
-		if (pictures.is_sharp() || document.get_timeline().is_playing()) {
-			error_meter.update(context, pictures.get_count());
+	void draw_images() {
+		viewport_renderer.update(context);
+		guides.update(context, viewport_renderer.get_drawn_count());
+		if (viewport_renderer.is_sharp() || document.get_timeline().is_playing()) {
+			error_meter.update(context, viewport_renderer.get_count());
 		}
 		for (const std::string &line : sink.take()) {
 			context.complain(line);
@@ -204,12 +204,12 @@ private:
 	}
 
 	void build_panels() {
-		context.picture = show([this] { return pictures.get_picture(); });
-		context.compared_picture = show([this] { return pictures.get_compared_picture(); });
+		context.image = show([this] { return viewport_renderer.get_image(); });
+		context.compared_image = show([this] { return viewport_renderer.get_compared_image(); });
 		ErrorState &error = context.error;
-		error.mask_picture = show([this] { return error_meter.get_mask_picture(); });
-		error.truth_picture = show([this] { return error_meter.get_truth_picture(); });
-		error.error_picture = show([this] { return error_meter.get_error_picture(); });
+		error.mask_texture = show([this] { return error_meter.get_mask_texture(); });
+		error.truth_texture = show([this] { return error_meter.get_truth_texture(); });
+		error.error_texture = show([this] { return error_meter.get_error_texture(); });
 		ui_context.begin_frame();
 		read_shortcuts();
 		draw_layout(context, settings.layout);
@@ -236,13 +236,13 @@ private:
 		if (options.items.empty()) {
 			return;
 		}
-		const bool is_quiet = !context.viewport.needs_picture && !context.viewport.pick &&
-				!context.is_picture_coarse && document.get_selected() == last_selected &&
+		const bool is_quiet = !context.viewport.needs_redraw && !context.viewport.pick &&
+				!context.is_image_coarse && document.get_selected() == last_selected &&
 				!document.get_timeline().is_playing();
 		last_selected = document.get_selected();
 		quiet_count = is_quiet ? quiet_count + 1 : 0;
 		const std::string written = context.describe_items(
-				{ ++frame, pictures.get_count(), quiet_count >= QUIET_FRAME_COUNT, answers_ms });
+				{ ++frame, viewport_renderer.get_count(), quiet_count >= QUIET_FRAME_COUNT, answers_ms });
 		// Whole or not at all, but without waiting for the disk as save_file_atomically does.
 		const std::filesystem::path made = options.items.string() + ".new";
 		std::ofstream stream(made);
@@ -279,7 +279,7 @@ private:
 	TransientPool transients;
 	UiContext ui_context;
 	UiRenderer ui;
-	PictureMaker pictures;
+	ViewportRenderer viewport_renderer;
 	ErrorMeter error_meter;
 	ViewportGuides guides;
 	ShaderReloader shaders;

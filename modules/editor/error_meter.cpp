@@ -1,7 +1,7 @@
 #include "modules/editor/error_meter.h"
 
 #include "modules/core/text.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 #include "modules/shadows/mask_filter.h"
 #include "modules/shadows/shadow_registry.h"
 
@@ -31,7 +31,7 @@ std::string describe_cost(const LightSnapshot &p_light, uint64_t p_truth_hash) {
 
 } // namespace
 
-void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
+void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	ErrorState &state = r_context.error;
 	const bool is_watched = state.is_shown || r_context.viewport.debug_view == "error";
 	const bool is_playing = r_context.document.get_timeline().is_playing();
@@ -44,16 +44,16 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 	state.is_tracing = truth.is_running();
 	// A mask, its cost and its reference take longer than a frame: while the scene is animated none
 	// would be of what is shown.
-	if (!is_watched || is_playing || p_picture_count == 0) {
-		measured_picture = 0;
+	if (!is_watched || is_playing || p_image_count == 0) {
+		measured_image = 0;
 		return;
 	}
 	try {
 		const bool needs_truth = !state.is_stopped && state.refusal.empty() &&
 				(state.truth_hash == 0 || state.sample_count != traced_sample_count);
 		const bool is_other = r_context.find_light_name() != state.light;
-		if (p_picture_count != measured_picture || needs_truth || is_other) {
-			measured_picture = p_picture_count;
+		if (p_image_count != measured_image || needs_truth || is_other) {
+			measured_image = p_image_count;
 			measure_mask(r_context);
 		} else if (!has_cost()) {
 			if (state.refusal.empty() && !truth.is_running()) { // beside it all is slower
@@ -69,12 +69,12 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_picture_count) {
 			state.truth = std::make_shared<const TruthMask>(
 					TruthMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
 			compare(state);
-			r_context.viewport.needs_picture |= r_context.viewport.debug_view == "error";
+			r_context.viewport.needs_redraw |= r_context.viewport.debug_view == "error";
 		}
 	} catch (const std::exception &error) {
 		refuse(state, describe_failure(error));
 	}
-	r_context.viewport.needs_picture |=
+	r_context.viewport.needs_redraw |=
 			std::exchange(is_error_stale, false) && r_context.viewport.debug_view == "error";
 	state.is_tracing = truth.is_running();
 	state.progress = truth.get_progress();
@@ -98,7 +98,7 @@ void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 
 void ErrorMeter::forget_cost() {
 	timed_key.clear();
-	measured_picture = 0;
+	measured_image = 0;
 }
 
 void ErrorMeter::measure_mask(EditorContext &r_context) {
@@ -130,7 +130,7 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	request.wants_surfaces = needs_truth;
 	RenderResult result = renderer.render(request);
 	state.mask = { request.size_px, std::move(result.visibility), result.receiver };
-	mask_picture = make_picture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
+	mask_texture = upload_texture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
 	if (const std::string key = describe_cost(light, hash); key != timed_key) {
 		timed_key = key;
 		timings = TimingSamples();
@@ -188,12 +188,12 @@ void ErrorMeter::compare(ErrorState &r_state) {
 	const MaskImage exact = { r_state.truth->size_px, r_state.truth->visibility,
 		r_state.truth->receiver };
 	r_state.metrics = compute_mask_metrics(exact, r_state.mask);
-	truth_picture = make_picture("truth", exact.size_px, 1, compute_mask_pixels(exact));
-	error_picture =
-			make_picture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
+	truth_texture = upload_texture("truth", exact.size_px, 1, compute_mask_pixels(exact));
+	error_texture =
+			upload_texture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
 }
 
-OwnedTexture ErrorMeter::make_picture(const std::string &p_name, glm::uvec2 p_size_px,
+OwnedTexture ErrorMeter::upload_texture(const std::string &p_name, glm::uvec2 p_size_px,
 		uint32_t p_channel_count, const std::vector<uint8_t> &p_pixels) {
 	const size_t pixel_count = size_t(p_size_px.x) * p_size_px.y;
 	std::vector<uint8_t> texels(4 * pixel_count, 255);

@@ -13,16 +13,16 @@ public:
 	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Once a frame, after the picture. p_picture_count: sharp ones drawn so far, see PictureMaker.
-	void update(EditorContext &r_context, uint32_t p_picture_count);
+	/// Once a frame, after the viewport is drawn. p_image_count: sharp ones drawn so far, see ViewportRenderer.
+	void update(EditorContext &r_context, uint32_t p_image_count);
 
 	/// Measures it anew: the shaders are others.
 	void forget_cost();
 
 	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.
-	TextureRID get_mask_picture() const { return mask_picture.get(); }
-	TextureRID get_truth_picture() const { return truth_picture.get(); }
-	TextureRID get_error_picture() const { return error_picture.get(); }
+	TextureRID get_mask_texture() const { return mask_texture.get(); }
+	TextureRID get_truth_texture() const { return truth_texture.get(); }
+	TextureRID get_error_texture() const { return error_texture.get(); }
 
 private:
 	void measure_mask(EditorContext &r_context);
@@ -31,14 +31,14 @@ private:
 	void ask_truth(EditorContext &r_context, RenderResult p_result);
 	void compare(ErrorState &r_state);
 	void refuse(ErrorState &r_state, std::string p_text);
-	OwnedTexture make_picture(const std::string &p_name, glm::uvec2 p_size_px,
+	OwnedTexture upload_texture(const std::string &p_name, glm::uvec2 p_size_px,
 			uint32_t p_channel_count, const std::vector<uint8_t> &p_pixels);
 
 	RenderingDevice &device;
 	Renderer &renderer;
 	RenderRequest request; // of the mask that is shown
 	LightSnapshot light;
-	uint32_t measured_picture = 0; // PictureMaker's count then
+	uint32_t measured_image = 0; // ViewportRenderer's count then
 	uint32_t traced_sample_count = 0;
 	std::string timed_key; // what `timings` are of
 	TimingSamples timings;
@@ -46,9 +46,9 @@ private:
 	bool is_error_stale = false; // the viewport may show an error that is none
 	/// Traced once the cost is known: both at once would slow each other.
 	std::function<std::unique_ptr<TruthSource>()> asked_truth;
-	OwnedTexture mask_picture;
-	OwnedTexture truth_picture;
-	OwnedTexture error_picture;
+	OwnedTexture mask_texture;
+	OwnedTexture truth_texture;
+	OwnedTexture error_texture;
 	BackgroundTruth truth; // last: its thread ends first
 };
 

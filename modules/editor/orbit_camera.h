@@ -14,7 +14,7 @@ public:
 	void look_as(const Camera3D &p_camera, double p_distance_m);
 	/// Radians.
 	void orbit(double p_yaw_rad, double p_pitch_rad);
-	/// Sideways, in heights of the picture.
+	/// Sideways, in heights of the image.
 	void pan(const glm::dvec2 &p_heights);
 	/// Nearer by factors below 1.
 	void zoom(double p_factor);

@@ -39,7 +39,7 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 		refuse(compiled.begin()->first, error.what());
 		return false;
 	}
-	r_context.viewport.needs_picture = true;
+	r_context.viewport.needs_redraw = true;
 	if (errors.empty()) {
 		r_context.say(compiled.size() == 1
 						? text("Shader ", compiled.begin()->first, " was compiled anew.")

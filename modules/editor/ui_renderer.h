@@ -17,7 +17,7 @@ public:
 
 	using GetTexture = std::function<TextureRID()>;
 	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. It is asked for when
-	/// it is drawn, so that a picture may show what the panels have just changed; an empty one is
+	/// it is drawn, so that an image may show what the panels have just changed; an empty one is
 	/// not shown. Returns its ImTextureID.
 	void *add_texture(GetTexture p_get_texture);
 	/// Draws into a target of the display's size, over what is there. Ends this frame's textures.

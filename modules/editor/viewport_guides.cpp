@@ -46,13 +46,13 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 		const auto scene = r_context.build_viewport_snapshot();
 		if (const LightSnapshot *light = scene->find_light(selected->name)) {
 			const bool is_moving =
-					r_context.is_picture_coarse || document.get_timeline().is_playing();
+					r_context.is_image_coarse || document.get_timeline().is_playing();
 			follow();
 			viewport.penumbra_lines = find_penumbra_lines(
 					rays, *scene, *light, is_moving ? MOVING_EDGE_COUNT : EDGE_COUNT);
 		}
 	} catch (const std::exception &) {
-		// The scene cannot be drawn either, and the picture says why.
+		// The scene cannot be drawn either, and the viewport reports why.
 	}
 }
 

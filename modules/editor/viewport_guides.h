@@ -9,7 +9,7 @@ namespace gnomon {
 /// selected light ends.
 class ViewportGuides {
 public:
-	/// Once a frame. p_drawn_count: PictureMaker's; when it has changed, so may have the scene.
+	/// Once a frame. p_drawn_count: ViewportRenderer's; when it has changed, so may have the scene.
 	void update(EditorContext &r_context, uint32_t p_drawn_count);
 
 private:

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// Where places of the world are in the viewport's picture, in the window's pixels.
+/// Where places of the world are in the viewport's image, in the window's pixels.
 class ViewportProjection {
 public:
 	ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size);

@@ -41,7 +41,7 @@ RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
 
 void RecordStore::save(
 		const std::string &p_name, const Json &p_content, std::span<const uint8_t> p_image) {
-	// The picture first: a record that is there is complete.
+	// The image first: a record that is there is complete.
 	if (!p_image.empty()) {
 		save_file_atomically(folder / (p_name + ".png"), p_image);
 	}
@@ -67,7 +67,7 @@ std::optional<Json> RecordStore::load(const std::string &p_name) const {
 		} else if (!image_checksum.empty() &&
 				format_hash(compute_hash(load_file(folder / (p_name + ".png")))) !=
 						image_checksum) {
-			damage = "the checksum of its picture is wrong";
+			damage = "the checksum of its image is wrong";
 		} else {
 			return record.at("content");
 		}

@@ -37,7 +37,7 @@ struct ReportComparison {
 };
 
 /// Cells are the same when configuration, technique and setting have the same names, and the
-/// pictures the same size.
+/// images the same size.
 ///
 /// An error differs when it does so by more than 0.0005 + 1 %, and, where the truths have different
 /// numbers of samples, by more than both standard errors too. Compared are penumbra pixels, and all

@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/error_report/page_files.h"
 #include "modules/error_report/report.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 
 #include <nlohmann/json.hpp>
 
@@ -98,20 +98,20 @@ void add_image(const Json &p_owner, const RecordStore &p_store, Json &r_images) 
 std::string build_report_page(const Json &p_report, const RecordStore &p_store) {
 	Json data = p_report;
 	Json images = Json::object();
-	std::set<size_t> pictured; // configurations
+	std::set<size_t> with_images; // configurations
 	for (const Json &cell : p_report.at("cells")) {
 		add_image(cell, p_store, images);
 		if (!cell.value("image", "").empty()) {
-			pictured.insert(cell.at("configuration").get<size_t>());
+			with_images.insert(cell.at("configuration").get<size_t>());
 		}
 	}
 	const Json &configurations = p_report.at("configurations");
 	for (size_t index = 0; index < configurations.size(); ++index) {
 		const Json &configuration = configurations[index];
-		// Of a stability sweep's points few have pictures of their techniques.
+		// Of a stability sweep's points few have images of their techniques.
 		if (configuration.contains("truth") &&
 				(configuration.value("group", "") != STABILITY_GROUP ||
-						pictured.count(index) != 0)) {
+						with_images.count(index) != 0)) {
 			add_image(configuration.at("truth"), p_store, images);
 		}
 	}

@@ -7,7 +7,7 @@
 #include "modules/error_report/report_folder.h"
 #include "modules/error_report/report_json.h"
 #include "modules/error_report/report_part.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 
 #include <nlohmann/json.hpp>
 

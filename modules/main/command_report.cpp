@@ -193,7 +193,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "own (default): each scene's lights as they are; else spot,omni,directional")
 			->delimiter(',')
 			->default_val(std::vector<std::string>{ "own" });
-	command->add_option("--size", arguments.size, "Of the picture; default 256x256");
+	command->add_option("--size", arguments.size, "Of the image; default 256x256");
 	add_stage_option(*command, r_common);
 	add_animation_options(*command, r_common);
 	command->add_option("--samples", arguments.options.sample_count,

@@ -165,7 +165,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 				->needs(time);
 	}
 	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
-				   "Runs also what the picture does not need (for comparison)")
+				   "Runs also what the image does not need (for comparison)")
 			->needs(headless);
 	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
 			->take_all()

@@ -6,7 +6,7 @@
 #include "modules/main/commands.h"
 #include "modules/main/measure.h"
 #include "modules/masks/mask_image.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 #include "modules/renderer/renderer.h"
 #include "modules/shadows/shadow_registry.h"
 

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-const char *const LIGHTING_PASS = "lighting"; // of a picture: no part of the shadow
+const char *const LIGHTING_PASS = "lighting"; // of a whole frame: no part of the shadow
 
 /// The passes of the light, or of every light, without its name.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {

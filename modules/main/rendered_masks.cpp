@@ -150,10 +150,10 @@ DrawnMasks RenderedMasks::draw(
 		RenderRequest request = make_request(question, p_technique);
 		if (question.scene->lights.size() > 1) {
 			// Beside the one light that is measured all of them are drawn.
-			RenderRequest picture = request;
-			picture.mask_light.clear();
-			picture.wants_mask = false;
-			renderer.render(picture);
+			RenderRequest whole_frame = request;
+			whole_frame.mask_light.clear();
+			whole_frame.wants_mask = false;
+			renderer.render(whole_frame);
 		}
 		RenderResult result = renderer.render(request);
 		drawn.frames.push_back(

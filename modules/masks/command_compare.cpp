@@ -5,7 +5,7 @@
 #include "modules/core/error.h"
 #include "modules/masks/mask_image.h"
 #include "modules/masks/mask_metrics.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 
 #include <CLI/CLI.hpp>
 

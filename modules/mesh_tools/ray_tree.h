@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// Finds where a ray meets a mesh's triangles. For the few rays of an editor; a picture's worth of
+/// Finds where a ray meets a mesh's triangles. For the few rays of an editor; an image's worth of
 /// them is Embree's.
 class RayTree {
 public:

@@ -56,7 +56,7 @@ void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineR
 		std::vector<PassBinding> p_bindings, glm::uvec3 p_item_count,
 		std::span<const uint8_t> p_push = {});
 
-/// As above over the texels of a picture, with a push-constant block.
+/// As above over the texels of an image, with a push-constant block.
 template <typename Push>
 void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, glm::uvec2 p_size_px, const Push &p_push) {

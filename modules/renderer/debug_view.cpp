@@ -77,7 +77,7 @@ const ShadowTechnique::DebugView *choose_debug_view(
 }
 
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view) {
-	const RGTexture output = create_picture(p_image.graph, p_image.size_px);
+	const RGTexture output = create_output_image(p_image.graph, p_image.size_px);
 	const shader::DebugViewPush push = { p_view.shown_range, p_view.class_count,
 		p_view.is_color ? 1u : 0u };
 	PassBinding shown = PassBinding::read(RENDERER_BINDING_MASK, p_view.texture);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// Intermediate images in place of the picture: a technique's own, the mask, and its error.
+// Intermediate images instead of the lit image: a technique's own, the mask, and its error.
 
 namespace gnomon {
 
@@ -29,12 +29,12 @@ struct DebugViewWish {
 	bool has_truth = false;
 };
 
-/// The one that is wanted; an unknown one is an Error that lists those there are. Null: the picture
+/// The one that is wanted; an unknown one is an Error that lists those there are. Null: the lit image
 /// is shown.
 const ShadowTechnique::DebugView *choose_debug_view(
 		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
 
-/// RGBA8_UNORM: the texture of a debug view in place of the picture.
+/// RGBA8_UNORM: the texture of a debug view instead of the lit image.
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view);
 
 } // namespace gnomon

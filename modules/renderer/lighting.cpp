@@ -83,15 +83,15 @@ void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGT
 			p_image.size_px, make_exposure(p_image));
 }
 
-RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px) {
-	return r_graph.create_texture({ "picture", Format::RGBA8_UNORM, p_size_px, 1,
+RGTexture create_output_image(RenderGraph &r_graph, glm::uvec2 p_size_px) {
+	return r_graph.create_texture({ "image", Format::RGBA8_UNORM, p_size_px, 1,
 			TextureUsage::STORAGE | TextureUsage::SAMPLED | TextureUsage::COLOR_ATTACHMENT |
 					TextureUsage::COPY_SOURCE });
 }
 
 RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance) {
 	const glm::uvec2 size_px = p_image.size_px / p_image.antialiasing;
-	const RGTexture output = create_picture(p_image.graph, size_px);
+	const RGTexture output = create_output_image(p_image.graph, size_px);
 	add_compute_pass(p_image.graph, "tone map",
 			p_image.device.get_compute_pipeline({ "tone map", "renderer/tone_map.comp", {} }),
 			{

@@ -25,7 +25,7 @@ RGTexture add_ambient_pass(const LitImage &p_image);
 /// Adds one light, times its mask.
 void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGTexture p_radiance);
 /// What is shown or captured: RGBA8_UNORM, sRGB-encoded.
-RGTexture create_picture(RenderGraph &r_graph, glm::uvec2 p_size_px);
+RGTexture create_output_image(RenderGraph &r_graph, glm::uvec2 p_size_px);
 /// Fills one.
 RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance);
 

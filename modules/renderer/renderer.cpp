@@ -134,7 +134,7 @@ void Renderer::add_mask_only(Frame &r_frame) {
 	fail("Light \"", request.mask_light, "\" is not in the scene.");
 }
 
-void Renderer::add_picture(Frame &r_frame) {
+void Renderer::add_image(Frame &r_frame) {
 	RenderGraph &graph = r_frame.graph;
 	const RenderRequest &request = r_frame.request;
 	FramePlan &plan = r_frame.result.plan;
@@ -160,35 +160,35 @@ void Renderer::add_picture(Frame &r_frame) {
 	for (const ShadowTechnique::DebugView &view : r_frame.debug_views) {
 		r_frame.result.debug_views.push_back(view.id);
 	}
-	RGTexture picture;
+	RGTexture image;
 	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame.debug_views,
 				{ request.debug_view, request.needs_debug_view, request.truth != nullptr })) {
-		picture = add_debug_view_pass(r_frame.image, *view);
+		image = add_debug_view_pass(r_frame.image, *view);
 		plan.run("debug view");
 	} else {
-		picture = add_tone_map_pass(r_frame.image, radiance);
+		image = add_tone_map_pass(r_frame.image, radiance);
 		plan.run("tone map");
 	}
 	if (!request.overlay.empty()) {
-		add_overlay(r_frame, picture);
+		add_overlay(r_frame, image);
 	}
 	if (request.acquire_window_image) {
-		add_present_pass(graph, picture, request.acquire_window_image);
+		add_present_pass(graph, image, request.acquire_window_image);
 	}
-	if (request.picture_target) {
+	if (request.image_target) {
 		const RGTexture target =
-				graph.import_texture(request.picture_target, RenderGraph::ImportedContent::NONE);
-		graph.add_pass("copy picture to target")
-				.reads(picture, Access::COPY_READ)
+				graph.import_texture(request.image_target, RenderGraph::ImportedContent::NONE);
+		graph.add_pass("copy image to target")
+				.reads(image, Access::COPY_READ)
 				.writes(target, Access::COPY_WRITE)
 				.execute([=](PassContext &p_context) {
-					p_context.commands.copy_texture(p_context.get(picture), p_context.get(target));
+					p_context.commands.copy_texture(p_context.get(image), p_context.get(target));
 				});
 	}
 	if (request.wants_image) {
-		add_readback(graph, picture, r_frame.result.image);
-	} else if (!request.acquire_window_image && !request.picture_target) {
-		graph.add_pass("picture").reads(picture, Access::COPY_READ).keep();
+		add_readback(graph, image, r_frame.result.image);
+	} else if (!request.acquire_window_image && !request.image_target) {
+		graph.add_pass("image").reads(image, Access::COPY_READ).keep();
 	}
 }
 
@@ -241,7 +241,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	frame.shadows.set_surfaces({ gbuffer.depth,
 			p_request.has_depth_alone ? RGTexture() : gbuffer.geometric_normal, gbuffer.material });
 	if (p_request.mask_light.empty()) {
-		add_picture(frame);
+		add_image(frame);
 	} else {
 		add_mask_only(frame);
 	}

@@ -18,7 +18,7 @@
 
 namespace gnomon {
 
-/// A corner of a triangle drawn over the picture: text and gizmos.
+/// A corner of a triangle drawn over the image: text and gizmos.
 struct OverlayVertex {
 	glm::vec2 position_px; // from the top left
 	glm::vec4 color;	   // sRGB-encoded, alpha not premultiplied
@@ -40,18 +40,18 @@ struct RenderRequest {
 	std::string debug_light;
 	/// Of that light, as the same camera sees it; of the frame's size.
 	std::shared_ptr<const TruthMask> truth;
-	/// False: where there is no such view the picture is shown, as a user expects who changes the
+	/// False: where there is no such view the lit image is shown, as a user expects who changes the
 	/// technique or the lights while looking at one.
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
 	bool wants_graph = false; // RenderResult::dot
-	/// Gets the picture too, when it is there: RGBA8_UNORM, of the frame's size, COPY_TARGET.
-	TextureRID picture_target;
-	/// Only this light's mask: no lighting, no picture. Empty = all lights and the picture.
+	/// Gets the image too, when it is there: RGBA8_UNORM, of the frame's size, COPY_TARGET.
+	TextureRID image_target;
+	/// Only this light's mask: no lighting, no image. Empty = all lights and the image.
 	std::string mask_light;
 	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver
 	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces and their texels
-	/// Gets the window's next image to show the picture in; see RenderGraph::import_window_image.
+	/// Gets the window's next image to show the lit image in; see RenderGraph::import_window_image.
 	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
@@ -100,7 +100,7 @@ private:
 	struct Frame;
 	LightShadow add_light(Frame &r_frame, const LightSnapshot &p_light);
 	void add_mask_only(Frame &r_frame);
-	void add_picture(Frame &r_frame);
+	void add_image(Frame &r_frame);
 	void add_overlay(Frame &r_frame, RGTexture p_target);
 
 	RenderingDevice &device;

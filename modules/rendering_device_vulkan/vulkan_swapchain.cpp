@@ -192,7 +192,7 @@ std::optional<TextureRID> VulkanSwapchain::acquire(glm::uvec2 p_window_size_px) 
 		const VkResult result = vkAcquireNextImageKHR(
 				device.device, swapchain, ACQUIRE_NS, acquisitions[next], VK_NULL_HANDLE, &index);
 		if (result == VK_TIMEOUT || result == VK_NOT_READY) {
-			return std::nullopt; // some window systems take no pictures of a hidden window
+			return std::nullopt; // some window systems draw no frames of a hidden window
 		}
 		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
 			is_out_of_date = true;
@@ -233,7 +233,7 @@ void VulkanSwapchain::present() {
 		.pSwapchains = &swapchain,
 		.pImageIndices = &index };
 	if (device.physical.info.type == "CPU") {
-		// Presenting waits for the picture there, and without a limit.
+		// Presenting waits for the frame there, and without a limit.
 		device.wait_for(device.submitted_number);
 	}
 	const VkResult result = vkQueuePresentKHR(device.queue, &info);

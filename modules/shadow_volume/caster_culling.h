@@ -15,7 +15,7 @@ namespace gnomon {
 /// GPU.
 ///
 /// Where the chapter asks occlusion queries, a compute shader compares: a query sees only the
-/// centres of texels, so that a box between them counts as hidden, and the picture would change.
+/// centres of texels, so that a box between them counts as hidden, and the image would change.
 /// Here a texel counts only where all its rays are stopped, and a box only with every texel that it
 /// touches: what is left out is hidden with certainty.
 ///

@@ -12,7 +12,7 @@ namespace gnomon {
 /// largest from the light, the largest first, and no meshes of more than 4096 triangles.
 /// p_was_hidden: of each of p_instances, whether it was found to be hidden lately; such a caster is
 /// taken after all others. Empty: nothing is known. The choice decides what is found, never what
-/// the picture shows.
+/// the image shows.
 std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_instances, const std::vector<bool> &p_was_hidden);
 

@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-// Where a caster's shadow volume lies in the picture. Camera view space, metres, double precision:
+// Where a caster's shadow volume lies in the image. Camera view space, metres, double precision:
 // x right, y down, z along the view.
 
 namespace gnomon {
@@ -12,7 +12,7 @@ namespace gnomon {
 /// The pixels and depths that a volume may cover; receivers elsewhere are outside it.
 struct VolumeArea {
 	glm::uvec2 offset_px = glm::uvec2(0);
-	glm::uvec2 size_px = glm::uvec2(0); // 0: outside the picture
+	glm::uvec2 size_px = glm::uvec2(0); // 0: outside the image
 	float least_depth = 0.0f;			// as stored: reversed, 0 = infinitely far
 	float greatest_depth = 1.0f;
 
@@ -20,7 +20,7 @@ struct VolumeArea {
 };
 
 /// Of what the box hides from the light: the box drawn out along the light's rays, to infinity or
-/// to the end of its range. A light in the box or in its planes gives the whole picture.
+/// to the end of its range. A light in the box or in its planes gives the whole image.
 VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,
 		const LightView &p_camera, glm::uvec2 p_size_px);
 

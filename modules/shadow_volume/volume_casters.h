@@ -31,7 +31,7 @@ struct VolumeCasters {
 	uint32_t geometry_shader_count = 0;
 	uint32_t flat_count = 0;		// with a singular transform: they have no inside
 	uint32_t spared_caps_count = 0; // counted by z-pass, as it is safe
-	uint32_t unseen_count = 0;		// whose shadow lies outside the picture
+	uint32_t unseen_count = 0;		// whose shadow lies outside the image
 };
 
 /// The camera that volumes are drawn for: moved by the receivers' offset, see VOLUMES_MOVED_AXIS.

@@ -16,7 +16,7 @@ namespace {
 
 const double DOUBLED = 2.0;
 const uint64_t LEAST_PENUMBRA_PIXELS = 40; // fewer have no mean to speak of
-// Of 8 bits: what no picture shows is no break, however much smaller the centre's error is.
+// Of 8 bits: what no image shows is no break, however much smaller the centre's error is.
 const double LEAST_MAE = 1.0 / 256;
 const double ODD_SHARE = 0.02;	 // of the receivers: the edges of hard shadows, a pixel wide
 const double NOISE_ERRORS = 2.0; // of the truth: standard errors that a mean may be off by

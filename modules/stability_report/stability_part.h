@@ -16,7 +16,7 @@ public:
 	std::vector<TracedTruth> trace_truths(MaskSource &r_source, const MaskQuestion &p_question,
 			uint32_t p_sample_count) const override;
 	/// Values that are not finite or outside 0..1 and validation messages are an Error; a
-	/// technique's own Error is a refusal. Worth keeping are pictures of nonsense and of the
+	/// technique's own Error is a refusal. Worth keeping are images of nonsense and of the
 	/// centre.
 	MaskImage run_cell(MaskSource &r_source, const MaskQuestion &p_question,
 			std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const override;

@@ -1,4 +1,4 @@
-// The receivers of a picture's pixels, and the views of one light. It reads make_map_resolve_bindings of
+// The receivers of an image's pixels, and the views of one light. It reads make_map_resolve_bindings of
 // shadows.
 #ifndef RECEIVER_PIXELS_INC_GLSL
 #define RECEIVER_PIXELS_INC_GLSL
@@ -17,7 +17,7 @@ layout(set = 0, binding = MAP_RESOLVE_BINDING_DEPTH) uniform texture2D depth_tex
 layout(set = 0, binding = MAP_RESOLVE_BINDING_NORMAL) uniform utexture2D normal_texture;
 layout(set = 0, binding = MAP_RESOLVE_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 
-bool is_in_picture(ivec2 p_pixel) {
+bool is_in_image(ivec2 p_pixel) {
 	return all(lessThan(p_pixel, ivec2(frame.size_px)));
 }
 

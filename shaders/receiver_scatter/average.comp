@@ -11,7 +11,7 @@ const float SMALLEST_COSINE = 0.7; // between the normals of neighbours; a box's
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	vec4 mask = texelFetch(mask_texture, pixel, 0);
@@ -26,7 +26,7 @@ void main() {
 		for (int y = -reach; y <= reach; ++y) {
 			for (int x = -reach; x <= reach; ++x) {
 				const ivec2 other = pixel + ivec2(x, y);
-				if (!is_in_picture(other)) {
+				if (!is_in_image(other)) {
 					continue;
 				}
 				const uvec4 packed = load_pixel(other);

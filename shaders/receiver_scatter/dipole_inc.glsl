@@ -15,7 +15,7 @@ vec3 project(vec4 p_position) {
 	return (frame.clip_from_camera_relative * p_position).xyw;
 }
 
-/// The pixel that shows a point; outside the picture where it lies behind the camera.
+/// The pixel that shows a point; outside the image where it lies behind the camera.
 ivec2 find_pixel_of(vec3 p_projected) {
 	if (!(p_projected.z > frame.near_m)) {
 		return ivec2(-1);
@@ -53,7 +53,7 @@ vec3 spread_in_metres(ivec2 p_pixel, Receiver p_receiver) {
 		offset_m *= sqrt(max(1.0 - blur_m2 / max(dot(offset_m, offset_m), 1e-30), 0.0));
 		const ivec2 other =
 				find_pixel_of(projected + offset_m.x * projected_x + offset_m.y * projected_y);
-		if (!is_in_picture(other)) {
+		if (!is_in_image(other)) {
 			continue;
 		}
 		const uvec4 packed = load_pixel(other);

@@ -1,4 +1,4 @@
-// The source's method, in pixels: a disc in the picture, sectors times rings, one random point in each
+// The source's method, in pixels: a disc in the image, sectors times rings, one random point in each
 // cell, a mean whose weights fall with the distance.
 #ifndef RECEIVER_SCATTER_DISC_INC_GLSL
 #define RECEIVER_SCATTER_DISC_INC_GLSL
@@ -20,7 +20,7 @@ vec3 spread_in_pixels(ivec2 p_pixel, Receiver p_receiver) {
 			const vec2 offset_px =
 					find_cell_point(uvec2(ring, sector), counts, radius_px, vec2(along, around));
 			const ivec2 other = p_pixel + ivec2(round(offset_px));
-			if (!is_in_picture(other)) {
+			if (!is_in_image(other)) {
 				continue;
 			}
 			const uvec4 packed = load_pixel(other);

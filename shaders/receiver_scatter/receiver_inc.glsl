@@ -18,7 +18,7 @@ layout(push_constant) uniform Push {
 	ReceiverScatterPush push;
 };
 
-bool is_in_picture(ivec2 p_pixel) {
+bool is_in_image(ivec2 p_pixel) {
 	return all(greaterThanEqual(p_pixel, ivec2(0))) && all(lessThan(p_pixel, ivec2(frame.size_px)));
 }
 

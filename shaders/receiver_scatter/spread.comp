@@ -9,7 +9,7 @@ layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	vec4 mask = texelFetch(mask_texture, pixel, 0);

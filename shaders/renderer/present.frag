@@ -3,15 +3,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "renderer/renderer_shared.h"
 
-// A picture in a window of perhaps another size: nearest texel, values as they are stored.
-layout(set = 0, binding = PRESENT_BINDING_PICTURE) uniform texture2D picture;
+// An image in a window of perhaps another size: nearest texel, values as they are stored.
+layout(set = 0, binding = PRESENT_BINDING_IMAGE) uniform texture2D image;
 layout(push_constant) uniform Push {
 	PresentPush push;
 };
 layout(location = 0) out vec4 out_color;
 
 void main() {
-	const ivec2 last = textureSize(picture, 0) - 1;
-	const ivec2 texel = min(ivec2(gl_FragCoord.xy * push.picture_px_per_window_px), last);
-	out_color = texelFetch(picture, texel, 0);
+	const ivec2 last = textureSize(image, 0) - 1;
+	const ivec2 texel = min(ivec2(gl_FragCoord.xy * push.image_px_per_window_px), last);
+	out_color = texelFetch(image, texel, 0);
 }

@@ -18,7 +18,7 @@
 #define RENDERER_BINDING_TRUTH 12
 #define RENDERER_GROUP_SIZE 8
 
-#define PRESENT_BINDING_PICTURE 0
+#define PRESENT_BINDING_IMAGE 0
 
 #define GBUFFER_BINDING_FRAME 0
 #define GBUFFER_BINDING_POSITIONS 1
@@ -89,7 +89,7 @@ SHARED_SIZE(DebugViewPush, 16);
 
 /// Push constants of present.frag.
 struct SHARED_ALIGN PresentPush {
-	vec2 picture_px_per_window_px;
+	vec2 image_px_per_window_px;
 	float padding0;
 	float padding1;
 };

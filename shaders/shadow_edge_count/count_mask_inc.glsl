@@ -9,7 +9,7 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 void main() {
 	load_count_constants();
 	const CountPixel pixel = count_pixel();
-	if (is_in_picture(pixel.pixel)) {
+	if (is_in_image(pixel.pixel)) {
 		imageStore(mask_image, pixel.pixel, vec4(pixel.visibility));
 	}
 }

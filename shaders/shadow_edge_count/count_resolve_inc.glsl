@@ -360,7 +360,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	CountPixel result;
 	result.pixel = ivec2(find_block_corner(p_block) + p_pixel);
 	result.edge_count = 0u;
-	const bool is_receiver = is_in_picture(result.pixel) && is_receiver_pixel(result.pixel);
+	const bool is_receiver = is_in_image(result.pixel) && is_receiver_pixel(result.pixel);
 	CountPoint point = CountPoint(vec3(0.0, 0.0, 1.0), 0u, vec3(0.0, 0.0, 1.0), vec2(0.0));
 	if (is_receiver) {
 		point = load_count_point(result.pixel);

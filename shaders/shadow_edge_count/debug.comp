@@ -14,7 +14,7 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DA
 void main() {
 	load_count_constants();
 	const CountPixel pixel = count_pixel();
-	if (!is_in_picture(pixel.pixel)) {
+	if (!is_in_image(pixel.pixel)) {
 		return;
 	}
 	imageStore(debug_image, ivec3(pixel.pixel, EDGE_COUNT_DEBUG_EDGES), vec4(pixel.edge_count));

@@ -11,7 +11,7 @@ void main() {
 	const uint entry = load_block_entry();
 	const ivec2 pixel = ivec2(
 			find_block_corner(entry & ~EDGE_COUNT_BLOCK_IS_DARK) + gl_LocalInvocationID.xy);
-	if (is_in_picture(pixel)) {
+	if (is_in_image(pixel)) {
 		const bool is_lit = (entry & EDGE_COUNT_BLOCK_IS_DARK) == 0u && is_receiver_pixel(pixel);
 		imageStore(mask_image, pixel, vec4(is_lit ? 1.0 : 0.0));
 	}

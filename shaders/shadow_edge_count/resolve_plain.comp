@@ -10,7 +10,7 @@ layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D 
 void main() {
 	load_count_constants();
 	const ivec2 pixel = ivec2(find_block_corner(find_block()) + gl_LocalInvocationID.xy);
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	float visibility = 0.0;

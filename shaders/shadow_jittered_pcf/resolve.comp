@@ -48,7 +48,7 @@ float find_visibility(ivec2 p_pixel) {
 
 void main() {
 	const ivec2 pixel = find_pixel();
-	if (is_in_picture(pixel)) {
+	if (is_in_image(pixel)) {
 		imageStore(mask_image, pixel,
 				vec4(is_receiver_pixel(pixel) ? find_visibility(pixel) : 0.0));
 	}

@@ -9,7 +9,7 @@ layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r32f) uniform image2D mask_ima
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	float seen = 0.0;

@@ -8,7 +8,7 @@ layout(constant_id = SHADOW_MAP_CONSTANT_FILTER_WIDTH) const int FILTER_WIDTH = 
 
 void main() {
 	const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	float visibility = 0.0;

@@ -12,7 +12,7 @@ layout(push_constant) uniform Push {
 
 void main() {
 	const ivec2 pixel = find_pixel();
-	if (!is_in_picture(pixel)) {
+	if (!is_in_image(pixel)) {
 		return;
 	}
 	float visibility = 0.0;

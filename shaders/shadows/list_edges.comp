@@ -3,7 +3,7 @@
 #include "common/ordered_list_inc.glsl"
 #include "shared/silhouette_shared.h"
 
-// Writes one caster's silhouette edges into a list, in their own order, so that the picture never
+// Writes one caster's silhouette edges into a list, in their own order, so that the image never
 // depends on scheduling, and the arguments of the draw that follows. One invocation per word.
 layout(local_size_x = SILHOUETTE_WORDS_PER_BLOCK) in;
 layout(std430, set = 0, binding = SILHOUETTE_BINDING_WORDS) readonly buffer Words {

@@ -76,7 +76,7 @@ MaskImage render_reference(RenderFixture &r_fixture, const nlohmann::json &p_lim
 			r_fixture, ShadowRegistry::find_reference()->id, read_size_px(p_limits, p_case));
 }
 
-/// Of all receivers: even one wrong pixel is seen in a picture.
+/// Of all receivers: even one wrong pixel is seen in an image.
 double find_greatest_error(const MaskImage &p_truth, const MaskImage &p_mask) {
 	double greatest = 0;
 	for (size_t pixel = 0; pixel < p_truth.get_pixel_count(); ++pixel) {

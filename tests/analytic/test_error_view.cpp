@@ -1,7 +1,7 @@
-// The renderer's error view against the error picture of the same masks.
+// The renderer's error view against the error image of the same masks.
 
 #include "modules/core/error.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 #include "modules/renderer/tests/render_fixture.h"
 
 #include <doctest/doctest.h>
@@ -27,7 +27,7 @@ MaskImage make_wrong_truth(const RenderResult &p_frame, glm::uvec2 p_size_px) {
 
 } // namespace
 
-TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error picture") {
+TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error image") {
 	RenderFixture fixture;
 	const SmallScene scene;
 	const std::string id = ShadowRegistry::get_all().front().id;

@@ -32,7 +32,7 @@ class EditorBenchmark(EditorCase):
         pass
 
     def start_once(self):
-        """Seconds from the command to the first picture."""
+        """Seconds from the command to the first frame."""
         before = time.monotonic()
         self.open_editor()
         seconds = time.monotonic() - before
@@ -41,7 +41,7 @@ class EditorBenchmark(EditorCase):
         return seconds
 
     def drag_size(self, is_traced=False):
-        """Milliseconds from each step of the mouse to the picture that shows it."""
+        """Milliseconds from each step of the mouse to the frame that shows it."""
         for _ in range(DRAGS):
             if is_traced:
                 self.wait_for(lambda state: state["error"]["is_tracing"] and state["error"]["rays"] >= 16)
@@ -86,7 +86,7 @@ def main():
         EditorBenchmark.tearDownClass()
     middle = statistics.median
     rows = [
-        ("start to the first picture, nothing cached", "%.2f s" % cold, "", ""),
+        ("start to the first frame, nothing cached", "%.2f s" % cold, "", ""),
         ("likewise, pipelines cached, median of %d" % STARTS, "%.2f s" % warm, "< 2 s", answer(warm < START_GOAL_S)),
         ("a dragged size is seen after, median of %d" % len(alone), "%.0f ms" % middle(alone), "", ""),
         ("90th percentile", "%.0f ms" % percentile(alone, 0.9), "", ""),

@@ -31,7 +31,7 @@ GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
 PAPER_PEELING = {2000: 1.92, 7700: 2.12, 30000: 2.19, 69000: 2.86, 97000: 2.72}
 PAPER_FRAME = {30000: 1.45, 7700: 1.38, 46000: 1.46}
 
-SIZE_PX = 800  # of the picture and of the maps, as in the paper
+SIZE_PX = 800  # of the image and of the maps, as in the paper
 WIDTHS_M = (0.1, 0.1)  # r and t
 LIGHT = ("light_size=0.4", "penumbra_outer_width=%g" % WIDTHS_M[0], "penumbra_inner_width=%g" % WIDTHS_M[1])
 SEGMENTS_PER_SIDE = 500 / 30  # the study's knot

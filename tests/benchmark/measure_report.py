@@ -27,14 +27,14 @@ IMAGES = os.path.join(ROOT, "doc", "images")
 STUDY_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
 SHOWN_SCENE = "torus_knot"
 SCENE = "[...document.querySelectorAll('section.scene')].find((item) => item.querySelector('h2').textContent == '%s')" % SHOWN_SCENE
-# Name of the picture, and the element of the page that it shows.
-PICTURES = {
+# Name of the screenshot, and the element of the page that it shows.
+IMAGES = {
     "report_ranking.png": "document.querySelector('#ranking .plot-host')",
     "report_scene.png": SCENE + ".querySelector('.grid')",
     "report_pictures.png": SCENE + ".querySelector('.viewer')",
     "report_scaling.png": "document.querySelector('#scaling .grid')",
 }
-PICTURE_WIDTH_PX = 1400  # narrower ones have no names at their curves
+IMAGE_WIDTH_PX = 1400  # narrower ones have no names at their curves
 
 
 def run_report(options):
@@ -115,12 +115,12 @@ def build_scaling(report):
     return format_table(("curve", "technique", "first point", "last point", "cost grew times", "for times"), rows)
 
 
-def save_pictures(page, pictures):
+def save_images(page, images):
     """Cuts elements out of the page, as seen on a desktop in light colours. Names of files, and elements."""
     url = pathlib.Path(page).resolve().as_uri() + "#all"
     with check_report_page.Browser() as browser:
-        browser.open(url, PICTURE_WIDTH_PX, 900)
-        for name, element in pictures.items():
+        browser.open(url, IMAGE_WIDTH_PX, 900)
+        for name, element in images.items():
             box = browser.evaluate(
                 "(() => { const box = %s.getBoundingClientRect();"
                 "return { x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height, scale: 1 }; })()" % element
@@ -155,7 +155,7 @@ def main():
         ("report_scaling", build_scaling(report)),
     ):
         write_table(part, [*lines, "", where])
-    save_pictures(os.path.join(options.out, "index.html"), PICTURES)
+    save_images(os.path.join(options.out, "index.html"), IMAGES)
     return 0
 
 

@@ -4,7 +4,7 @@
     measure_scatter.py [--only errors|times|resolutions|shades] [--samples N]
 
 errors: each method against the truth at s = 0.15, 0.50 and 0.80, and against a plain blur of the same number of taps.
-times: what the filter's passes cost. resolutions: how much the mask changes between pictures of 512 and 2048 pixels.
+times: what the filter's passes cost. resolutions: how much the mask changes between images of 512 and 2048 pixels.
 shades: coloured shadows against the truth. --samples: rays per pixel of the truths (default 4096).
 """
 

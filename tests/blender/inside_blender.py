@@ -220,7 +220,7 @@ def draw_panel(out):
 
 def render_scales(out):
     """Shadows that Cycles renders of a light: as it is, with its object scaled, and twice as large."""
-    pictures = {}
+    images = {}
     for kind in ("Key", "Fill"):
         for variant, scale, factor in (("plain", 1.0, 1.0), ("scaled", 3.0, 1.0), ("larger", 1.0, 2.0)):
             build_scene((kind,))
@@ -233,8 +233,8 @@ def render_scales(out):
             scene.render.image_settings.file_format = "OPEN_EXR"
             scene.render.filepath = out + ".exr"
             bpy.ops.render.render(write_still=True)
-            pictures[kind + " " + variant] = list(bpy.data.images.load(out + ".exr").pixels)[::4]
-    write(out, pictures)
+            images[kind + " " + variant] = list(bpy.data.images.load(out + ".exr").pixels)[::4]
+    write(out, images)
 
 
 def write(path, value):

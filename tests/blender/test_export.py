@@ -70,11 +70,11 @@ class ExportedFile(BlenderTest):
                 self.assertNotEqual(mask, self.compute_mask(self.sizes, self.soft, light, other))
 
     def test_the_engine_uses_the_technique_and_the_shadow_that_blender_has(self):
-        picture = self.run_gnomon("run", self.scene)
+        image = self.run_gnomon("run", self.scene)
         key, fill = "light.Key.shadow_technique=", "light.Fill.shadow_enabled="
-        self.assertEqual(picture, self.run_gnomon("run", self.scene, "--set", key + self.other, "--set", fill + "false"))
-        self.assertNotEqual(picture, self.run_gnomon("run", self.scene, "--set", key + self.soft))
-        self.assertNotEqual(picture, self.run_gnomon("run", self.scene, "--set", fill + "true"))
+        self.assertEqual(image, self.run_gnomon("run", self.scene, "--set", key + self.other, "--set", fill + "false"))
+        self.assertNotEqual(image, self.run_gnomon("run", self.scene, "--set", key + self.soft))
+        self.assertNotEqual(image, self.run_gnomon("run", self.scene, "--set", fill + "true"))
 
     def test_a_technique_that_reads_the_widths_has_those_of_blender(self):
         outer = "penumbra_outer_width="
@@ -90,9 +90,9 @@ class ExportedFile(BlenderTest):
     def test_the_scale_of_an_object_does_not_change_the_size_of_its_light(self):
         node = next(node for node in load_gltf(self.sizes)["nodes"] if node["name"] == "Fill")
         self.assertAlmostEqual(node["scale"][0], 3.0, places=5)
-        pictures = self.call_for_json("render_scales", "pictures.json")
+        images = self.call_for_json("render_scales", "images.json")
         for light in ("Key", "Fill"):
-            plain, scaled, larger = (pictures[light + " " + name] for name in ("plain", "scaled", "larger"))
+            plain, scaled, larger = (images[light + " " + name] for name in ("plain", "scaled", "larger"))
             self.assertLess(compute_mean_difference(plain, scaled), 1e-5, "Cycles")
             self.assertGreater(compute_mean_difference(plain, larger), 1e-3, "Cycles")
 

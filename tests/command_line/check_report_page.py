@@ -25,8 +25,8 @@ WIDTHS_PX = {"desktop": 1400, "phone": 390}
 WINDOW_HEIGHT_PX = {"desktop": 900, "phone": 844}
 # A busy machine with software rendering takes half a minute for 33 plots; a page that hangs never ends.
 TIMEOUT_S = 90.0
-# Chromium refuses higher pictures than its largest texture.
-MAX_PICTURE_HEIGHT_PX = 16000
+# Chromium refuses higher screenshots than its largest texture.
+MAX_SCREENSHOT_HEIGHT_PX = 16000
 PROBE = """(() => { const root = document.documentElement; return {
     ready: root.dataset.ready || "", overflow_px: root.scrollWidth - root.clientWidth,
     told_overflow_px: root.dataset.overflow || "", width_px: root.clientWidth, height_px: root.scrollHeight,
@@ -165,7 +165,7 @@ class Browser:
             time.sleep(0.1)
 
     def save_screenshot(self, path, width_px, height_px):
-        clip = {"x": 0, "y": 0, "width": width_px, "height": min(height_px, MAX_PICTURE_HEIGHT_PX), "scale": 1}
+        clip = {"x": 0, "y": 0, "width": width_px, "height": min(height_px, MAX_SCREENSHOT_HEIGHT_PX), "scale": 1}
         result = self.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)
         pathlib.Path(path).write_bytes(base64.b64decode(result["data"]))
 
@@ -207,8 +207,8 @@ def check_page(path, expected_plot_count=None, screenshot_folder=None):
             problems += ["%s: %s" % (kind, text) for text in found]
             if screenshot_folder:
                 os.makedirs(screenshot_folder, exist_ok=True)
-                picture = os.path.join(screenshot_folder, kind + ".png")
-                browser.save_screenshot(picture, width_px, state["height_px"])
+                image_path = os.path.join(screenshot_folder, kind + ".png")
+                browser.save_screenshot(image_path, width_px, state["height_px"])
     return problems
 
 

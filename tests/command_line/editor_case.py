@@ -37,7 +37,7 @@ class EditorCase(DisplayTest):
     checks = ("--validation",)
 
     def open_editor(self, *arguments, project=None, **options):
-        """Until it shows a picture. project: a path, "" for none; the others as for start()."""
+        """Until it shows an image. project: a path, "" for none; the others as for start()."""
         if os.path.exists(self.items):
             os.remove(self.items)
         named = [self.project if project is None else project] if project != "" else []

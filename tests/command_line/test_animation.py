@@ -21,7 +21,7 @@ class AnimationTest(CommandLineTest):
             return file.read()
 
     def draw(self, *arguments, scene=COURTYARD):
-        """The picture's bytes."""
+        """The image's bytes."""
         words = ("run", scene, "--headless", *SMALL, "--antialiasing", "1", "--technique", self.get_fallback(), *arguments)
         result = run(*words, "--capture", self.path("shown.png"))
         self.assertEqual(result.returncode, 0, result.stderr)

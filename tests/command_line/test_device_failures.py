@@ -14,7 +14,7 @@ from report_case import ReportCase, get_record_path, load_report  # noqa: E402
 FAULTS = {
     "device_lost": ("The device was lost", "Restart the program"),
     "device_lost@pass:receivers": ("The device was lost", "receivers' (last pass", "Restart the program"),
-    "out_of_memory": ("Out of memory", "smaller scene or picture"),
+    "out_of_memory": ("Out of memory", "smaller scene or image"),
     "hang": ("no progress for 3 s", "before pass '", "GNOMON_DEVICE_TIMEOUT_S"),
 }
 FIRST_HANG = {"GNOMON_DEVICE_TIMEOUT_S": "3"}  # the first submission hangs, so none before it has to be faster
@@ -150,7 +150,7 @@ class FailingEditor(EditorCase):
 
     @at_length
     def test_changes_are_kept_aside_when_memory_is_out(self):
-        self.fail_with("out_of_memory", "Out of memory", "smaller scene or picture")
+        self.fail_with("out_of_memory", "Out of memory", "smaller scene or image")
 
     def test_a_shadow_that_does_not_fit_into_the_device_is_told_and_undone(self):
         technique, scene = find_technique("is_fallback"), load(self.scene)

@@ -25,11 +25,11 @@ class EditorViewsTest(EditorCase):
         self.choose("property shadow_technique", find_technique("is_fallback"))
         hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * SOFT_MAE)["error"]
         self.assertGreaterEqual(hard["rays"], 256)  # the truth is the same, and was not traced again
-        picture = self.photograph()
-        self.click("picture error")  # a click shows it in the viewport
-        self.assertGreater(self.count_different(picture, self.photograph()), 0.2)
-        self.click("picture error")
-        self.assertLess(self.count_different(picture, self.photograph()), 0.001)
+        screenshot = self.photograph()
+        self.click("image error")  # a click shows it in the viewport
+        self.assertGreater(self.count_different(screenshot, self.photograph()), 0.2)
+        self.click("image error")
+        self.assertLess(self.count_different(screenshot, self.photograph()), 0.001)
         self.press("key", "ctrl+z")
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
@@ -64,9 +64,9 @@ class EditorViewsTest(EditorCase):
         self.open_editor()
         self.click("tab Error")
         self.wait_for(lambda state: "No light" in state["error"]["refusal"])
-        picture = self.photograph()
+        screenshot = self.photograph()
         self.choose("view", "error")
-        self.assertLess(self.count_different(picture, self.photograph()), 0.001)  # the picture, as there is no error
+        self.assertLess(self.count_different(screenshot, self.photograph()), 0.001)  # the image, as there is no error
         count = self.get_state()["pictures"]
         self.rest()
         self.assertEqual(self.get_state()["pictures"], count)
@@ -120,7 +120,7 @@ class EditorViewsTest(EditorCase):
         first = self.photograph()
         wrong = "void main() {\n\tconst float wrong = nothing;"
         write(source.replace("void main() {", wrong), is_refused)
-        # The last good one stays; only the message is over the picture's upper edge.
+        # The last good one stays; only the message is over the image's upper edge.
         self.assertLess(self.count_different(first, self.photograph()), 0.3)
         black = "void main() {\n\tif (gl_GlobalInvocationID.x > 0u) {\n\t\treturn;\n\t}"
         write(source.replace("void main() {", black), is_reloaded)

@@ -40,11 +40,11 @@ class GoodCommands(CommandLineTest):
             json.dump(model, file)
         before = os.stat(path).st_mtime_ns
         line = "Staged: a camera, a spot light and a ground were added"
-        picture, mask = self.path("model.png"), self.path("model.exr")
-        result = run("run", path, "--headless", "--capture", picture, "--size", "64x64")
+        image, mask = self.path("model.png"), self.path("model.exr")
+        result = run("run", path, "--headless", "--capture", image, "--size", "64x64")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(line, result.stderr)
-        self.assertEqual(read_png_size(picture), (64, 64))
+        self.assertEqual(read_png_size(image), (64, 64))
         result = run("visibility", path, "--technique", self.get_fallback(), "--out", mask, *SMALL)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(line, result.stderr)
@@ -113,19 +113,19 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--time", result.stderr)
 
-    def test_whole_pictures_are_timed_with_and_without_what_is_left_out(self):
-        found, pictures, plans = {}, {}, {}
+    def test_whole_frames_are_timed_with_and_without_what_is_left_out(self):
+        found, images, plans = {}, {}, {}
         for name, words in (("lean", ()), ("whole", ("--leave-out-nothing",))):
-            times, picture = self.path(name + ".json"), self.path(name + ".png")
+            times, image = self.path(name + ".json"), self.path(name + ".png")
             command = ("run", THREE_LIGHTS, "--headless", *SMALL, "--technique", self.get_fallback(), "--plan")
-            result = run(*command, "--time", times, "--capture", picture, *words)
+            result = run(*command, "--time", times, "--capture", image, *words)
             self.assertEqual(result.returncode, 0, result.stderr)
             plans[name] = result.stdout
             with open(times, encoding="utf-8") as file:
                 found[name] = json.load(file)
-            with open(picture, "rb") as file:
-                pictures[name] = file.read()
-        self.assertEqual(pictures["lean"], pictures["whole"])
+            with open(image, "rb") as file:
+                images[name] = file.read()
+        self.assertEqual(images["lean"], images["whole"])
         self.assertIn("left out, no casters", plans["lean"])
         self.assertNotIn("left out, no casters", plans["whole"])
         for name in ("pass_count", "draws", "dispatches"):
@@ -183,7 +183,7 @@ class GoodCommands(CommandLineTest):
             with self.subTest(light=light):
                 self.assert_mask(self.compute_mask(THREE_LIGHTS, "--light", light))
 
-    def test_a_headless_run_captures_a_picture(self):
+    def test_a_headless_run_captures_an_image(self):
         path = self.path("a.png")
         result = run("run", CONTACT_BOX, "--headless", "--size", "48x32", "--frames", 2, "--capture", path, DISPLAY=None)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -226,24 +226,24 @@ class GoodCommands(CommandLineTest):
 
     def test_the_error_against_a_truth_is_shown(self):
         self.assert_mask(self.compute_mask(CONTACT_BOX))
-        pictures = {}
-        for name, more in (("error", ("--debug-view", "error")), ("picture", ())):
+        images = {}
+        for name, more in (("error", ("--debug-view", "error")), ("image", ())):
             path = self.path(name + ".png")
             result = run("run", CONTACT_BOX, "--headless", *SMALL, "--truth", self.path("mask.exr"), "--capture", path, *more)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(path, "rb") as file:
-                pictures[name] = file.read()
-        self.assertNotEqual(pictures["error"], pictures["picture"])
+                images[name] = file.read()
+        self.assertNotEqual(images["error"], images["image"])
 
-    def test_switching_a_shadow_off_changes_the_picture(self):
-        pictures = []
+    def test_switching_a_shadow_off_changes_the_image(self):
+        images = []
         for number, settings in enumerate(((), ("--set", "light.Light.shadow_enabled=false"))):
             path = self.path("%d.png" % number)
             result = run("run", CONTACT_BOX, "--headless", "--size", "64x64", "--capture", path, *settings)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(path, "rb") as file:
-                pictures.append(file.read())
-        self.assertNotEqual(pictures[0], pictures[1])
+                images.append(file.read())
+        self.assertNotEqual(images[0], images[1])
 
 
 class Listings(CommandLineTest):

@@ -23,7 +23,7 @@ class WindowTest(DisplayTest):
         return super().inputs() + ("window.png", "headless.png", "shown.png")
 
     def crop(self, name, part):
-        """A part of a picture, as raw bytes."""
+        """A part of a screenshot, as raw bytes."""
         command = ["convert", self.path(name), "-crop", part, "+repage", "-depth", "8", "rgb:-"]
         return subprocess.run(command, capture_output=True, check=True).stdout
 
@@ -55,7 +55,7 @@ class WindowTest(DisplayTest):
         end = time.monotonic() + TIMEOUT_S
         is_alike = False
         while not is_alike:
-            self.assertLess(time.monotonic(), end, "the window does not show the picture without text")
+            self.assertLess(time.monotonic(), end, "the window does not show the image without text")
             self.assertIsNone(process.poll(), "the window ended")
             subprocess.run(["import", "-silent", "-window", "root", self.path("shown.png")], env=environment, check=True)
             is_alike = self.is_as_headless("shown.png", TEXT)

@@ -1,9 +1,9 @@
-// Has a picture changed? Each tests/golden/<scene>/<technique id>.png is rendered again and
+// Has an image changed? Each tests/golden/<scene>/<technique id>.png is rendered again and
 // compared. Files are written by tests/golden/update.sh only.
 
 #include "modules/core/error.h"
 #include "modules/core/files.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 #include "modules/renderer/tests/render_fixture.h"
 
 #include "tests/demo_scene.h"
@@ -22,10 +22,10 @@ namespace {
 
 const char *const GOLDEN_FOLDER = "tests/golden";
 const char *const FAILURE_FOLDER = "build/golden_failures";
-constexpr uint32_t CHANNEL_COUNT = 3; // the alpha of a picture is always 1
-constexpr int AMPLIFICATION = 10;	  // in the picture of the difference
+constexpr uint32_t CHANNEL_COUNT = 3; // the alpha of an image is always 1
+constexpr int AMPLIFICATION = 10;	  // in the image of the difference
 
-struct Picture {
+struct GoldenImage {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<uint8_t> pixels; // RGB
 };
@@ -52,7 +52,7 @@ GoldenSettings load_settings(const std::string &p_scene) {
 	return settings;
 }
 
-Picture load_picture(const fs::path &p_path) {
+GoldenImage load_image(const fs::path &p_path) {
 	int width = 0;
 	int height = 0;
 	int channel_count = 0;
@@ -61,19 +61,19 @@ Picture load_picture(const fs::path &p_path) {
 		fail("Golden ", p_path, " cannot be read: ", stbi_failure_reason(),
 				". Make it with tests/golden/update.sh.");
 	}
-	Picture picture = { glm::uvec2(width, height),
+	GoldenImage image = { glm::uvec2(width, height),
 		std::vector<uint8_t>(data, data + size_t(width) * height * CHANNEL_COUNT) };
 	stbi_image_free(data);
-	return picture;
+	return image;
 }
 
-void save_picture(const fs::path &p_path, const Picture &p_picture) {
-	save_png(p_path, p_picture.size_px, CHANNEL_COUNT, p_picture.pixels);
+void save_image(const fs::path &p_path, const GoldenImage &p_image) {
+	save_png(p_path, p_image.size_px, CHANNEL_COUNT, p_image.pixels);
 }
 
 /// Share of the pixels with a channel that differs by more than the limit; 1 for different sizes.
 double compute_differing_share(
-		const Picture &p_expected, const Picture &p_actual, int p_max_difference) {
+		const GoldenImage &p_expected, const GoldenImage &p_actual, int p_max_difference) {
 	if (p_expected.size_px != p_actual.size_px) {
 		return 1;
 	}
@@ -91,14 +91,14 @@ double compute_differing_share(
 }
 
 bool is_equal_enough(
-		const Picture &p_expected, const Picture &p_actual, const GoldenSettings &p_settings) {
+		const GoldenImage &p_expected, const GoldenImage &p_actual, const GoldenSettings &p_settings) {
 	return compute_differing_share(p_expected, p_actual, p_settings.max_difference) <=
 			p_settings.max_pixel_share;
 }
 
-/// Grey = equal, lighter or darker where the actual picture is.
-Picture amplify_difference(const Picture &p_expected, const Picture &p_actual) {
-	Picture result = p_actual;
+/// Grey = equal, lighter or darker where the actual image is.
+GoldenImage amplify_difference(const GoldenImage &p_expected, const GoldenImage &p_actual) {
+	GoldenImage result = p_actual;
 	for (size_t index = 0; index < result.pixels.size(); ++index) {
 		const int difference = int(p_actual.pixels[index]) - p_expected.pixels[index];
 		result.pixels[index] =
@@ -114,11 +114,11 @@ std::string find_software_device() {
 			return text(info.index);
 		}
 	}
-	fail("Golden pictures are compared under a software driver, and there is none. Install ",
+	fail("Golden images are compared under a software driver, and there is none. Install ",
 			"mesa-vulkan-drivers.");
 }
 
-Picture render_picture(RenderFixture &r_fixture, const Scene &p_scene, const std::string &p_id,
+GoldenImage render_image(RenderFixture &r_fixture, const Scene &p_scene, const std::string &p_id,
 		const GoldenSettings &p_settings) {
 	const Camera3D &camera = p_settings.camera.empty()
 			? *p_scene.find_nodes<Camera3D>().at(0)
@@ -129,20 +129,20 @@ Picture render_picture(RenderFixture &r_fixture, const Scene &p_scene, const std
 	request.technique_override = p_id;
 	request.wants_image = true;
 	const std::vector<uint8_t> image = r_fixture.renderer->render(request).image;
-	Picture picture = { p_settings.size_px, {} };
+	GoldenImage golden = { p_settings.size_px, {} };
 	for (size_t index = 0; index < image.size(); index += 4) {
-		picture.pixels.insert(picture.pixels.end(), &image[index], &image[index] + CHANNEL_COUNT);
+		golden.pixels.insert(golden.pixels.end(), &image[index], &image[index] + CHANNEL_COUNT);
 	}
-	return picture;
+	return golden;
 }
 
-Picture render_golden(RenderFixture &r_fixture, const std::string &p_scene, const std::string &p_id,
+GoldenImage render_golden(RenderFixture &r_fixture, const std::string &p_scene, const std::string &p_id,
 		const GoldenSettings &p_settings) {
 	const std::unique_ptr<Scene> scene = load_demo_scene(p_scene);
 	if (p_settings.light_settings.contains(p_id)) {
 		apply_light_settings(*scene, p_settings.light_settings.at(p_id));
 	}
-	return render_picture(r_fixture, *scene, p_id, p_settings);
+	return render_image(r_fixture, *scene, p_id, p_settings);
 }
 
 struct GoldenFile {
@@ -189,17 +189,17 @@ std::vector<GoldenFile> choose_updates(std::vector<GoldenFile> p_goldens) {
 
 void check_golden(RenderFixture &r_fixture, const GoldenFile &p_golden) {
 	const GoldenSettings settings = load_settings(p_golden.scene);
-	const Picture expected = load_picture(p_golden.get_path());
-	const Picture actual = render_golden(r_fixture, p_golden.scene, p_golden.id, settings);
+	const GoldenImage expected = load_image(p_golden.get_path());
+	const GoldenImage actual = render_golden(r_fixture, p_golden.scene, p_golden.id, settings);
 	if (is_equal_enough(expected, actual, settings)) {
 		return;
 	}
 	const std::string stem = p_golden.scene + "." + p_golden.id;
 	fs::create_directories(FAILURE_FOLDER);
-	save_picture(fs::path(FAILURE_FOLDER) / (stem + ".expected.png"), expected);
-	save_picture(fs::path(FAILURE_FOLDER) / (stem + ".actual.png"), actual);
+	save_image(fs::path(FAILURE_FOLDER) / (stem + ".expected.png"), expected);
+	save_image(fs::path(FAILURE_FOLDER) / (stem + ".actual.png"), actual);
 	if (expected.size_px == actual.size_px) {
-		save_picture(fs::path(FAILURE_FOLDER) / (stem + ".difference.png"),
+		save_image(fs::path(FAILURE_FOLDER) / (stem + ".difference.png"),
 				amplify_difference(expected, actual));
 	}
 	const std::string message = text(p_golden.get_path(), " has changed: ",
@@ -213,11 +213,11 @@ void check_golden(RenderFixture &r_fixture, const GoldenFile &p_golden) {
 
 } // namespace
 
-TEST_CASE("[GPU][Golden] every picture looks as it did when it was accepted") {
+TEST_CASE("[GPU][Golden] every image looks as it did when it was accepted") {
 	RenderFixture fixture(find_software_device());
 	for (const GoldenFile &golden : choose_updates(find_goldens())) {
 		ShadowRegistry::get(golden.id);
-		save_picture(golden.get_path(),
+		save_image(golden.get_path(),
 				render_golden(fixture, golden.scene, golden.id, load_settings(golden.scene)));
 		MESSAGE("written: ", golden.get_path().string());
 	}
@@ -233,25 +233,25 @@ TEST_CASE("[GPU][Golden] every picture looks as it did when it was accepted") {
 	}
 }
 
-TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes the picture") {
+TEST_CASE("[GPU][Golden] canary: a light that moved by its own radius changes the image") {
 	RenderFixture fixture(find_software_device());
 	REQUIRE_FALSE(ShadowRegistry::get_all().empty());
 	const std::string &id = ShadowRegistry::get_all().front().id;
 	GoldenSettings settings;
 	settings.size_px = glm::uvec2(64);
 	const std::unique_ptr<Scene> scene = load_demo_scene("sphere");
-	const Picture before = render_picture(fixture, *scene, id, settings);
-	CHECK(is_equal_enough(before, render_picture(fixture, *scene, id, settings), settings));
+	const GoldenImage before = render_image(fixture, *scene, id, settings);
+	CHECK(is_equal_enough(before, render_image(fixture, *scene, id, settings), settings));
 	Light3D &light = *scene->find_nodes<Light3D>().at(0);
 	light.parent_from_node[3].x += 0.4;
-	CHECK_FALSE(is_equal_enough(before, render_picture(fixture, *scene, id, settings), settings));
+	CHECK_FALSE(is_equal_enough(before, render_image(fixture, *scene, id, settings), settings));
 }
 
-TEST_CASE("[Golden] canary: a changed picture is noticed, and only beyond the tolerance") {
+TEST_CASE("[Golden] canary: a changed image is noticed, and only beyond the tolerance") {
 	const GoldenSettings settings; // 5/255, 0.1 %
-	const Picture expected = { glm::uvec2(100), std::vector<uint8_t>(30000, 100) };
+	const GoldenImage expected = { glm::uvec2(100), std::vector<uint8_t>(30000, 100) };
 	const auto change = [&](size_t p_pixel_count, uint8_t p_value) {
-		Picture changed = expected;
+		GoldenImage changed = expected;
 		for (size_t pixel = 0; pixel < p_pixel_count; ++pixel) {
 			changed.pixels[3 * pixel + 1] = p_value; // one channel is enough
 		}
@@ -264,7 +264,7 @@ TEST_CASE("[Golden] canary: a changed picture is noticed, and only beyond the to
 	CHECK_FALSE(change(10000, 94));
 	CHECK(change(10, 255));
 	CHECK_FALSE(change(11, 255));
-	Picture smaller = expected;
+	GoldenImage smaller = expected;
 	smaller.size_px = { 50, 200 };
 	CHECK_FALSE(is_equal_enough(expected, smaller, settings));
 	CHECK(amplify_difference(expected, expected).pixels == std::vector<uint8_t>(30000, 128));

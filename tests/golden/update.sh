@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Renders golden pictures anew: the only way to change them. Say why in the commit.
+# Renders golden images anew: the only way to change them. Say why in the commit.
 set -euo pipefail
 
 usage() {
     cat <<'TEXT'
 Usage: tests/golden/update.sh [SCENE [ID]]
-  without arguments  every picture that there is
-  SCENE              the pictures of one scene, a folder of tests/golden
-  SCENE ID           one picture; a technique's first one is made this way
-Build first: scons. Look at each picture before you commit it.
+  without arguments  every image that there is
+  SCENE              the images of one scene, a folder of tests/golden
+  SCENE ID           one image; a technique's first one is made this way
+Build first: scons. Look at each image before you commit it.
 TEXT
 }
 
@@ -28,5 +28,5 @@ if [ ! -x bin/gnomon_tests ]; then
     echo "ERROR: bin/gnomon_tests is missing. Run scons first." >&2
     exit 1
 fi
-GNOMON_UPDATE_GOLDEN=$wanted bin/gnomon_tests '--test-case=[GPU][Golden] every picture*'
+GNOMON_UPDATE_GOLDEN=$wanted bin/gnomon_tests '--test-case=[GPU][Golden] every image*'
 git status --short -- tests/golden

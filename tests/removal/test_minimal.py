@@ -149,10 +149,10 @@ def get_stripped_size(program, folder):
 
 
 def check_program(target, technique, results):
-    picture = os.path.join(target, "picture.png")
-    words = ["run", SCENE, "--headless", "--size", "64x64", "--capture", picture, "--plan"]
+    image = os.path.join(target, "image.png")
+    words = ["run", SCENE, "--headless", "--size", "64x64", "--capture", image, "--plan"]
     drawn = run([PROGRAM] + words, target)
-    results.check(drawn.returncode == 0 and os.path.getsize(picture) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
+    results.check(drawn.returncode == 0 and os.path.getsize(image) > 500, "it draws a scene", drawn.stdout + drawn.stderr)
     results.check("resolve: runs" in drawn.stdout, "its technique runs", drawn.stdout)
     listed = run([PROGRAM, "techniques"], target).stdout
     results.check(re.findall(r"(?m)^(\w+)(?: \(default\))?$", listed)[:1] == [technique], "it has one technique", listed)

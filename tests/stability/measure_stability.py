@@ -18,7 +18,7 @@ import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "tests", "benchmark"), os.path.dirname(os.path.abspath(__file__))]
-from measure_report import save_pictures  # noqa: E402
+from measure_report import save_images  # noqa: E402
 from run_benchmarks import PROGRAM, format_table, write_table  # noqa: E402
 from untuned_project import make_untuned_project  # noqa: E402
 
@@ -145,9 +145,9 @@ def describe_run(report, date):
 
 def save_curves(report, folder):
     element = "[...document.querySelectorAll('#stability .grid figure')].find((item) => item.querySelector('h3').textContent == '%s')"
-    pictures = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
-    save_pictures(os.path.join(folder, "index.html"), {**pictures, "stability_legend.png": "document.getElementById('legend')"})
-    names = list(pictures)
+    images = {"stability_%s.png" % plot["sweep"]: element % name_sweep(plot) for plot in get_plots(report, "spot")}
+    save_images(os.path.join(folder, "index.html"), {**images, "stability_legend.png": "document.getElementById('legend')"})
+    names = list(images)
     rows = [names[index : index + 2] for index in range(0, len(names), 2)]
     legend = "![Colours of the techniques](images/stability_legend.png)"
     return [legend, ""] + [" ".join("![%s](images/%s)" % (name[10:-4].replace("_", " "), name) for name in row) for row in rows]
@@ -158,7 +158,7 @@ def main():
     parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "stability"), help="the report's folder")
     parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
     parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
-    parser.add_argument("--write", action="store_true", help="writes doc/stability.md and its pictures")
+    parser.add_argument("--write", action="store_true", help="writes doc/stability.md and its images")
     options = parser.parse_args()
     path = os.path.join(options.out, "report.json")
     if not options.no_run:

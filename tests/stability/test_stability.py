@@ -18,7 +18,7 @@ BY_DESIGN = {
     "edge_count": ("fin_width",),  # r and t are the size of its light: it draws the light that they ask for
 }
 HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # up to which values edge_count must hold
-LEAST_MAE = 1.0 / 256  # smaller ones no picture shows
+LEAST_MAE = 1.0 / 256  # smaller ones no image shows
 MOST_CHANGE = 0.003  # error of edge_count's change from frame to frame, while the light moves by 0.001 R
 # The light's centre is exactly a vertex of a caster: see "Known failures" of edge_count.
 VERTEX_LIGHTS = ("light at a caster's corner",)

@@ -88,30 +88,30 @@ void draw_cost(const ErrorState &p_state) {
 	}
 }
 
-void draw_picture(EditorContext &r_context, const char *p_name, void *p_picture, ImVec2 p_size) {
+void draw_image(EditorContext &r_context, const char *p_name, void *p_image, ImVec2 p_size) {
 	ImGui::BeginGroup();
 	ImGui::TextUnformatted(p_name);
-	if (p_picture != nullptr) {
-		ImGui::Image(p_picture, p_size);
+	if (p_image != nullptr) {
+		ImGui::Image(p_image, p_size);
 	} else {
 		ImGui::Dummy(p_size);
 	}
 	ImGui::EndGroup();
-	r_context.note_item(std::string("picture ") + p_name);
+	r_context.note_item(std::string("image ") + p_name);
 }
 
-/// A click shows it in the viewport, another click the picture again.
-void draw_view(EditorContext &r_context, const char *p_view, void *p_picture, ImVec2 p_size) {
-	draw_picture(r_context, p_view, p_picture, p_size);
+/// A click shows it in the viewport, another click the image itself again.
+void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVec2 p_size) {
+	draw_image(r_context, p_view, p_image, p_size);
 	if (ImGui::IsItemClicked()) {
 		ViewportState &viewport = r_context.viewport;
 		viewport.debug_view = viewport.debug_view == p_view ? "" : p_view;
-		viewport.needs_picture = true;
+		viewport.needs_redraw = true;
 	}
 }
 
 /// Mask, truth and their difference side by side, as large as fits.
-void draw_pictures(EditorContext &r_context) {
+void draw_images(EditorContext &r_context) {
 	const ErrorState &state = r_context.error;
 	const ImVec2 space = ImGui::GetContentRegionAvail();
 	const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -123,11 +123,11 @@ void draw_pictures(EditorContext &r_context) {
 	const float width = std::max((space.x - 2.0f * gap) / 3.0f, 16.0f);
 	const float scale = std::min(width / size_px.x, height / size_px.y);
 	const ImVec2 size(size_px.x * scale, size_px.y * scale);
-	draw_view(r_context, "mask", state.mask_picture, size);
+	draw_view(r_context, "mask", state.mask_texture, size);
 	ImGui::SameLine();
-	draw_picture(r_context, "truth", state.metrics ? state.truth_picture : nullptr, size);
+	draw_image(r_context, "truth", state.metrics ? state.truth_texture : nullptr, size);
 	ImGui::SameLine();
-	draw_view(r_context, "error", state.metrics ? state.error_picture : nullptr, size);
+	draw_view(r_context, "error", state.metrics ? state.error_texture : nullptr, size);
 	if (ImGui::IsItemHovered()) {
 		ImGui::SetTooltip("Mask less truth. Blue: too dark, red: too light, full colour at %.2g",
 				double(HEAT_MAP_RANGE));
@@ -157,9 +157,9 @@ void draw_error(EditorContext &r_context) {
 	}
 	ImGui::EndChild();
 	ImGui::SameLine();
-	ImGui::BeginChild("pictures");
+	ImGui::BeginChild("images");
 	if (state.refusal.empty()) {
-		draw_pictures(r_context);
+		draw_images(r_context);
 	}
 	ImGui::EndChild();
 	ImGui::EndTabItem();

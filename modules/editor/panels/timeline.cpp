@@ -61,7 +61,7 @@ void draw_animations(EditorContext &r_context) {
 	const auto choose = [&](const std::string &p_name, const char *p_label, bool p_is_shown) {
 		if (ImGui::Selectable(p_label, p_is_shown)) {
 			timeline.choose(p_name);
-			r_context.viewport.needs_picture = true;
+			r_context.viewport.needs_redraw = true;
 		}
 		r_context.note_item(text("choice ", p_label));
 	};
@@ -93,7 +93,7 @@ void draw_time(EditorContext &r_context, float p_width) {
 				ImGuiSliderFlags_AlwaysClamp)) {
 		timeline.seek(time_s);
 		r_context.viewport.is_moving = true;
-		r_context.viewport.needs_picture = true;
+		r_context.viewport.needs_redraw = true;
 	}
 	if (ImGui::IsItemActivated()) {
 		timeline.pause();

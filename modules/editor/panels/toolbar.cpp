@@ -104,7 +104,7 @@ void draw_status(EditorContext &r_context) {
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
 		char frame[160];
 		std::snprintf(frame, sizeof(frame), "%.1f ms   %u x %u   %.80s", r_context.shown_ms,
-				r_context.picture_size_px.x, r_context.picture_size_px.y,
+				r_context.image_size_px.x, r_context.image_size_px.y,
 				r_context.device.name.c_str());
 		const ImVec4 red(1.0f, 0.45f, 0.4f, 1.0f);
 		const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);

@@ -52,7 +52,7 @@ void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 	}
 	if (r_viewport.camera.get_revision() != before) {
 		r_viewport.is_moving = true;
-		r_viewport.needs_picture = true;
+		r_viewport.needs_redraw = true;
 	}
 }
 
@@ -63,15 +63,15 @@ void draw_choices(EditorContext &r_context) {
 								const char *p_label) {
 		if (ImGui::Selectable(p_label, r_choice == p_choice)) {
 			r_choice = p_choice;
-			viewport.needs_picture = true;
+			viewport.needs_redraw = true;
 		}
 		r_context.note_item(std::string("choice ") + p_label);
 	};
 	ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-	const char *shown = viewport.debug_view.empty() ? "picture" : viewport.debug_view.c_str();
+	const char *shown = viewport.debug_view.empty() ? "image" : viewport.debug_view.c_str();
 	if (ImGui::BeginCombo("##view", shown)) {
 		viewport.wants_debug_views |= ImGui::IsWindowAppearing();
-		choose(viewport.debug_view, "", "picture");
+		choose(viewport.debug_view, "", "image");
 		bool has_error = false;
 		for (const std::string &id : viewport.debug_views) {
 			choose(viewport.debug_view, id, id.c_str());
@@ -112,20 +112,20 @@ void draw_choices(EditorContext &r_context) {
 	}
 }
 
-/// The picture, or two with a line between them.
-void draw_pictures(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
-	if (r_context.picture == nullptr) {
+/// The image, or two with a line between them.
+void draw_images(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
+	if (r_context.image == nullptr) {
 		return;
 	}
 	ImDrawList &list = *ImGui::GetWindowDrawList();
 	const ImVec2 greatest(p_least.x + p_size.x, p_least.y + p_size.y);
-	list.AddImage(r_context.picture, p_least, greatest);
-	if (r_context.compared_picture == nullptr) {
+	list.AddImage(r_context.image, p_least, greatest);
+	if (r_context.compared_image == nullptr) {
 		return;
 	}
 	const float share = r_context.viewport.compared_from;
 	const float x = p_least.x + share * p_size.x;
-	list.AddImage(r_context.compared_picture, ImVec2(x, p_least.y), greatest, ImVec2(share, 0.0f),
+	list.AddImage(r_context.compared_image, ImVec2(x, p_least.y), greatest, ImVec2(share, 0.0f),
 			ImVec2(1.0f, 1.0f));
 	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
 }
@@ -150,9 +150,9 @@ void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p
 			wrap);
 }
 
-/// The line can be dragged; it is drawn over the pictures' own button.
+/// The line can be dragged; it is drawn over the images' own button.
 void draw_line_handle(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
-	if (r_context.compared_picture == nullptr) {
+	if (r_context.compared_image == nullptr) {
 		return;
 	}
 	const float half = 5.0f;
@@ -194,9 +194,9 @@ void draw_viewport(EditorContext &r_context) {
 		const glm::uvec2 size_px(static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y));
 		if (size_px != r_context.viewport.size_px) {
 			r_context.viewport.size_px = size_px;
-			r_context.viewport.needs_picture = true;
+			r_context.viewport.needs_redraw = true;
 		}
-		draw_pictures(r_context, least, size);
+		draw_images(r_context, least, size);
 		ImGui::InvisibleButton("viewport", size,
 				ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
 						ImGuiButtonFlags_MouseButtonRight);

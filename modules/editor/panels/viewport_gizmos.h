@@ -3,7 +3,7 @@
 #include "modules/editor/editor_context.h"
 #include "modules/editor/viewport_projection.h"
 
-// What is drawn over the viewport's picture, with Dear ImGui, in the viewport's window.
+// What is drawn over the viewport's image, with Dear ImGui, in the viewport's window.
 
 namespace gnomon {
 

@@ -25,11 +25,11 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	context.error.is_shown = true;
 	context.error.sample_count = BackgroundTruth::FIRST_SAMPLE_COUNT;
 	ErrorMeter meter(*fixture.device, *fixture.renderer);
-	uint32_t picture_count = 0;
+	uint32_t image_count = 0;
 	const auto measure = [&] {
-		++picture_count;
+		++image_count;
 		do {
-			meter.update(context, picture_count);
+			meter.update(context, image_count);
 			REQUIRE(context.error.refusal == "");
 			std::this_thread::yield();
 		} while (!context.error.truth);
@@ -38,7 +38,7 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	timeline.play();
 	for (int frame = 0; frame < 3; ++frame) {
 		CHECK(timeline.advance(0.1));
-		meter.update(context, ++picture_count);
+		meter.update(context, ++image_count);
 		CHECK(context.error.truth_hash == 0);
 		CHECK_FALSE(context.error.is_tracing);
 	}
@@ -47,13 +47,13 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	const uint64_t hash = measure();
 	timeline.play();
 	CHECK(timeline.advance(0.5));
-	meter.update(context, ++picture_count);
+	meter.update(context, ++image_count);
 	CHECK_FALSE(context.error.is_tracing);
 	CHECK(context.error.truth_hash == hash); // the last one stays
 	timeline.pause();
-	meter.update(context, ++picture_count);
+	meter.update(context, ++image_count);
 	CHECK(measure() != hash);
 	timeline.seek(time_s);
-	meter.update(context, ++picture_count);
+	meter.update(context, ++image_count);
 	CHECK(measure() == hash);
 }

@@ -152,6 +152,6 @@
 		observer.observe(element);
 	};
 
-	/* A promise that also waits for what is drawn asynchronously (pictures). */
+	/* A promise that also waits for what is drawn asynchronously (images). */
 	report.drawAll = () => Promise.all([...waiting.keys()].map(drawNow));
 })();

@@ -109,16 +109,16 @@
 		const counts = d3.rollups(points, (list) => list.length, (point) => point.state);
 		section.append(make("p", { class: "soft" }, `Generated scenes, each with one thing taken from harmless to extreme. ${report.showCount(points.length)} points: ` +
 			`${counts.map(([state, count]) => `${report.showCount(count)} ${state}`).join(", ")}. Hollow dots do not hold: their error is more than twice ` +
-			"that of the sweep's centre, or the picture is nonsense. A click on a dot shows its picture, where the report keeps it."));
-		const pictured = report.data.configurations.filter((item) => item.group === "stability" && item.cells.some((cell) => cell.image));
+			"that of the sweep's centre, or the image is nonsense. A click on a dot shows its image, where the report keeps it."));
+		const withImages = report.data.configurations.filter((item) => item.group === "stability" && item.cells.some((cell) => cell.image));
 		const showPoint = (item) => `${item.id.split("/").slice(1).join(", ").replaceAll("_", " ")}`;
-		const viewer = pictured.length > 0 ? report.makeViewer(pictured, () => {}, showPoint) : null;
+		const viewer = withImages.length > 0 ? report.makeViewer(withImages, () => {}, showPoint) : null;
 		const onPick = (cell) => (cell.image ? viewer?.select(cell) : undefined);
 		section.append(make("div", { class: "grid two" }, d3.groups(curves, (plot) => plot.sweep)
 			.map(([, list]) => makeSweep(list, onPick, drawOnEverySize))));
 		if (viewer) {
 			section.append(viewer.element);
-			report.drawWhenNear(viewer.element, () => viewer.select(pictured[0].cells.find((cell) => cell.image)));
+			report.drawWhenNear(viewer.element, () => viewer.select(withImages[0].cells.find((cell) => cell.image)));
 		}
 		section.append(...d3.groups(curves, (plot) => plot.light_type).map(([, list]) => makeBreaks(list)),
 			...plots.filter((plot) => plot.has_cases).map(makeCases));

@@ -8,7 +8,7 @@
 
 	/* p_columns: { title, help, value(row) for sorting, show(row) text or element, isText, best: "least" | "nearest zero",
 	   hasBar }. The rows come sorted by the column p_sorted_index, rising. Rows for which p_is_partial(row) are pale and
-	   never the best: their means are over other pictures. */
+	   never the best: their means are over other images. */
 	report.makeTable = function (caption, columns, rows, sortedIndex, isPartial = () => false) {
 		const compared = rows.filter((row) => !isPartial(row));
 		const body = make("tbody");

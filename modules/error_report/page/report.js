@@ -15,7 +15,7 @@
 		const facts = data.machines.flatMap((machine, index) => [
 			[data.machines.length > 1 ? `machine ${index + 1}` : "device", `${machine.device}, driver ${machine.driver}`],
 			["CPU", `${machine.cpu}, ${machine.threads} threads`]]);
-		facts.push(["pictures", `${[...sizes].join(", ") || "–"} pixels`], ["truth", `${data.samples} samples a pixel`],
+		facts.push(["images", `${[...sizes].join(", ") || "–"} pixels`], ["truth", `${data.samples} samples a pixel`],
 			["measured", `${report.matrix.length} configurations`]);
 		document.getElementById("facts").append(...facts.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
 		const warning = report.makeWarning(data);
@@ -76,7 +76,7 @@
 			draw();
 		});
 		const partial = full.length < rows.length ? make("p", { class: "soft" }, "Hollow dots and marked rows: measured in fewer " +
-			`than ${most} configurations, so their means are over other pictures. They take no part in the Pareto front and the answers beside it.`) : null;
+			`than ${most} configurations, so their means are over other images. They take no part in the Pareto front and the answers beside it.`) : null;
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
 			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the truth, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),
@@ -91,7 +91,7 @@
 		const first = configurations[0];
 		const lightCount = new Set(configurations.map((item) => item.light)).size;
 		const section = report.makeSection(`scene-${index}`, scene, make("p", { class: "soft" }, `${report.showCount(first.triangles)} triangles, ` +
-			`${lightCount} ${lightCount === 1 ? "light" : "lights"}. All plots of a scene have the same axes. A click on a dot shows its picture below.`));
+			`${lightCount} ${lightCount === 1 ? "light" : "lights"}. All plots of a scene have the same axes. A click on a dot shows its image below.`));
 		section.classList.add("scene");
 		const plots = [];
 		let chosen = null;

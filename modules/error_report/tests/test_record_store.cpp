@@ -42,7 +42,7 @@ TEST_CASE("[ErrorReport] killed at any step of saving a record, it is there whol
 				remove_left_over_files(folder.path);
 				CHECK(fs::is_empty(folder.path));
 			});
-	CHECK(kill_count == 8); // the picture and the record: made, written, synced, renamed
+	CHECK(kill_count == 8); // the image and the record: made, written, synced, renamed
 	CHECK(found_count == 2);
 	set_log_sink(before);
 }

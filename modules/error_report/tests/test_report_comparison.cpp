@@ -153,7 +153,7 @@ TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed 
 	CHECK(count_differences(failed, missing) == 0);
 }
 
-TEST_CASE("[ErrorReport] cells are the same by names and size of the picture") {
+TEST_CASE("[ErrorReport] cells are the same by names and size of the image") {
 	Report other = make_report(0.9);
 	const auto check_apart = [&] {
 		const ReportComparison comparison = compare_reports(make_report(), other);

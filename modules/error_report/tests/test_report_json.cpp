@@ -90,7 +90,7 @@ TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
 	CHECK_THROWS_AS(load_report(folder.path / "absent.json"), Error);
 }
 
-TEST_CASE("[ErrorReport] the page holds library, data and pictures, and names cannot break out") {
+TEST_CASE("[ErrorReport] the page holds library, data and images, and names cannot break out") {
 	TemporaryFolder folder;
 	Report report = make_report(folder.path);
 	report.project = "<b>&</script><script>alert(1)</script>";

@@ -148,7 +148,7 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 		CHECK(cell.technique != "soft");
 	}
 	CHECK(groups == std::set<std::string>{ "triangles", "light_size", "lights", "resolution" });
-	// Pictures here are 16 px, so that the curve of resolutions does not pass the common point.
+	// Images here are 16 px, so that the curve of resolutions does not pass the common point.
 	CHECK(plan.report.cells.size() == 2 * 12);
 	CHECK(records.size() == 2 * 10);
 	for (size_t index = 0; index < plan.report.configurations.size(); ++index) {

@@ -161,7 +161,7 @@ TEST_CASE("[ErrorReport] many lights are numbered, in different places and aimed
 			intensity += light.intensity;
 		}
 		CHECK(places.size() == count);
-		CHECK(intensity == doctest::Approx(500)); // however many, the picture is as bright
+		CHECK(intensity == doctest::Approx(500)); // however many, the image is as bright
 		CHECK(glm::length(scene->lights[0].position_world - glm::dvec3(1.8, 6, 1.2)) < EXACT);
 	}
 }

@@ -11,7 +11,7 @@ using namespace gnomon;
 namespace {
 
 /// The hard shadow of half a plane, straight below a light, on a translucent ground that fills the
-/// picture of a camera that looks straight down.
+/// image of a camera that looks straight down.
 struct EdgeScene : SmallScene {
 	EdgeScene(float p_scatter, float p_distance_m) : SmallScene(LightType::DIRECTIONAL) {
 		ground->surfaces[0].material = make_wax(p_scatter, p_distance_m);
@@ -23,7 +23,7 @@ struct EdgeScene : SmallScene {
 		camera->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 4, 0)) * down;
 	}
 
-	/// What each column of the picture sees, and how far it is from the edge.
+	/// What each column of the image sees, and how far it is from the edge.
 	static float get_x_m(uint32_t p_column, uint32_t p_size_px) {
 		const float half_m = 4.0f * std::tan(0.5f * 0.785398163f);
 		return half_m * ((p_column + 0.5f) / p_size_px * 2.0f - 1.0f);
@@ -172,7 +172,7 @@ TEST_CASE("[GPU][ReceiverScatter] opaque receivers stay to the bit as they are")
 	const MaskResult disabled = fixture.render_mask(scene, find_technique());
 	CHECK(disabled.plan.is_left_out("Light", "scatter"));
 	CHECK(disabled.visibility == before.visibility);
-	// Out of sight it is left out, with the same picture.
+	// Out of sight it is left out, with the same image.
 	scene.light->properties.erase("receiver_scatter_enabled");
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 40, 0));
 	const MaskResult hidden = fixture.render_mask(scene, find_technique());
@@ -209,7 +209,7 @@ TEST_CASE("[GPU][ReceiverScatter] every opaque pixel beside a translucent body k
 }
 
 TEST_CASE("[GPU][ReceiverScatter] light does not leak between surfaces, unless it is told to") {
-	// A translucent pillar before a translucent ground: neighbours in the picture, far in space.
+	// A translucent pillar before a translucent ground: neighbours in the image, far in space.
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.ground->surfaces[0].material = make_wax(1.0f, 0.4f);

@@ -1,4 +1,4 @@
-// TECHNIQUES, section 6, and what materials and pictures may be at worst.
+// TECHNIQUES, section 6, and what materials and images may be at worst.
 
 #include "modules/receiver_scatter/tests/scatter_fixture.h"
 
@@ -15,7 +15,7 @@ constexpr float INFINITE = std::numeric_limits<float>::infinity();
 
 } // namespace
 
-TEST_CASE("[GPU][ReceiverScatter] extreme materials and pictures give valid masks") {
+TEST_CASE("[GPU][ReceiverScatter] extreme materials and images give valid masks") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const MaskResult opaque = fixture.render_mask(scene, find_technique());
@@ -44,7 +44,7 @@ TEST_CASE("[GPU][ReceiverScatter] extreme materials and pictures give valid mask
 			CHECK(is_valid_mask(render(1.0f, distance_m, size_px)));
 		}
 	}
-	// Everything lit stays lit up to the picture's border: what lies outside does not count.
+	// Everything lit stays lit up to the image's border: what lies outside does not count.
 	scene.box->casts_shadow = false;
 	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
 	for (const float distance_m : { 0.0f, 2.0f }) {

@@ -31,7 +31,7 @@ struct RenderFixture {
 		request.may_leave_out = p_may_leave_out;
 		return renderer->render(request);
 	}
-	RenderResult render_picture(const SmallScene &p_scene, const std::string &p_technique = "",
+	RenderResult render_image(const SmallScene &p_scene, const std::string &p_technique = "",
 			bool p_may_leave_out = true) {
 		RenderRequest request;
 		request.scene = p_scene.snap();

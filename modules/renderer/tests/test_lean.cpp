@@ -9,10 +9,10 @@ using namespace gnomon;
 
 namespace {
 
-/// The picture with the rules and without them, which must be one; returns the former.
+/// The image with the rules and without them, which must be one; returns the former.
 RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
-	const RenderResult lean = r_fixture.render_picture(p_scene);
-	const RenderResult whole = r_fixture.render_picture(p_scene, "", false);
+	const RenderResult lean = r_fixture.render_image(p_scene);
+	const RenderResult whole = r_fixture.render_image(p_scene, "", false);
 	CHECK(lean.image == whole.image);
 	for (const FramePlanEntry &entry : whole.plan.get_entries()) {
 		CHECK_FALSE((entry.pass == "light" && !entry.runs)); // the rule is off
@@ -22,7 +22,7 @@ RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 
 } // namespace
 
-TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the picture is the "
+TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the image is the "
 		  "same") {
 	RenderFixture fixture;
 	struct Case {
@@ -184,16 +184,16 @@ TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds 
 	}
 }
 
-TEST_CASE("[GPU][TranslucentCasters] the picture behind glass is the same with everything run") {
+TEST_CASE("[GPU][TranslucentCasters] the image behind glass is the same with everything run") {
 	RenderFixture fixture;
 	SmallScene scene;
 	const std::string id = ShadowRegistry::find_default()->id;
-	const RenderResult opaque = fixture.render_picture(scene, id);
+	const RenderResult opaque = fixture.render_image(scene, id);
 	auto glass = std::make_shared<Material>(*scene.box->surfaces[0].material);
 	glass->transmission = 1.0f;
 	glass->base_color = glm::vec3(0.9f, 0.1f, 0.1f);
 	scene.box->surfaces[0].material = glass;
-	const RenderResult lean = fixture.render_picture(scene, id);
-	CHECK(lean.image == fixture.render_picture(scene, id, false).image);
+	const RenderResult lean = fixture.render_image(scene, id);
+	CHECK(lean.image == fixture.render_image(scene, id, false).image);
 	CHECK(lean.image != opaque.image);
 }

@@ -67,7 +67,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 	const auto measure = [](const std::string &p_id) {
 		RenderFixture fixture(DeviceChoice::NEW);
 		SmallScene scene;
-		fixture.render_picture(scene, p_id);
+		fixture.render_image(scene, p_id);
 		return measure_use(*fixture.device);
 	};
 	for (const std::string &id : ids) {
@@ -92,7 +92,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 	const auto count_pipelines = [&](const std::string &p_second) {
 		lights.scene.light->properties["shadow_technique"] = ids.front();
 		lights.second.properties["shadow_technique"] = p_second;
-		fixture.render_picture(lights.scene);
+		fixture.render_image(lights.scene);
 		return get_pipeline_count(*fixture.device);
 	};
 	const uint32_t one = count_pipelines(ids.front());
@@ -112,7 +112,7 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 	empty.box->surfaces.clear();
 	const auto render_empty = [&] {
 		for (int frame = 0; frame < 64; ++frame) { // what is kept for a while goes too
-			fixture.render_picture(empty);
+			fixture.render_image(empty);
 		}
 		return measure_use(*fixture.device);
 	};
@@ -125,7 +125,7 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 		{
 			SmallScene scene(LightType::OMNI);
 			add_mesh(scene.scene, "More", make_box_mesh("more", glm::vec3(0.2f)), { 1, 1, 1 });
-			fixture.render_picture(scene, info.id);
+			fixture.render_image(scene, info.id);
 			fixture.render_mask(scene, info.id);
 			CHECK(fixture.device->get_memory_use().used_bytes > before.bytes);
 		}
@@ -147,7 +147,7 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 	const Used without = [&] {
 		lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
 		for (int frame = 0; frame < 64; ++frame) {
-			fixture.render_picture(lights.scene, id);
+			fixture.render_image(lights.scene, id);
 		}
 		return measure_use(*fixture.device);
 	}();
@@ -159,13 +159,13 @@ TEST_CASE("[GPU][Lean] a light out of view gives back its maps after a while, an
 	};
 	CHECK_FALSE(has_own());
 	lights.turn({ 1, 3, 0 }, { 0, 0, 0 });
-	fixture.render_picture(lights.scene, id);
+	fixture.render_image(lights.scene, id);
 	CHECK(has_own());
 	lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });
-	fixture.render_picture(lights.scene, id);
+	fixture.render_image(lights.scene, id);
 	CHECK(has_own()); // it may come back
 	for (int frame = 0; frame < 64; ++frame) {
-		fixture.render_picture(lights.scene, id);
+		fixture.render_image(lights.scene, id);
 	}
 	CHECK_FALSE(has_own());
 	CHECK(measure_use(*fixture.device).bytes == without.bytes);
@@ -186,8 +186,8 @@ TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do")
 					text("Hidden ", index), types[index % 2], place, place + glm::dvec3(0, 1, 0.1));
 			light.range_m = index % 2 ? 2.0f : 0.0f; // a spot points away, an omni light ends
 		}
-		fixture.render_picture(scene);
-		const RenderResult result = fixture.render_picture(scene);
+		fixture.render_image(scene);
+		const RenderResult result = fixture.render_image(scene);
 		r_used = measure_use(*fixture.device);
 		return result;
 	};

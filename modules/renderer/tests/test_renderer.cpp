@@ -30,15 +30,15 @@ double compute_mean(const RenderResult &p_result) {
 
 } // namespace
 
-TEST_CASE("[GPU][Renderer] a light makes the picture brighter, and its shadow darker again") {
+TEST_CASE("[GPU][Renderer] a light makes the image brighter, and its shadow darker again") {
 	RenderFixture fixture;
 	SmallScene scene;
 	// Any technique will do; which there are depends on the build.
 	const std::string any = ShadowRegistry::get_all().at(0).id;
 	scene.light->properties["shadow_enabled"] = false;
-	const RenderResult without_shadow = fixture.render_picture(scene, any);
+	const RenderResult without_shadow = fixture.render_image(scene, any);
 	scene.light->properties["shadow_enabled"] = true;
-	const RenderResult with_shadow = fixture.render_picture(scene, any);
+	const RenderResult with_shadow = fixture.render_image(scene, any);
 	CHECK(compute_mean(with_shadow) < compute_mean(without_shadow));
 	CHECK(without_shadow.plan.is_left_out("Light", "shadow"));
 	CHECK_FALSE(with_shadow.plan.is_left_out("Light", "shadow"));
@@ -110,8 +110,8 @@ TEST_CASE("[GPU][Renderer] a light whose range ends before the view is left out,
 	SmallScene scene;
 	Light3D &far_light = scene.add_light("Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
 	far_light.range_m = 5.0f;
-	const RenderResult lean = fixture.render_picture(scene);
-	const RenderResult whole = fixture.render_picture(scene, "", false);
+	const RenderResult lean = fixture.render_image(scene);
+	const RenderResult whole = fixture.render_image(scene, "", false);
 	CHECK(lean.plan.is_left_out("Far", "light"));
 	CHECK_FALSE(whole.plan.is_left_out("Far", "light"));
 	CHECK(lean.image == whole.image);
@@ -126,9 +126,9 @@ TEST_CASE("[GPU][Renderer] scenes without lights, with many, and without meshes 
 		scene.add_light(text("Light ", index), index % 2 ? LightType::SPOT : LightType::OMNI,
 				{ 3 * std::cos(angle), 3.0, 3 * std::sin(angle) }, { 0, 0, 0 });
 	}
-	CHECK(fixture.render_picture(scene).image.size() == 64 * 64 * 4);
+	CHECK(fixture.render_image(scene).image.size() == 64 * 64 * 4);
 	scene.camera->parent_from_node = look_at({ 0, 50, 0 }, { 0, 100, 0.1 });
-	const RenderResult nothing = fixture.render_picture(scene);
+	const RenderResult nothing = fixture.render_image(scene);
 	CHECK(nothing.image.size() == 64 * 64 * 4);
 	SmallScene dark;
 	dark.scene.root->children.pop_back(); // the light
@@ -142,7 +142,7 @@ TEST_CASE("[GPU][Renderer] scenes without lights, with many, and without meshes 
 TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that names it") {
 	RenderFixture fixture;
 	SmallScene scene;
-	CHECK_THROWS_WITH_AS(fixture.render_picture(scene, "no_such_technique"),
+	CHECK_THROWS_WITH_AS(fixture.render_image(scene, "no_such_technique"),
 			doctest::Contains("no_such_technique"), Error);
 	CHECK_THROWS_AS(fixture.render_mask(scene, "", { 0, 4 }), Error);
 	CHECK_THROWS_AS(fixture.render_mask(scene, "", { 100000, 4 }), Error);
@@ -151,7 +151,7 @@ TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that 
 	request.scene = scene.snap();
 	request.mask_light = "Other";
 	CHECK_THROWS_AS(fixture.renderer->render(request), Error);
-	CHECK(fixture.render_picture(scene).image.size() == 64 * 64 * 4); // and goes on
+	CHECK(fixture.render_image(scene).image.size() == 64 * 64 * 4); // and goes on
 }
 
 TEST_CASE(
@@ -162,8 +162,8 @@ TEST_CASE(
 	scene.light->properties["shadow_technique"] = std::string("from_another_build");
 	scene.light->properties["from_another_build_quality"] = int64_t(7);
 	CaughtLines log;
-	const RenderResult result = fixture.render_picture(scene);
-	fixture.render_picture(scene);
+	const RenderResult result = fixture.render_image(scene);
+	fixture.render_image(scene);
 	REQUIRE(log.lines.size() == 1);
 	CHECK(log.lines[0].find("from_another_build") != std::string::npos);
 	CHECK(result.plan.is_left_out("Light", fallback ? "from_another_build" : "shadow"));
@@ -173,7 +173,7 @@ TEST_CASE(
 TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while frames are drawn") {
 	RenderFixture fixture;
 	SmallScene scene;
-	const RenderResult before = fixture.render_picture(scene);
+	const RenderResult before = fixture.render_image(scene);
 	std::vector<std::string> names;
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		if (module.can_disable && module.is_enabled) {
@@ -184,16 +184,16 @@ TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while fr
 	const size_t technique_count = ShadowRegistry::get_all().size();
 	for (const std::string &name : names) {
 		ModuleRegistry::set_enabled(name, false);
-		CHECK(fixture.render_picture(scene).image.size() == before.image.size());
+		CHECK(fixture.render_image(scene).image.size() == before.image.size());
 	}
 	CHECK(ShadowRegistry::get_all().empty());
-	const RenderResult none = fixture.render_picture(scene);
+	const RenderResult none = fixture.render_image(scene);
 	CHECK(none.plan.is_left_out("Light", "shadow"));
 	for (const std::string &name : names) {
 		ModuleRegistry::set_enabled(name, true);
 	}
 	CHECK(ShadowRegistry::get_all().size() == technique_count);
-	CHECK(fixture.render_picture(scene).image == before.image);
+	CHECK(fixture.render_image(scene).image == before.image);
 }
 
 TEST_CASE("[GPU][Renderer] a value out of range is reported once and its default is used") {
@@ -223,8 +223,8 @@ TEST_CASE("[GPU][Renderer] memory is given back when the scene's meshes are gone
 	uint64_t used_bytes = 0;
 	for (int round = 0; round < 3; ++round) {
 		SmallScene scene; // new meshes each time
-		fixture.render_picture(scene);
-		fixture.render_picture(scene);
+		fixture.render_image(scene);
+		fixture.render_image(scene);
 		if (round > 0) {
 			CHECK(fixture.device->get_memory_use().used_bytes <= used_bytes + 4096);
 		}
@@ -296,7 +296,7 @@ TEST_CASE("[GPU][Renderer] a mask's standard error is that of its technique") {
 	CHECK(fixture.render_mask(scene, ShadowRegistry::find_default()->id).standard_error == 0.0f);
 }
 
-TEST_CASE("[GPU][Renderer] without geometry shaders a picture differs at edges only") {
+TEST_CASE("[GPU][Renderer] without geometry shaders an image differs at edges only") {
 	RenderFixture fixture;
 	RenderFixture limited("", { &DeviceFeatures::geometry_shader });
 	SmallScene scene;

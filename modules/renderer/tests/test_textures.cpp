@@ -25,7 +25,7 @@ double linear_to_srgb(double p_value) {
 	return p_value <= 0.0031308 ? p_value * 12.92 : 1.055 * std::pow(p_value, 1 / 2.4) - 0.055;
 }
 
-/// A picture of noise that is the same every time.
+/// An image of noise that is the same every time.
 std::shared_ptr<const Image> make_noise(glm::uvec2 p_size_px, uint32_t p_seed = 1) {
 	std::vector<uint8_t> texels;
 	uint32_t state = p_seed * 747796405u + 2891336453u;
@@ -101,7 +101,7 @@ struct Texels {
 	}
 };
 
-/// A square that fills the picture of a camera, with coordinates from p_low at the top left to
+/// A square that fills the image of a camera, with coordinates from p_low at the top left to
 /// p_high at the bottom right.
 struct Square {
 	Material material;

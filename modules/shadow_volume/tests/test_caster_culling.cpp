@@ -1,4 +1,4 @@
-// What occlusion culling leaves out, and that the picture never tells.
+// What occlusion culling leaves out, and that the image never tells.
 
 #include "modules/shadow_volume/culling_boxes.h"
 #include "modules/shadow_volume/tests/volume_fixture.h"
@@ -161,7 +161,7 @@ TEST_CASE(
 	check_same(render_culled(fixture, scene, "auto"), render_culled(fixture, scene, "off"));
 }
 
-TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the picture") {
+TEST_CASE("[GPU][ShadowVolume] random casters: culling never changes the image") {
 	MaskFixture fixture;
 	std::mt19937 random(11);
 	size_t hidden_count = 0;

@@ -19,7 +19,7 @@ struct HardDifference {
 	size_t unexplained_count = 0;
 };
 
-/// Rays to the light's centre, in double. Pictures are square.
+/// Rays to the light's centre, in double. Images are square.
 class HardTruth {
 public:
 	explicit HardTruth(const SmallScene &p_scene) : scene(p_scene.snap()) {

@@ -159,7 +159,7 @@ TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on 
 	const nlohmann::ordered_json json = StabilityPart().to_json(report);
 	CHECK(json[0]["series"][0]["break_after"] == "0.5");
 	CHECK(json[0]["series"][0]["points"][10]["state"] == "doubled");
-	// What no picture of 8 bits shows is no break.
+	// What no image of 8 bits shows is no break.
 	CHECK_FALSE(find_stability_plots(make_light_size_report({ 0, 0, 0, 0, 0, 0, 1e-5, 1e-3 }))[0]
 						.curves[0]
 						.break_after);

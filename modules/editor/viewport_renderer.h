@@ -9,19 +9,19 @@ namespace gnomon {
 
 /// Draws the scene for the viewport, when something has changed: coarser while it moves on a device
 /// that is a CPU, sharp once it rests. A second time with another technique where two are compared.
-class PictureMaker {
+class ViewportRenderer {
 public:
-	PictureMaker(RenderingDevice &p_device, Renderer &p_renderer) :
+	ViewportRenderer(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Draws if need be. An Error is told in the status bar, and the last picture stays.
+	/// Draws if need be. An Error is told in the status bar, and the last image stays.
 	void update(EditorContext &r_context);
 	/// What techniques kept of earlier frames is not true any more: shaders are others.
 	void forget_kept();
-	/// Empty before the first picture.
-	TextureRID get_picture() const { return picture.get(); }
+	/// Empty before the first image.
+	TextureRID get_image() const { return image.get(); }
 	/// Of the compared technique; empty while none is.
-	TextureRID get_compared_picture() const { return compared_picture.get(); }
+	TextureRID get_compared_image() const { return compared_image.get(); }
 	/// All that were drawn so far, and the sharp ones of them.
 	uint32_t get_drawn_count() const { return drawn_count; }
 	uint32_t get_count() const { return sharp_count; }
@@ -32,15 +32,15 @@ private:
 
 	void draw(EditorContext &r_context, glm::uvec2 p_size_px);
 	void draw_compared(EditorContext &r_context, RenderRequest p_request);
-	RenderResult draw_into(OwnedTexture &r_picture, RenderRequest p_request, Renderer &r_renderer);
+	RenderResult draw_into(OwnedTexture &r_image, RenderRequest p_request, Renderer &r_renderer);
 	void list_debug_views(EditorContext &r_context);
 
 	RenderingDevice &device;
 	Renderer &renderer;
 	/// Keeps what the compared technique keeps; only while there is one.
 	std::unique_ptr<Renderer> compared_renderer;
-	OwnedTexture picture;
-	OwnedTexture compared_picture;
+	OwnedTexture image;
+	OwnedTexture compared_image;
 	std::string drawn_light; // the light in question then
 	bool is_coarse = false;
 	uint32_t divisor = 2; // of the size, while it is coarse

@@ -1,23 +1,23 @@
-/* The picture viewer of a scene: result against truth, the signed error, and the numbers of one cell. Pictures are
+/* The image viewer of a scene: result against truth, the signed error, and the numbers of one cell. Images are
    decoded when they are shown, because a report can hold several hundred. */
 (function () {
 	"use strict";
 
 	const report = window.GnomonReport;
 	const make = report.make;
-	// A wipe shows two pictures; going back and forth between a few cells shall not decode again.
-	const KEPT_PICTURE_COUNT = 16;
+	// A wipe shows two images; going back and forth between a few cells shall not decode again.
+	const KEPT_IMAGE_COUNT = 16;
 	const SHOWN_PASS_COUNT = 6;
-	const pictures = new Map();
+	const images = new Map();
 
-	/* { width, height, data: RGBA bytes } of an embedded picture, or null where there is none of that name. */
+	/* { width, height, data: RGBA bytes } of an embedded image, or null where there is none of that name. */
 	function loadPixels(name) {
 		const url = report.data.images[name];
 		if (!url) {
 			return Promise.resolve(null);
 		}
-		if (!pictures.has(name)) {
-			pictures.set(name, new Promise((resolve, reject) => {
+		if (!images.has(name)) {
+			images.set(name, new Promise((resolve, reject) => {
 				const image = new Image();
 				image.onload = () => {
 					const canvas = make("canvas", { width: image.naturalWidth, height: image.naturalHeight });
@@ -25,14 +25,14 @@
 					context.drawImage(image, 0, 0);
 					resolve(context.getImageData(0, 0, canvas.width, canvas.height));
 				};
-				image.onerror = () => reject(new Error(`The picture ${name} cannot be decoded.`));
+				image.onerror = () => reject(new Error(`The image ${name} cannot be decoded.`));
 				image.src = url;
 			}));
-			if (pictures.size > KEPT_PICTURE_COUNT) {
-				pictures.delete(pictures.keys().next().value);
+			if (images.size > KEPT_IMAGE_COUNT) {
+				images.delete(images.keys().next().value);
 			}
 		}
-		return pictures.get(name);
+		return images.get(name);
 	}
 
 	function getHeatColor(error) {
@@ -193,7 +193,7 @@
 				return showMessage(cell.status === "missing" ? "Not measured." : `Failed: ${cell.message || "no message"}`);
 			}
 			if (!result || !truth) {
-				return showMessage("This cell has no picture in this page.");
+				return showMessage("This cell has no image in this page.");
 			}
 			if (result.width !== truth.width || result.height !== truth.height) {
 				return showMessage("Result and truth differ in size.");

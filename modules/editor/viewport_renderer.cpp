@@ -1,4 +1,4 @@
-#include "modules/editor/picture_maker.h"
+#include "modules/editor/viewport_renderer.h"
 
 #include "modules/core/text.h"
 #include "modules/shadows/shadow_registry.h"
@@ -10,8 +10,8 @@ namespace gnomon {
 
 namespace {
 
-const std::chrono::milliseconds REST{ 250 }; // without change, before the picture is sharpened
-// How much coarser, by how long the last coarse picture took.
+const std::chrono::milliseconds REST{ 250 }; // without change, before the image is sharpened
+// How much coarser, by how long the last coarse image took.
 const uint32_t LEAST_DIVISOR = 2;
 const uint32_t GREATEST_DIVISOR = 4;
 const double QUICK_MS = 25;
@@ -31,26 +31,26 @@ RenderRequest make_request(
 
 } // namespace
 
-void PictureMaker::update(EditorContext &r_context) {
+void ViewportRenderer::update(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const Clock::time_point now = Clock::now();
 	const bool is_slow = r_context.device.type == "CPU";
 	const bool asks_for_light =
 			!viewport.debug_view.empty() || !viewport.compared_technique.empty();
 	const std::string light = r_context.find_light_name();
-	viewport.needs_picture |= asks_for_light && !light.empty() && light != drawn_light;
-	if (viewport.needs_picture) {
+	viewport.needs_redraw |= asks_for_light && !light.empty() && light != drawn_light;
+	if (viewport.needs_redraw) {
 		last_change = now;
 	}
 	if (viewport.wants_debug_views) {
 		r_context.attempt([&] { list_debug_views(r_context); });
 	}
 	const bool sharpens = is_coarse && now - last_change > REST;
-	if ((!viewport.needs_picture && !sharpens) || viewport.size_px == glm::uvec2(0)) {
+	if ((!viewport.needs_redraw && !sharpens) || viewport.size_px == glm::uvec2(0)) {
 		return;
 	}
 	is_coarse = is_slow && viewport.is_moving && !sharpens;
-	viewport.needs_picture = false;
+	viewport.needs_redraw = false;
 	viewport.is_moving = false;
 	try {
 		draw(r_context, glm::max(viewport.size_px / (is_coarse ? divisor : 1u), glm::uvec2(1)));
@@ -65,12 +65,12 @@ void PictureMaker::update(EditorContext &r_context) {
 	}
 }
 
-void PictureMaker::forget_kept() {
+void ViewportRenderer::forget_kept() {
 	renderer.forget_kept();
 	compared_renderer.reset();
 }
 
-void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
+void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	const Clock::time_point start = Clock::now();
 	const ViewportState &viewport = r_context.viewport;
 	const ErrorState &error = r_context.error;
@@ -81,15 +81,15 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 			compute_truth_hash(*request.scene, *seen, p_size_px) == error.truth_hash) {
 		request.truth = error.truth;
 	}
-	r_context.shown = draw_into(picture, request, renderer);
-	r_context.picture_size_px = p_size_px;
-	r_context.is_picture_coarse = is_coarse;
+	r_context.shown = draw_into(image, request, renderer);
+	r_context.image_size_px = p_size_px;
+	r_context.is_image_coarse = is_coarse;
 	++drawn_count;
 	sharp_count += is_coarse ? 0 : 1;
 	try {
 		draw_compared(r_context, request);
 	} catch (const std::exception &failure) {
-		compared_picture.reset(); // it would show something else than the one beside it
+		compared_image.reset(); // it would show something else than the one beside it
 		r_context.complain(describe_failure(failure));
 	}
 	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -99,7 +99,7 @@ void PictureMaker::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 }
 
 /// The same with another technique for the light in question.
-void PictureMaker::draw_compared(EditorContext &r_context, RenderRequest p_request) {
+void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_request) {
 	std::string &technique = r_context.viewport.compared_technique;
 	if (!technique.empty() && ShadowRegistry::find(technique) == nullptr) {
 		r_context.complain(text("Technique \"", technique,
@@ -107,7 +107,7 @@ void PictureMaker::draw_compared(EditorContext &r_context, RenderRequest p_reque
 		technique.clear();
 	}
 	if (technique.empty()) {
-		compared_picture.reset();
+		compared_image.reset();
 		compared_renderer.reset();
 		return;
 	}
@@ -121,28 +121,28 @@ void PictureMaker::draw_compared(EditorContext &r_context, RenderRequest p_reque
 	if (!compared_renderer) {
 		compared_renderer = std::make_unique<Renderer>(device);
 	}
-	draw_into(compared_picture, std::move(p_request), *compared_renderer);
+	draw_into(compared_image, std::move(p_request), *compared_renderer);
 }
 
-/// r_picture is made anew where its size is another, and stays as it is on an Error.
-RenderResult PictureMaker::draw_into(
-		OwnedTexture &r_picture, RenderRequest p_request, Renderer &r_renderer) {
+/// r_image is made anew where its size is another, and stays as it is on an Error.
+RenderResult ViewportRenderer::draw_into(
+		OwnedTexture &r_image, RenderRequest p_request, Renderer &r_renderer) {
 	OwnedTexture made;
-	if (!r_picture || device.get_desc(r_picture.get()).size_px != p_request.size_px) {
+	if (!r_image || device.get_desc(r_image.get()).size_px != p_request.size_px) {
 		made = OwnedTexture(device,
 				device.create_texture({ "viewport", Format::RGBA8_UNORM, p_request.size_px, 1,
 						TextureUsage::SAMPLED | TextureUsage::COPY_TARGET }));
 	}
-	p_request.picture_target = made ? made.get() : r_picture.get();
+	p_request.image_target = made ? made.get() : r_image.get();
 	RenderResult result = r_renderer.render(p_request);
 	if (made) {
-		r_picture = std::move(made);
+		r_image = std::move(made);
 	}
 	return result;
 }
 
 /// Techniques make their intermediate images only when one is asked for: a tiny frame asks.
-void PictureMaker::list_debug_views(EditorContext &r_context) {
+void ViewportRenderer::list_debug_views(EditorContext &r_context) {
 	const glm::uvec2 LIST_SIZE_PX(32);
 	r_context.viewport.wants_debug_views = false;
 	r_context.viewport.debug_views =

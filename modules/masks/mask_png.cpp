@@ -1,4 +1,4 @@
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 
 #include "modules/core/error.h"
 #include "modules/masks/mask_metrics.h"
@@ -26,7 +26,7 @@ std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image) {
 	std::vector<uint8_t> pixels(p_image.get_pixel_count(), 0);
 	for (size_t i = 0; i < pixels.size(); ++i) {
 		if (!std::isfinite(p_image.visibility[i])) {
-			fail("Picture of a mask: pixel (", i % p_image.size_px.x, ", ", i / p_image.size_px.x,
+			fail("Image of a mask: pixel (", i % p_image.size_px.x, ", ", i / p_image.size_px.x,
 					") is ", p_image.visibility[i], ", must be finite.");
 		}
 		pixels[i] = p_image.is_receiver(i) ? to_byte(p_image.visibility[i]) : 0;

@@ -1,7 +1,7 @@
 #include "modules/core/error.h"
 #include "modules/core/files.h"
 #include "modules/core/tests/temporary_folder.h"
-#include "modules/masks/mask_picture.h"
+#include "modules/masks/mask_png.h"
 
 #include <doctest/doctest.h>
 #include <stb/stb_image.h>
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-MaskImage make_picture_mask() {
+MaskImage make_test_mask() {
 	MaskImage image;
 	image.size_px = glm::uvec2(3, 2);
 	image.visibility = { 0, 0.5f, 1, 0.25f, 0, 0.999f };
@@ -40,25 +40,25 @@ std::vector<uint8_t> load_png(const fs::path &p_path, int p_channel_count) {
 
 } // namespace
 
-TEST_CASE("[MaskPicture] a mask is written as linear grey, no receiver as black") {
+TEST_CASE("[MaskPng] a mask is written as linear grey, no receiver as black") {
 	const TemporaryFolder temporary;
 	const fs::path &folder = temporary.path;
-	MaskImage image = make_picture_mask();
+	MaskImage image = make_test_mask();
 	image.visibility[4] = 0.7f;
 	save_mask_png(folder / "mask.png", image);
 	CHECK(load_png(folder / "mask.png", 1) == std::vector<uint8_t>{ 0, 128, 255, 64, 0, 255 });
 
-	MaskImage result = make_picture_mask();
+	MaskImage result = make_test_mask();
 	result.visibility[1] = 0.25f;
-	save_error_png(folder / "error.png", make_picture_mask(), result);
-	CHECK(load_png(folder / "error.png", 3) == compute_error_pixels(make_picture_mask(), result));
+	save_error_png(folder / "error.png", make_test_mask(), result);
+	CHECK(load_png(folder / "error.png", 3) == compute_error_pixels(make_test_mask(), result));
 	CHECK_THROWS_AS(save_mask_png(folder / "none" / "mask.png", image), Error);
 	CHECK_THROWS_AS(save_mask_png(folder / "empty.png", MaskImage()), Error);
 	CHECK(std::distance(fs::directory_iterator(folder), {}) == 2);
 }
 
-TEST_CASE("[MaskPicture] errors are white at 0, blue when too dark, red when too light") {
-	const MaskImage truth = make_picture_mask();
+TEST_CASE("[MaskPng] errors are white at 0, blue when too dark, red when too light") {
+	const MaskImage truth = make_test_mask();
 	MaskImage result = truth;
 	result.visibility = { 0, 0.25f, 0, 0.375f, 0, 0.999f };
 	const std::vector<uint8_t> pixels = compute_error_pixels(truth, result);
@@ -85,13 +85,13 @@ TEST_CASE("[MaskPicture] errors are white at 0, blue when too dark, red when too
 	CHECK(pixels == expected);
 }
 
-TEST_CASE("[MaskPicture] values outside 0..1 are clamped, those not finite are errors") {
-	MaskImage image = make_picture_mask();
+TEST_CASE("[MaskPng] values outside 0..1 are clamped, those not finite are errors") {
+	MaskImage image = make_test_mask();
 	image.visibility[0] = -3;
 	image.visibility[1] = 7;
 	CHECK(compute_mask_pixels(image)[0] == 0);
 	CHECK(compute_mask_pixels(image)[1] == 255);
 	image.visibility[1] = std::numeric_limits<float>::quiet_NaN();
 	CHECK_THROWS_AS(compute_mask_pixels(image), Error);
-	CHECK_THROWS_AS(compute_error_pixels(image, make_picture_mask()), Error);
+	CHECK_THROWS_AS(compute_error_pixels(image, make_test_mask()), Error);
 }
