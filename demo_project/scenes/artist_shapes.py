@@ -7,7 +7,7 @@ ground is y = 0. A mesh of this kind only promises finite positions, unit normal
 import math
 
 from gltf_writer import Mesh, add, cross, dot, normalize, quaternion_about, quaternion_from_y, rotate, scale, subtract
-from shapes import make_box, make_sheet
+from shapes import make_box, make_quad
 
 
 def make_open_tube(points, radius, side_count, angle_rad=0.0):
@@ -67,7 +67,7 @@ def make_kitbash_part(generator):
         return make_open_tube([(0.0, -half, 0.0), (0.0, half, 0.0)], generator.uniform(0.02, 0.09), side_count)
     if kind == "plank":
         return make_box((generator.uniform(0.2, 0.5), generator.uniform(0.005, 0.015), generator.uniform(0.04, 0.1)))
-    return make_sheet(generator.uniform(0.1, 0.3), generator.uniform(0.1, 0.3))
+    return make_quad(generator.uniform(0.1, 0.3), generator.uniform(0.1, 0.3))
 
 
 # Of the parts: one in that many is there twice, or has a third face on one of its edges.
@@ -90,7 +90,7 @@ def make_kitbash(generator, part_count):
                 part = make_box((generator.uniform(0.3, 0.5), 0.03, generator.uniform(0.25, 0.4)))
                 turn = quaternion_about((1.0, 0.0, 0.6), tilt)
             else:
-                part, turn = make_sheet(0.45, 0.35), quaternion_about((1.0, 0.0, 0.3), tilt - 0.5 * math.pi)
+                part, turn = make_quad(0.45, 0.35), quaternion_about((1.0, 0.0, 0.3), tilt - 0.5 * math.pi)
         else:
             part, turn = make_kitbash_part(generator), pick_turn(generator)
         first_vertex = len(mesh.positions)
@@ -214,7 +214,7 @@ BLADE_ROOT_DEPTH = 0.04
 
 
 def make_grass(generator, blade_count):
-    """Bent blades of two quads and a tip, each an open sheet that begins below the ground."""
+    """Bent blades of two quads and a tip, each an open mesh that begins below the ground."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for _ in range(blade_count):
         distance, angle = GRASS_RADIUS * math.sqrt(generator.random()), 2.0 * math.pi * generator.random()

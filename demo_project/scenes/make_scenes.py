@@ -19,7 +19,7 @@ from shapes import (
     make_clutter,
     make_cylinder,
     make_icosphere,
-    make_sheet,
+    make_quad,
     make_teapot,
     make_terrain,
     make_torus,
@@ -155,9 +155,9 @@ def make_open_sheets_scene():
     amber = document.add_material("Standing sheet", AMBER, roughness=0.7, is_double_sided=True)
     document.add_object("Cloth", make_cloth(24, 0.75, 0.09), plum, (-0.1, 1.2, -0.1))
     lean = quaternion_about((1.0, 0.4, 0.2), -0.6)
-    document.add_object("Leaning sheet", make_sheet(0.35, 0.5), sky, (-1.2, 0.75, 0.7), lean)
+    document.add_object("Leaning sheet", make_quad(0.35, 0.5), sky, (-1.2, 0.75, 0.7), lean)
     turn = quaternion_about((0.0, 1.0, 0.0), -0.5)
-    document.add_object("Standing sheet", make_sheet(0.5, 0.4), amber, (1.05, 0.4, -0.9), turn)
+    document.add_object("Standing sheet", make_quad(0.5, 0.4), amber, (1.05, 0.4, -0.9), turn)
     return document
 
 

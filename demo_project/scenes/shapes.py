@@ -258,7 +258,7 @@ def make_terrain(cell_count, half_width, floor_y, seed):
 
 
 def make_cloth(cell_count, half_width, wave_height):
-    """An open, wavy sheet about the origin."""
+    """An open, wavy mesh about the origin."""
     mesh = Mesh(is_closed=False)
     side = cell_count + 1
     for i in range(side):
@@ -275,7 +275,7 @@ def make_cloth(cell_count, half_width, wave_height):
     return mesh
 
 
-def make_sheet(half_width, half_height):
+def make_quad(half_width, half_height):
     """One quad in the plane z = 0, facing +Z."""
     mesh = Mesh(is_closed=False)
     normal = (0.0, 0.0, 1.0)

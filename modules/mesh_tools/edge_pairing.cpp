@@ -37,7 +37,7 @@ std::vector<FacePair> pair_faces_at_edge(
 		if (angles_rad[p_left] != angles_rad[p_right]) {
 			return angles_rad[p_left] < angles_rad[p_right];
 		}
-		// Two sides of one sheet are a wedge of no thickness, not one all around it.
+		// Two sides of one double-sided face are a wedge of no thickness, not one all around it.
 		if (p_faces[p_left].runs_along != p_faces[p_right].runs_along) {
 			return !p_faces[p_left].runs_along;
 		}

@@ -81,9 +81,9 @@ std::shared_ptr<const Mesh> make_turned_box(double p_half_size_m) {
 			std::vector<uint32_t>(box->indices.rbegin(), box->indices.rend()));
 }
 
-std::shared_ptr<const Mesh> make_sheet() {
+std::shared_ptr<const Mesh> make_open_mesh() {
 	return make_mesh(
-			"sheet", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
+			"open mesh", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
 }
 
 std::shared_ptr<const Mesh> make_odd_mesh() {

@@ -65,7 +65,7 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 /// A closed box whose faces look inwards.
 std::shared_ptr<const Mesh> make_turned_box(double p_half_size_m);
 /// One leaning triangle without thickness.
-std::shared_ptr<const Mesh> make_sheet();
+std::shared_ptr<const Mesh> make_open_mesh();
 /// Triangles of no area, slivers, faces that lie on each other, and normals of length 0.
 std::shared_ptr<const Mesh> make_odd_mesh();
 

@@ -40,9 +40,9 @@ const std::vector<Guard> &get_guards() {
 					r_draft.add_box("rod", r_draft.light_position + glm::dvec3(-0.35, 0, 0.3),
 							{ 0.05f, 1.2f, 0.05f });
 				} },
-		{ "sheet across the light's plane",
+		{ "open mesh across the light's plane",
 				[](StabilityDraft &r_draft) {
-					r_draft.add_mesh("sheet", make_sheet(),
+					r_draft.add_mesh("open mesh", make_open_mesh(),
 							r_draft.light_position + glm::dvec3(-0.35, 0, 0.3));
 				} },
 		{ "zero areas, slivers, duplicates, zero normals",
@@ -57,9 +57,9 @@ const std::vector<Guard> &get_guards() {
 				[](StabilityDraft &r_draft) {
 					r_draft.add_box("flush", { 0.9, 0.2, 0.9 }, { 0.3f, 0.2f, 0.3f }, 0.3);
 				} },
-		{ "open sheet",
+		{ "open mesh",
 				[](StabilityDraft &r_draft) {
-					r_draft.add_mesh("sheet", make_sheet(), { 0.6, 1.5, 0 });
+					r_draft.add_mesh("open mesh", make_open_mesh(), { 0.6, 1.5, 0 });
 				} },
 		{ "box turned inside out",
 				[](StabilityDraft &r_draft) {

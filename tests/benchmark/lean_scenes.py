@@ -6,7 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "demo_project", "scenes"))
 from gltf_writer import Document  # noqa: E402
-from shapes import make_box, make_icosphere, make_sheet, make_torus_knot  # noqa: E402
+from shapes import make_box, make_icosphere, make_quad, make_torus_knot  # noqa: E402
 from volume_scenes import save  # noqa: E402
 
 GREY = (0.6, 0.6, 0.6)
@@ -95,15 +95,15 @@ def make_room(folder):
     return save(document, "room", folder)
 
 
-def make_sheets(folder):
+def make_quads(folder):
     """Casters without a back, side by side: behind the first layer there is nothing."""
     document, material = begin()
-    sheet = document.add_mesh("Sheet", make_sheet(0.18, 0.18), material)
+    quad = document.add_mesh("Quad", make_quad(0.18, 0.18), material)
     for index in range(100):
         place = (0.4 * (index % 10 - 4.5), 0.5, 0.4 * (index // 10 - 4.5))
-        document.add_node("Sheet %d" % index, place, (-0.5**0.5, 0.0, 0.0, 0.5**0.5), mesh=sheet)
+        document.add_node("Quad %d" % index, place, (-0.5**0.5, 0.0, 0.0, 0.5**0.5), mesh=quad)
     add_spot(document, "Light", (0.3, 6.0, 0.2))
-    return save(document, "sheets", folder)
+    return save(document, "quads", folder)
 
 
 def make_knots(folder):

@@ -35,7 +35,7 @@ RULES = (
     Rule("lights that light nothing in view", lambda folder: lean_scenes.make_lights(12, folder), "light: left out, the camera sees no"),
     Rule("light views without casters", lean_scenes.make_tower, "left out, no casters", "shadow_map"),
     Rule("light views without receivers", lean_scenes.make_room, "left out, the camera sees no receiver in it", "shadow_map"),
-    Rule("third layer behind an empty second", lean_scenes.make_sheets, "layer 3 only if layer 2", "penumbra_fins",
+    Rule("third layer behind an empty second", lean_scenes.make_quads, "layer 3 only if layer 2", "penumbra_fins",
          ("technique.penumbra_fins.peeling=passes",)),
     Rule("fins and layers, r = t = 0", lean_scenes.make_balls, "fins: left out, r and t are 0", "penumbra_fins",
          ("penumbra_outer_width=0", "penumbra_inner_width=0")),

@@ -37,7 +37,7 @@ SKIPPED = (
     "*a depth texture is filled from the middle of a buffer*",
     "*geometry shader and compute draw*",
     "*devices without geometry shader*",
-    "*three nearest of five sheets*",
+    "*three nearest of five squares*",
     "*layers are sorted*and one pass*",
     "*a scene with one layer has two empty ones*",
     "*casters across the light's near plane are clamped*",

@@ -174,12 +174,12 @@ TEST_CASE("[Topology] duplicate faces are counted and paired into two equal surf
 
 	Mesh back_to_back = make_quad();
 	back_to_back.indices.insert(back_to_back.indices.end(), { 2, 1, 0, 3, 2, 0 });
-	const MeshTopology sheet = build_topology(back_to_back);
-	check_invariants(sheet);
-	CHECK(sheet.counts.duplicate_triangle_count == 2);
-	CHECK(sheet.counts.zero_normal_count == 4); // both sides cancel
-	for (const MeshEdge &edge : sheet.edges) {
-		const bool is_fold = sheet.planes[edge.face0].normal.z != sheet.planes[edge.face1].normal.z;
+	const MeshTopology double_sided = build_topology(back_to_back);
+	check_invariants(double_sided);
+	CHECK(double_sided.counts.duplicate_triangle_count == 2);
+	CHECK(double_sided.counts.zero_normal_count == 4); // both sides cancel
+	for (const MeshEdge &edge : double_sided.edges) {
+		const bool is_fold = double_sided.planes[edge.face0].normal.z != double_sided.planes[edge.face1].normal.z;
 		CHECK(is_fold); // each pair is the two sides of one triangle
 		CHECK_FALSE(edge.is_coplanar);
 	}

@@ -102,7 +102,7 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 
 enum class LightPlace { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
 
-/// Two solids and a sheet over the ground, anyhow.
+/// Two solids and an open mesh over the ground, anyhow.
 CountScene make_scene(LightPlace p_place, double p_radius_sizes, TestRandom &r_random) {
 	CountScene scene;
 	scene.is_directional = p_place == LightPlace::DIRECTIONAL;
@@ -127,7 +127,7 @@ CountScene make_scene(LightPlace p_place, double p_radius_sizes, TestRandom &r_r
 							  r_random.next(0.1, 0.6))),
 			place(0.3, 1.0));
 	scene.add(make_count_sphere(r_random.next(0.2, 0.7), 6), place(1.0, 2.0));
-	scene.add(make_mesh("sheet",
+	scene.add(make_mesh("quad",
 					  { { -0.5f, 0, -0.4f }, { 0.5f, 0, -0.4f }, { 0.5f, 0.1f, 0.4f },
 							  { -0.5f, 0, 0.4f } },
 					  {}, { 0, 1, 2, 0, 2, 3 }),

@@ -145,7 +145,7 @@ TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
 	CHECK(difference.penumbra_count > 20);
 }
 
-TEST_CASE("[EdgeCount] sheets without thickness cast the same shadow from both sides") {
+TEST_CASE("[EdgeCount] open meshes cast the same shadow from both sides") {
 	for (const bool is_turned : { false, true }) {
 		CAPTURE(is_turned);
 		CountScene scene;
@@ -154,7 +154,7 @@ TEST_CASE("[EdgeCount] sheets without thickness cast the same shadow from both s
 		if (is_turned) {
 			std::reverse(indices.begin(), indices.end());
 		}
-		scene.add(make_mesh("sheet",
+		scene.add(make_mesh("quad",
 						  { { -0.5f, 0, -0.4f }, { 0.5f, 0, -0.4f }, { 0.5f, 0, 0.4f },
 								  { -0.5f, 0, 0.4f } },
 						  {}, indices),
@@ -204,12 +204,12 @@ TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid 
 }
 
 TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays say") {
-	const auto sheet = make_mesh("sheet",
+	const auto quad = make_mesh("quad",
 			{ { -0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, 0.5f },
 					{ -0.5f, 0.0f, 0.5f } },
 			{}, { 0, 1, 2, 0, 2, 3 });
 	const std::shared_ptr<const Mesh> meshes[] = {
-		make_box_mesh("box", glm::vec3(0.3f, 0.2f, 0.5f)), make_count_sphere(0.3, 8), sheet
+		make_box_mesh("box", glm::vec3(0.3f, 0.2f, 0.5f)), make_count_sphere(0.3, 8), quad
 	};
 	for (const auto &mesh : meshes) {
 		CAPTURE(mesh->name);

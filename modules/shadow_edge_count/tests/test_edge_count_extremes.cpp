@@ -158,10 +158,10 @@ TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines no
 TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut, not lost") {
 	MaskFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 1.2f, 0.05f });
-	const auto sheet = make_mesh(
-			"sheet", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
+	const auto triangle = make_mesh(
+			"triangle", { { -0.3f, -1, 0 }, { 0.3f, -1, 0 }, { 0, 1.5f, 0.1f } }, {}, { 0, 1, 2 });
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
-		for (const auto &mesh : { rod, sheet }) {
+		for (const auto &mesh : { rod, triangle }) {
 			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(mesh->name);
 			SmallScene scene(type);
@@ -182,11 +182,11 @@ TEST_CASE(
 		"[GPU][EdgeCount] a caster that cuts the light's disc hides what rays say, mirrored too") {
 	MaskFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 0.3f, 0.08f });
-	const auto sheet = make_mesh("sheet",
+	const auto triangle = make_mesh("triangle",
 			{ { -0.3f, -0.4f, 0.01f }, { 0.3f, -0.4f, -0.02f }, { 0.02f, 0.5f, 0.1f } }, {},
 			{ 0, 1, 2 });
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
-		for (const auto &mesh : { rod, sheet }) {
+		for (const auto &mesh : { rod, triangle }) {
 			for (const double side : { 1.0, -1.0 }) {
 				CAPTURE(std::string(get_light_type_name(type)));
 				CAPTURE(mesh->name);
@@ -269,14 +269,14 @@ TEST_CASE("[GPU][EdgeCount] a caster a millionth as far as its receiver casts th
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] sheets cast the shadow that rays see, from both sides") {
+TEST_CASE("[GPU][EdgeCount] open meshes cast the shadow that rays see, from both sides") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const bool is_turned : { false, true }) {
 			CAPTURE(std::string(get_light_type_name(type)));
 			CAPTURE(is_turned);
 			SmallScene scene(type);
-			scene.box->surfaces[0].mesh = make_mesh("sheet",
+			scene.box->surfaces[0].mesh = make_mesh("quad",
 					{ { -0.6f, 0, -0.5f }, { 0.6f, 0, -0.5f }, { 0.6f, 0.2f, 0.5f },
 							{ -0.6f, 0, 0.5f } },
 					{},

@@ -160,10 +160,10 @@ TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") 
 			SmallScene scene(type);
 			add_globe(scene);
 			// Deep overlaps: face lists have no order.
-			for (int sheet = 0; sheet < 8; ++sheet) {
-				add_mesh(scene.scene, text("Sheet ", sheet),
-						make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }),
-						{ 0.05 * sheet, 1.4 + 0.1 * sheet, 0 });
+			for (int plate = 0; plate < 8; ++plate) {
+				add_mesh(scene.scene, text("Plate ", plate),
+						make_box_mesh("plate", { 0.6f, 0.01f, 0.6f }),
+						{ 0.05 * plate, 1.4 + 0.1 * plate, 0 });
 			}
 			scene.light->properties["light_size"] = 0.5;
 			for (int repeat = 0; repeat < 3; ++repeat) {

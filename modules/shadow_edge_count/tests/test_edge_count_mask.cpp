@@ -37,8 +37,8 @@ void add_overlapping_solids(SmallScene &r_scene) {
 		slab.parent_from_node =
 				glm::rotate(slab.parent_from_node, 0.5 + 0.6 * index, glm::dvec3(0.2, 1.0, 0.1));
 	}
-	add_mesh(r_scene.scene, "Sheet",
-			make_mesh("sheet",
+	add_mesh(r_scene.scene, "Quad",
+			make_mesh("quad",
 					{ { -0.5f, 0, -0.3f }, { 0.4f, 0, -0.4f }, { 0.5f, 0.2f, 0.4f },
 							{ -0.4f, 0, 0.4f } },
 					{}, { 0, 1, 2, 0, 2, 3 }),

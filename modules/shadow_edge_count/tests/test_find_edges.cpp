@@ -191,7 +191,7 @@ TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in d
 				matrix = glm::rotate(matrix, p_turn, glm::dvec3(0.3, 0.7, -0.2));
 				return glm::scale(matrix, glm::dvec3(p_scale, 1.0, 1.0));
 			};
-			const std::shared_ptr<const Mesh> sheet = make_mesh("sheet",
+			const std::shared_ptr<const Mesh> quad = make_mesh("quad",
 					{ { -0.5f, 0, -0.4f }, { 0.5f, 0, -0.4f }, { 0.5f, 0.1f, 0.4f },
 							{ -0.5f, 0, 0.4f } },
 					{}, { 0, 1, 2, 0, 2, 3 });
@@ -200,7 +200,7 @@ TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in d
 			casters[0].light_from_node = place(0.4, 1.0);
 			casters[1].topology = get_topology(make_box_mesh("box", glm::vec3(0.4, 0.3, 0.2)));
 			casters[1].light_from_node = place(1.3, -1.0); // mirrored
-			casters[2].topology = get_topology(sheet);
+			casters[2].topology = get_topology(quad);
 			casters[2].light_from_node = place(2.1, 1.0);
 			casters[3].topology = get_topology(make_count_sphere(0.3, 6));
 			casters[3].light_from_node = place(0.9, 1.5);

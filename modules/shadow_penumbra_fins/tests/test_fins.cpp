@@ -250,10 +250,10 @@ TEST_CASE("[GPU][PenumbraFins] mirrored and inside-out casters have the fins of 
 
 TEST_CASE("[GPU][PenumbraFins] vertices whose normals cancel are counted and nothing is NaN") {
 	FinsFixture fixture;
-	// A sheet and its back side: every vertex normal is zero.
-	Mesh sheet = test_meshes::make_quad();
-	sheet.indices.insert(sheet.indices.end(), { 2, 1, 0, 3, 2, 0 });
-	const SmallScene scene = make_scene(share("two-sided", sheet));
+	// A quad and its back side: every vertex normal is zero.
+	Mesh double_sided = test_meshes::make_quad();
+	double_sided.indices.insert(double_sided.indices.end(), { 2, 1, 0, 3, 2, 0 });
+	const SmallScene scene = make_scene(share("double-sided", double_sided));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64, 0.2f);
 	fixture.run(frame, [&](RenderGraph &, const ShadowTechnique::Inputs &p_inputs) {
 		CHECK(count_zero_normals(build_silhouette_casters(
@@ -276,9 +276,9 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 	const FinsFixture::Frame frame = able.make_frame(scene, 128, 0.2f);
 	const auto expected = able.draw_fins(frame, make_settings(0.2f, 0.1f, FinMethod::COMPUTE));
 	const auto expected_layers = able.find_layers(frame, 3, Peeling::PASSES);
-	const SmallScene sheet_scene = make_scene(share("quad", test_meshes::make_quad()));
-	const auto expected_sheet =
-			able.find_layers(able.make_frame(sheet_scene, 64), 3, Peeling::PASSES);
+	const SmallScene quad_scene = make_scene(share("quad", test_meshes::make_quad()));
+	const auto expected_quad =
+			able.find_layers(able.make_frame(quad_scene, 64), 3, Peeling::PASSES);
 	const FeatureList features = { &DeviceFeatures::geometry_shader,
 		&DeviceFeatures::fragment_stores, &DeviceFeatures::conditional_rendering,
 		&DeviceFeatures::depth_clamp };
@@ -289,8 +289,8 @@ TEST_CASE("[GPU][PenumbraFins] devices without geometry shader, stores, conditio
 		CHECK(maps.color == expected.color);
 		CHECK(maps.depth == expected.depth);
 		CHECK(lacks.find_layers(frame, 3, Peeling::PASSES) == expected_layers);
-		CHECK(lacks.find_layers(lacks.make_frame(sheet_scene, 64), 3, Peeling::PASSES) ==
-				expected_sheet);
+		CHECK(lacks.find_layers(lacks.make_frame(quad_scene, 64), 3, Peeling::PASSES) ==
+				expected_quad);
 		// A wish for one pass is granted only where it can be.
 		FinsSettings wish = make_settings(0.2f, 0.1f, FinMethod::COMPUTE);
 		wish.map_size_px = 128;

@@ -9,7 +9,7 @@ using namespace gnomon;
 namespace {
 
 /// Horizontal squares, one per height, all of them in the light's whole view.
-std::shared_ptr<const Mesh> make_sheets(const std::vector<float> &p_heights_m) {
+std::shared_ptr<const Mesh> make_squares(const std::vector<float> &p_heights_m) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (float height_m : p_heights_m) {
@@ -22,7 +22,7 @@ std::shared_ptr<const Mesh> make_sheets(const std::vector<float> &p_heights_m) {
 			indices.push_back(first + offset);
 		}
 	}
-	return make_mesh("sheets", positions, {}, indices);
+	return make_mesh("squares", positions, {}, indices);
 }
 
 /// A spot at 4 m that looks straight down on what p_mesh adds; no ground, no box.
@@ -39,11 +39,11 @@ SmallScene make_scene(const std::shared_ptr<const Mesh> &p_mesh, LightType p_typ
 
 } // namespace
 
-TEST_CASE("[GPU][PenumbraFins] the three nearest of five sheets are the layers, equal ones count "
+TEST_CASE("[GPU][PenumbraFins] the three nearest of five squares are the layers, equal ones count "
 		  "once") {
 	FinsFixture fixture;
-	// Sheets at 3, 2 (twice), 1, 0 and -1 m: 1, 2, 3, 4, 5 m below the light.
-	SmallScene scene = make_scene(make_sheets({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
+	// Squares at 3, 2 (twice), 1, 0 and -1 m: 1, 2, 3, 4, 5 m below the light.
+	SmallScene scene = make_scene(make_squares({ -1, 1, 3, 2, 0, 2 }), LightType::SPOT);
 	scene.light->parent_from_node = glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0),
 			glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 4, 0, 1));
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 64);
@@ -92,7 +92,7 @@ TEST_CASE("[GPU][PenumbraFins] layers are sorted, and one pass finds those of th
 
 TEST_CASE("[GPU][PenumbraFins] a scene with one layer has two empty ones, peeled or not") {
 	FinsFixture fixture;
-	const SmallScene scene = make_scene(make_sheets({ 1 }), LightType::SPOT);
+	const SmallScene scene = make_scene(make_squares({ 1 }), LightType::SPOT);
 	const FinsFixture::Frame frame = fixture.make_frame(scene, 32);
 	for (Peeling peeling : { Peeling::PASSES, Peeling::ONE_PASS }) {
 		const auto layers = fixture.find_layers(frame, 3, peeling)[0];
@@ -125,11 +125,11 @@ TEST_CASE("[GPU][PenumbraFins] the plan says where layer 3 waits for layer 2, wi
 		return lean.plan.to_text().find("layer 3 only if layer 2 holds anything, views: 1") !=
 				std::string::npos;
 	};
-	SmallScene sheet = make_scene(make_sheets({ 1.0f }), LightType::SPOT);
+	SmallScene square = make_scene(make_squares({ 1.0f }), LightType::SPOT);
 	const SettingScope scope("penumbra_fins", "peeling", "passes");
-	add_mesh(sheet.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
+	add_mesh(square.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
 			.casts_shadow = false;
-	CHECK(is_asked(sheet) == fixture.device->get_features().conditional_rendering);
+	CHECK(is_asked(square) == fixture.device->get_features().conditional_rendering);
 	SmallScene solid; // a box has a back: nothing is asked
 	CHECK_FALSE(is_asked(solid));
 }

@@ -153,7 +153,7 @@ TEST_CASE("[CasterScene] each translucent body leaves its part once, however oft
 	const glm::vec3 blue(0.125f, 0.5f, 0.75f);
 	std::vector<TranslucentTriangles> bodies(2);
 	bodies[0].transmittance = red;
-	for (const float y : { 1.0f, 1.2f, 1.4f }) { // three sheets of one body
+	for (const float y : { 1.0f, 1.2f, 1.4f }) { // three squares of one body
 		add_square(bodies[0].triangles, glm::vec3(0, y, 0), 1);
 	}
 	bodies[1].transmittance = blue;

@@ -68,7 +68,7 @@ void add_random_casters(SmallScene &r_scene, std::mt19937 &r_random) {
 	const std::vector<std::shared_ptr<const Mesh>> meshes = { make_box_mesh("box", glm::vec3(0.5f)),
 		make_box_mesh("plate", glm::vec3(1, 0.6f, 0.01f)),
 		share_mesh("sphere", test_meshes::make_sphere(2)),
-		share_mesh("sheet", test_meshes::make_quad()),
+		share_mesh("quad", test_meshes::make_quad()),
 		share_mesh("moebius", test_meshes::make_moebius(12)),
 		share_mesh("soup", test_meshes::make_soup(5, 20, 24)) };
 	for (int i = 0; i < 120; ++i) {

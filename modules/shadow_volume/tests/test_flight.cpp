@@ -20,7 +20,7 @@ const std::array<Pose, 13> FLIGHT = { {
 		{ { -0.2, 0.95, 0.1 }, { -0.6, 0.2, -0.8 } }, // into the box
 		{ { 0.1, 1.15, -0.2 }, { 0.7, 0.1, -0.9 } },  // out through its top
 		{ { 0.2, 1.8, -0.9 }, { 0.9, 0.3, 0.2 } },	  // through the moebius strip
-		{ { 0.9, 0.9, 0.3 }, { 0.2, 0.1, 1.3 } },	  // through the sheet
+		{ { 0.9, 0.9, 0.3 }, { 0.2, 0.1, 1.3 } },	  // through the quad
 		{ { 1.5, 0.5, 1.0 }, { 0.4, 0.4, 0.9 } },
 		{ { 0.4, 0.45, 1.35 }, { -0.9, 0.5, 0.4 } },  // through the wall
 		{ { -0.9, 0.8, 0.4 }, { -1.4, 0.4, -0.3 } },  // into the sphere

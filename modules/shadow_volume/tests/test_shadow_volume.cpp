@@ -88,11 +88,11 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 TEST_CASE("[GPU][ShadowVolume] more volumes than a stencil counts, one over the other") {
 	MaskFixture fixture;
 	SmallScene scene;
-	const auto sheet = make_box_mesh("sheet", glm::vec3(0.5f, 0.001f, 0.4f));
+	const auto plate = make_box_mesh("plate", glm::vec3(0.5f, 0.001f, 0.4f));
 	for (int index = 0; index < 255; ++index) { // with the box 256: a count that wraps to 0
-		add_mesh(scene.scene, text("Sheet ", index), sheet, { 0, 1.4 + 0.004 * index, 0 });
+		add_mesh(scene.scene, text("Plate ", index), plate, { 0, 1.4 + 0.004 * index, 0 });
 	}
 	const MaskResult frame = render_volumes(fixture, scene, { { "culling", std::string("off") } });
-	check_against_rays(scene, frame, 500); // the border is long: each sheet has one
+	check_against_rays(scene, frame, 500); // the border is long: each plate has one
 	CHECK(frame.plan.to_text().find("groups that the stencil can count: 2") != std::string::npos);
 }

@@ -48,7 +48,7 @@ inline void add_meshes(SmallScene &r_scene) {
 				glm::scale(node.parent_from_node, glm::dvec3(p_scale)), 0.7, { 0.3, 1, 0.2 });
 	};
 	add("sphere", test_meshes::make_sphere(3), { -0.9, 0.8, 0.4 }, 0.3);
-	add("sheet", test_meshes::make_quad(), { 0.9, 0.9, 0.3 }, 0.5);
+	add("quad", test_meshes::make_quad(), { 0.9, 0.9, 0.3 }, 0.5);
 	add("moebius", test_meshes::make_moebius(12), { 0.2, 1.8, -0.9 }, 0.4);
 	add("soup", test_meshes::make_soup(5, 20, 24), { -0.6, 0.7, -0.8 }, 0.3);
 	Mesh inside_out = test_meshes::make_cube();

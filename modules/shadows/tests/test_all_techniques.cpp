@@ -154,10 +154,10 @@ const HostileCase HOSTILE_CASES[] = {
 			} },
 	{ "more casters behind each other than layers",
 			[](SmallScene &r_scene) {
-				for (int sheet = 0; sheet < 12; ++sheet) {
-					add_mesh(r_scene.scene, text("Sheet ", sheet),
-							make_box_mesh("sheet", { 0.6f, 0.01f, 0.6f }),
-							{ 0, 1.4 + 0.1 * sheet, 0 });
+				for (int plate = 0; plate < 12; ++plate) {
+					add_mesh(r_scene.scene, text("Plate ", plate),
+							make_box_mesh("plate", { 0.6f, 0.01f, 0.6f }),
+							{ 0, 1.4 + 0.1 * plate, 0 });
 				}
 			} },
 	{ "slivers, duplicates, zero area and zero normals",
