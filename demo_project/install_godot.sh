@@ -35,7 +35,7 @@ install_godot() {
 }
 
 # Programs of another Debian run in a root of their own. Mounts are made in a namespace that ends with the program, so
-# that there is nothing to undo, and nothing to delete by mistake.
+# that there is nothing to undo, and nothing to delete by accident.
 _make_godot_root() {
     local root=$1 folder=$2 mirror
     if [ "$(id -u)" -ne 0 ]; then

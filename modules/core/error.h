@@ -40,7 +40,7 @@ template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_ar
 
 } // namespace gnomon
 
-/// Our own mistake, never bad input: prints the condition and the values given, then aborts.
+/// A programming error, never bad input: prints the condition and the values given, then aborts.
 /// On in every build: this program measures errors, so it must not go on with a wrong state.
 #define GNOMON_ASSERT(m_condition, ...)                                                            \
 	do {                                                                                           \

@@ -115,7 +115,7 @@ struct MeshTopology {
 /// more than two faces is split: faces of opposite winding that enclose a wedge of the inside are
 /// paired first, what is left by angle about the edge, an odd one becomes a boundary. The sum over
 /// faces that a silhouette weight is does not depend on this choice. Positions must be finite and
-/// indices valid, as make_mesh guarantees; a bad index is our mistake.
+/// indices valid, as make_mesh guarantees; a bad index is a programming error.
 MeshTopology build_topology(const Mesh &p_mesh);
 
 /// As build_topology, kept as long as the mesh lives; of a mesh that poses deform, that of its mesh

@@ -8,7 +8,7 @@
 namespace gnomon {
 
 /// Records commands of one submission; got from RenderingDevice::begin_commands and valid until
-/// submit_commands. All mistakes in the order of calls are assertions.
+/// submit_commands. All errors in the order of calls are assertions.
 class CommandList {
 public:
 	virtual ~CommandList() = default;

@@ -127,8 +127,8 @@ public:
 	/// Other SPIR-V for these entry points from now on: makes all pipelines anew that use one of
 	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
 	/// wants other bindings or push constants than this build's, are an Error that leaves
-	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is our
-	/// mistake.
+	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is a
+	/// programming error.
 	virtual void replace_shaders(
 			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) = 0;
 	virtual void free(BufferRID p_buffer) = 0;

@@ -13,7 +13,7 @@ public:
 	PipelineStages(const PipelineStages &) = delete;
 	PipelineStages &operator=(const PipelineStages &) = delete;
 
-	/// An unknown shader is an Error; a shader of another stage is our mistake.
+	/// An unknown shader is an Error; a shader of another stage is a programming error.
 	void add(const std::string &p_shader, VkShaderStageFlagBits p_expected_stage);
 	const std::vector<ReflectedShader> &get_reflected() const { return reflected; }
 	const std::vector<VkPipelineShaderStageCreateInfo> &get_infos() const { return infos; }

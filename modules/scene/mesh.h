@@ -90,7 +90,7 @@ struct Mesh {
 	bool is_deformable() const { return attributes.rig || !source.points.empty(); }
 };
 
-/// Checks sizes and indices (a mistake is an Error naming the mesh), fills missing or unusable
+/// Checks sizes and indices (a bad one is an Error naming the mesh), fills missing or unusable
 /// normals by area-weighted face normals, computes the bounds and the hash, and gives the mesh its
 /// id.
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,

@@ -25,7 +25,7 @@ struct Image {
 	}
 };
 
-/// Four bytes a texel, at least one texel: else our mistake.
+/// Four bytes a texel, at least one texel: else a programming error.
 std::shared_ptr<const Image> make_image(
 		std::string p_name, glm::uvec2 p_size_px, std::vector<uint8_t> p_texels);
 

@@ -24,7 +24,7 @@ class CasterScene {
 public:
 	/// Three indices per triangle. Positions relative to an origin near the camera, so that float32
 	/// suffices. Triangles with a position that is not finite are left out; an index out of range
-	/// is our mistake. Embree failing is an Error.
+	/// is a programming error. Embree failing is an Error.
 	/// p_translucent: each leaves its part of the rays that meet it; several multiply.
 	CasterScene(std::span<const glm::vec3> p_positions,
 			std::span<const uint32_t> p_triangle_indices,

@@ -31,7 +31,7 @@ PropertyValues resolve_light_properties(const LightSnapshot &p_light, const Prop
 /// A property of lights, ID_NAME, that is the setting NAME of the technique now: files may hold it.
 void add_moved_setting(const std::string &p_id, const std::string &p_name, PropertyList &r_list);
 
-/// Names that do not begin with the id, or a property without a tooltip, are our mistake.
+/// Names that do not begin with the id, or a property without a tooltip, are programming errors.
 void check_own_properties(const std::string &p_id, const PropertyList &p_list);
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Feeds one mistake of each kind to the replay of fuzz inputs; one that it does not report is a failure.
+"""Feeds one failure of each kind to the replay of fuzz inputs; one that it does not report is a failure.
 
     test_replay.py SUFFIX        of bin/canary_replay.SUFFIX, as scons names it: release_address_undefined
 
@@ -12,7 +12,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-MISTAKES = ("overflow", "undefined", "exception", "assertion", "leak", "slow", "large")
+FAILURES = ("overflow", "undefined", "exception", "assertion", "leak", "slow", "large")
 GOOD = ("documented", "fine")
 
 
@@ -22,19 +22,19 @@ def main():
         return 2
     program = os.path.join(ROOT, "bin", "canary_replay." + sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
-        for word in MISTAKES + GOOD:
+        for word in FAILURES + GOOD:
             with open(os.path.join(folder, word), "w", encoding="utf-8") as file:
                 file.write(word)
         command = [program, "--limit-s", "2", folder]
         result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
         reported = [line for line in result.stdout.splitlines() if line.startswith("FAILED: ")]
         failed = 0
-        for word in MISTAKES + GOOD:
+        for word in FAILURES + GOOD:
             is_reported = any(line.startswith("FAILED: %s: " % os.path.join(folder, word)) for line in reported)
-            if is_reported != (word in MISTAKES):
+            if is_reported != (word in FAILURES):
                 failed += 1
                 print("FAILED: the replay %s %s" % ("reports" if is_reported else "does not report", word))
-        summary = "%d passed, %d failed, 0 skipped" % (len(GOOD), len(MISTAKES))
+        summary = "%d passed, %d failed, 0 skipped" % (len(GOOD), len(FAILURES))
         if result.returncode != 1 or result.stdout.splitlines()[-1:] != [summary]:
             failed += 1
             print("FAILED: the replay ended with %d and %s" % (result.returncode, result.stdout.splitlines()[-1:]))
@@ -43,7 +43,7 @@ def main():
         if subprocess.run([program, empty], capture_output=True, check=False, timeout=120).returncode != 2:
             failed += 1
             print("FAILED: the replay takes an empty corpus for a good one")
-    print("%d passed, %d failed, 0 skipped" % (len(MISTAKES) + len(GOOD) + 2 - failed, failed))
+    print("%d passed, %d failed, 0 skipped" % (len(FAILURES) + len(GOOD) + 2 - failed, failed))
     return 1 if failed else 0
 
 

@@ -18,7 +18,7 @@ std::vector<std::string> list_live_resources(RenderingDevice &r_device);
 uint32_t get_pipeline_count(RenderingDevice &r_device);
 
 /// While it lives, validation messages are collected here and neither counted nor logged. Only for
-/// tests that make a mistake on purpose, to see that the layers notice it. The innermost one
+/// tests that make an error on purpose, to see that the layers notice it. The innermost one
 /// collects.
 class ExpectedValidationMessages {
 public:

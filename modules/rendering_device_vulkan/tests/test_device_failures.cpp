@@ -83,7 +83,7 @@ TEST_CASE("[GPU][RenderingDevice] a lost device names the last pass, in every ca
 			error);
 }
 
-TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate mistake") {
+TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate error") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const unsigned count_before = get_validation_message_count();

@@ -1,4 +1,4 @@
-// A fuzz target with one mistake of each kind, chosen by the input's first word. The replay must
+// A fuzz target with one failure of each kind, chosen by the input's first word. The replay must
 // report each; see test_replay.py.
 #include "tests/fuzz/fuzz_target.h"
 
@@ -13,9 +13,9 @@ using namespace gnomon;
 
 namespace {
 
-const uint8_t *volatile kept = nullptr; // volatile: the compiler must not see the mistakes
+const uint8_t *volatile kept = nullptr; // volatile: the compiler must not see the errors
 
-void make_mistake(std::string_view p_word, const uint8_t *p_data, size_t p_size) {
+void cause_failure(std::string_view p_word, const uint8_t *p_data, size_t p_size) {
 	if (p_word == "overflow") {
 		kept = p_data + p_size;
 		kept = p_data + *kept; // reads the byte after the input
@@ -42,5 +42,5 @@ void make_mistake(std::string_view p_word, const uint8_t *p_data, size_t p_size)
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
-	return run_reader([&] { make_mistake(to_text(p_data, p_size), p_data, p_size); });
+	return run_reader([&] { cause_failure(to_text(p_data, p_size), p_data, p_size); });
 }
