@@ -48,7 +48,7 @@ def escape(text):
 
 
 def get_value(row, get):
-    """None where a technique failed or has no truth; JSON's null is None as well."""
+    """None where a technique failed or has no reference; JSON's null is None as well."""
     try:
         value = get(row)
     except (TypeError, KeyError):
@@ -258,7 +258,7 @@ class Page:
         if light["truth"] and shown:
             parts.append(
                 '<div class="strip">'
-                '<figure><img loading="lazy" alt="Exact visibility" src="%s"><figcaption>truth, %.1f s</figcaption></figure>'
+                '<figure><img loading="lazy" alt="Exact visibility" src="%s"><figcaption>reference, %.1f s</figcaption></figure>'
                 '<figure><img loading="lazy" class="mask" alt="Visibility by the technique" src="%s">'
                 '<figcaption class="shown">%s</figcaption></figure>'
                 '<figure><img loading="lazy" class="heat" alt="Signed error" src="%s">'
@@ -304,7 +304,7 @@ class Page:
             lines.append(("Driver", "%s, Vulkan %s" % (device.get("driver", "?"), device.get("api_version", "?"))))
         lines.append(("CPU", "%s, %s threads" % (info.get("cpu", "?"), info.get("threads", "?"))))
         samples = self.results.get("samples") or "default"
-        lines.append(("Masks", "%s, truth with %s samples of the light" % (self.results["size"].replace("x", " × "), samples)))
+        lines.append(("Masks", "%s, reference with %s samples of the light" % (self.results["size"].replace("x", " × "), samples)))
         lines.append(("Run", "%.0f s, %d failed" % (self.results.get("seconds", 0.0), self.results.get("failure_count", 0))))
         rows = "".join("<dt>%s</dt><dd>%s</dd>" % (escape(key), escape(value)) for key, value in lines)
         return '<section id="machine"><h2>Machine</h2><dl>%s</dl></section>' % rows

@@ -158,7 +158,7 @@ class Measurement:
         return scene
 
     def find_best_technique(self, lights):
-        """The id with the least penumbra error summed over a scene's lights; None without a truth."""
+        """The id with the least penumbra error summed over a scene's lights; None without a reference."""
         sums = {}
         for item in (item for light in lights for item in light["techniques"] if item["error"]):
             sums.setdefault(item["id"], []).append(item["error"]["penumbra"]["mae"])
@@ -178,7 +178,7 @@ class Measurement:
         what = "%s, light %s" % (scene_name, light)
         stem = "%s.%s" % (scene_name, re.sub(r"\W+", "_", light).lower())
         row = {"name": light, "type": kind, "truth": None, "failure": None, "techniques": []}
-        truth = None
+        reference_path = None
         self.done_count += 1
         if self.reference is None:
             row["failure"] = self.fail(what, "no technique of this build is a reference")
@@ -188,29 +188,29 @@ class Measurement:
                 samples = ["--set", "%s_samples=%d" % (self.reference["id"], self.options.samples)]
             try:
                 begin = time.monotonic()
-                truth = self.compute_mask(stem + ".truth", scene_path, light, self.reference["id"], *samples)
-                row["truth"] = {"png": stem + ".truth.png", "seconds": time.monotonic() - begin}
-                self.report("%s: truth in %.1f s" % (what, row["truth"]["seconds"]))
+                reference_path = self.compute_mask(stem + ".reference", scene_path, light, self.reference["id"], *samples)
+                row["truth"] = {"png": stem + ".reference.png", "seconds": time.monotonic() - begin}
+                self.report("%s: reference in %.1f s" % (what, row["truth"]["seconds"]))
             except CommandFailed as error:
                 row["failure"] = self.fail(what, error)
         for technique in self.techniques:
             self.done_count += 1
             settings = get_fin_settings(technique["id"], scene_name, light)
             row["techniques"].append(
-                self.measure_technique(stem, scene_path, light, technique["id"], settings, truth)
+                self.measure_technique(stem, scene_path, light, technique["id"], settings, reference_path)
             )
             result = row["techniques"][-1]
             if result["failure"]:
                 self.fail("%s, %s" % (what, technique["id"]), result["failure"])
                 continue
             error = result["error"]["penumbra"]["mae"] if result["error"] else None
-            shown = "no truth" if error is None else "penumbra MAE %.4f" % error
+            shown = "no reference" if error is None else "penumbra MAE %.4f" % error
             self.report("%s: %s: %s, %.2f ms" % (what, technique["id"], shown, result["time"]["gpu_ms"]))
-        if truth:
-            os.remove(truth)
+        if reference_path:
+            os.remove(reference_path)
         return row
 
-    def measure_technique(self, stem, scene_path, light, technique, settings, truth):
+    def measure_technique(self, stem, scene_path, light, technique, settings, reference_path):
         stem = "%s.%s" % (stem, technique)
         row = {"id": technique, "mask": None, "heat": None, "error": None, "time": None, "failure": None}
         times = os.path.join(self.work_folder, "time.json")
@@ -222,10 +222,10 @@ class Measurement:
             row["mask"] = stem + ".png"
             with open(times, encoding="utf-8") as file:
                 row["time"] = json.load(file)["total"]
-            if truth:
+            if reference_path:
                 heat = stem + ".heat.png"
                 row["error"] = self.gnomon.load_json(
-                    "compare", truth, mask, "--heatmap", os.path.join(self.options.out, heat)
+                    "compare", reference_path, mask, "--heatmap", os.path.join(self.options.out, heat)
                 )
                 row["heat"] = heat
             os.remove(mask)

@@ -99,7 +99,7 @@ work=$(mktemp -d) || exit 1
 # Background jobs of a script ignore the interrupt key: they end with it.
 trap 'kill $(jobs -p) 2>/dev/null; rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
-# Never the user's own cache; shared by all parts, so that a truth is traced once.
+# Never the user's own cache; shared by all parts, so that a reference is traced once.
 export GNOMON_CACHE_DIR=$work/cache GNOMON_CONFIG_DIR=$work/config
 export PYTHONDONTWRITEBYTECODE=1
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes

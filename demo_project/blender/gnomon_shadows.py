@@ -327,7 +327,7 @@ def is_text(value):
     return isinstance(value, str) and value != ""
 
 
-# The panel. Its fields read and write the custom properties, so there is one truth.
+# The panel. Its fields read and write the custom properties, so nothing is stored twice.
 
 
 def set_or_drop(light, name, value, default):

@@ -90,27 +90,27 @@ void AnimationPart::plan(const ReportOptions &p_options, const Add &p_add) const
 	}
 }
 
-std::vector<TracedTruth> AnimationPart::trace_truths(
+std::vector<TracedReference> AnimationPart::trace_references(
 		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
-	std::vector<TracedTruth> truths;
-	truths.push_back(r_source.trace_truth(p_question, p_sample_count));
-	truths.push_back(r_source.trace_truth(get_next(p_question), p_sample_count));
-	return truths;
+	std::vector<TracedReference> references;
+	references.push_back(r_source.trace_reference(p_question, p_sample_count));
+	references.push_back(r_source.trace_reference(get_next(p_question), p_sample_count));
+	return references;
 }
 
 MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
-		std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const {
+		std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const {
 	ReportCell &cell = r_report.cells[p_cell];
 	const MaskQuestion questions[] = { p_question, get_next(p_question) };
 	const DrawnMasks drawn = r_source.draw(questions, cell.technique);
 	if (drawn.validation_message_count > 0) {
 		fail(drawn.validation_message_count, " validation messages.");
 	}
-	const MaskImage truths[] = { p_truths[0].mask, p_truths[1].mask };
-	cell.error = ReportError{ compute_mask_metrics(truths[0], drawn.frames[0]), {} };
+	const MaskImage references[] = { p_references[0].mask, p_references[1].mask };
+	cell.error = ReportError{ compute_mask_metrics(references[0], drawn.frames[0]), {} };
 	cell.error->whole_light = cell.error->all;
 	cell.stability = ReportStability();
-	cell.stability->temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
+	cell.stability->temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
 	cell.stability->warnings = drawn.warnings;
 	return {};
 }

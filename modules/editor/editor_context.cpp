@@ -86,7 +86,7 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 					{ "error",
 							{ { "light", error.light }, { "is_tracing", error.is_tracing },
 									{ "refusal", error.refusal },
-									{ "rays", error.truth ? error.round.sample_count : 0 },
+									{ "rays", error.reference ? error.round.sample_count : 0 },
 									{ "penumbra_mae",
 											error.metrics ? error.metrics->penumbra.mae
 														  : -1.0 } } } })

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/core/error.h"
-#include "modules/editor/background_truth.h"
+#include "modules/editor/background_reference.h"
 #include "modules/editor/editor_document.h"
 #include "modules/editor/orbit_camera.h"
 #include "modules/editor/penumbra_guide.h"
@@ -45,7 +45,7 @@ struct ViewportState {
 	std::vector<PenumbraLine> penumbra_lines;
 };
 
-/// How far one light's mask is from its truth, as the viewport sees it. ErrorMeter fills it.
+/// How far one light's mask is from its reference, as the viewport sees it. ErrorMeter fills it.
 struct ErrorState {
 	static constexpr uint32_t SAMPLE_COUNTS[] = { 256, 1024, 4096, 9216 };
 	bool is_shown = false;		  // somebody looks
@@ -55,16 +55,16 @@ struct ErrorState {
 	std::string light;
 	std::string technique; // that it has, by choice or by default
 	MaskImage mask;
-	TruthRound round;						// of the truth
-	std::shared_ptr<const TruthMask> truth; // null: not yet
-	uint64_t truth_hash = 0;				// compute_truth_hash of what is traced; 0: nothing
+	ReferenceRound round;						// of the reference
+	std::shared_ptr<const ReferenceMask> reference; // null: not yet
+	uint64_t reference_hash = 0;				// compute_reference_hash of what is traced; 0: nothing
 	std::optional<MaskMetrics> metrics;
 	MaskTiming cost;
 	bool is_tracing = false;
 	float progress = 0; // of the round under way, and its rays a pixel
 	uint32_t round_sample_count = 0;
 	void *mask_texture = nullptr; // ImTextureID; null: none yet
-	void *truth_texture = nullptr;
+	void *reference_texture = nullptr;
 	void *error_texture = nullptr;
 };
 

@@ -28,7 +28,7 @@ struct EditorSettings {
 	EditorLayout layout;
 	glm::uvec2 window_size_px = glm::uvec2(1280, 720);
 	std::string tab;			  // that is open below the viewport; empty: the first
-	uint32_t sample_count = 1024; // rays a pixel of the error panel's truth
+	uint32_t sample_count = 1024; // rays a pixel of the error panel's reference
 	bool shows_penumbra = true;	  // in the viewport
 	/// After which changes are kept aside, 1 to 600.
 	uint32_t autosave_s = uint32_t(EditorDocument::AUTOSAVE_INTERVAL.count());

@@ -208,7 +208,7 @@ private:
 		context.compared_image = show([this] { return viewport_renderer.get_compared_image(); });
 		ErrorState &error = context.error;
 		error.mask_texture = show([this] { return error_meter.get_mask_texture(); });
-		error.truth_texture = show([this] { return error_meter.get_truth_texture(); });
+		error.reference_texture = show([this] { return error_meter.get_reference_texture(); });
 		error.error_texture = show([this] { return error_meter.get_error_texture(); });
 		ui_context.begin_frame();
 		read_shortcuts();

@@ -17,10 +17,10 @@ const uint32_t LEAST_COST_FRAME_COUNT = 3;
 const double COST_MS = 1500;
 
 /// All that the cost of a mask depends on.
-std::string describe_cost(const LightSnapshot &p_light, uint64_t p_truth_hash) {
+std::string describe_cost(const LightSnapshot &p_light, uint64_t p_reference_hash) {
 	const ShadowTechniqueInfo *technique = choose_technique(p_light, {}).info;
 	std::string description =
-			text(p_truth_hash, " ", technique != nullptr ? technique->id : std::string(), " ",
+			text(p_reference_hash, " ", technique != nullptr ? technique->id : std::string(), " ",
 					ShadowRegistry::get_revision(), " ", MaskFilterRegistry::get_revision(), " ",
 					p_light.penumbra_outer_width_m, " ", p_light.penumbra_inner_width_m);
 	for (const auto &[name, value] : p_light.properties) {
@@ -36,12 +36,12 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	const bool is_watched = state.is_shown || r_context.viewport.debug_view == "error";
 	const bool is_playing = r_context.document.get_timeline().is_playing();
 	if (!is_watched || state.is_stopped || is_playing) {
-		if (truth.is_running()) {
+		if (background_reference.is_running()) {
 			traced_sample_count = 0; // goes on when somebody looks again; what is known stays
 		}
-		truth.stop();
+		background_reference.stop();
 	}
-	state.is_tracing = truth.is_running();
+	state.is_tracing = background_reference.is_running();
 	// A mask, its cost and its reference take longer than a frame: while the scene is animated none
 	// would be of what is shown.
 	if (!is_watched || is_playing || p_image_count == 0) {
@@ -49,25 +49,25 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 		return;
 	}
 	try {
-		const bool needs_truth = !state.is_stopped && state.refusal.empty() &&
-				(state.truth_hash == 0 || state.sample_count != traced_sample_count);
+		const bool needs_reference = !state.is_stopped && state.refusal.empty() &&
+				(state.reference_hash == 0 || state.sample_count != traced_sample_count);
 		const bool is_other = r_context.find_light_name() != state.light;
-		if (p_image_count != measured_image || needs_truth || is_other) {
+		if (p_image_count != measured_image || needs_reference || is_other) {
 			measured_image = p_image_count;
 			measure_mask(r_context);
 		} else if (!has_cost()) {
-			if (state.refusal.empty() && !truth.is_running()) { // beside it all is slower
+			if (state.refusal.empty() && !background_reference.is_running()) { // beside it all is slower
 				measure_cost(r_context);
 			}
-		} else if (asked_truth && !state.is_stopped) {
-			truth.start(std::exchange(asked_truth, nullptr), state.sample_count);
+		} else if (asked_reference && !state.is_stopped) {
+			background_reference.start(std::exchange(asked_reference, nullptr), state.sample_count);
 		}
-		std::optional<TruthRound> round = truth.take();
+		std::optional<ReferenceRound> round = background_reference.take();
 		// Begun anew, it has to become better first than what is known.
-		if (round && !(state.truth && round->sample_count < state.round.sample_count)) {
+		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
-			state.truth = std::make_shared<const TruthMask>(
-					TruthMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
+			state.reference = std::make_shared<const ReferenceMask>(
+					ReferenceMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
 			compare(state);
 			r_context.viewport.needs_redraw |= r_context.viewport.debug_view == "error";
 		}
@@ -76,9 +76,9 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	}
 	r_context.viewport.needs_redraw |=
 			std::exchange(is_error_stale, false) && r_context.viewport.debug_view == "error";
-	state.is_tracing = truth.is_running();
-	state.progress = truth.get_progress();
-	state.round_sample_count = truth.get_sample_count();
+	state.is_tracing = background_reference.is_running();
+	state.progress = background_reference.get_progress();
+	state.round_sample_count = background_reference.get_sample_count();
 }
 
 bool ErrorMeter::has_cost() const {
@@ -87,12 +87,12 @@ bool ErrorMeter::has_cost() const {
 }
 
 void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
-	truth.stop();
-	asked_truth = nullptr;
+	background_reference.stop();
+	asked_reference = nullptr;
 	r_state.refusal = std::move(p_text);
-	is_error_stale |= r_state.truth != nullptr; // once: without one there is nothing to take back
-	r_state.truth_hash = 0;
-	r_state.truth.reset();
+	is_error_stale |= r_state.reference != nullptr; // once: without one there is nothing to take back
+	r_state.reference_hash = 0;
+	r_state.reference.reset();
 	r_state.metrics.reset();
 }
 
@@ -124,10 +124,10 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 	request.size_px = r_context.viewport.size_px;
 	request.mask_light = node->name;
 	request.wants_mask = true;
-	const uint64_t hash = compute_truth_hash(*request.scene, light, request.size_px);
-	const bool needs_truth = !state.is_stopped &&
-			(hash != state.truth_hash || state.sample_count != traced_sample_count);
-	request.wants_surfaces = needs_truth;
+	const uint64_t hash = compute_reference_hash(*request.scene, light, request.size_px);
+	const bool needs_reference = !state.is_stopped &&
+			(hash != state.reference_hash || state.sample_count != traced_sample_count);
+	request.wants_surfaces = needs_reference;
 	RenderResult result = renderer.render(request);
 	state.mask = { request.size_px, std::move(result.visibility), result.receiver };
 	mask_texture = upload_texture("mask", request.size_px, 1, compute_mask_pixels(state.mask));
@@ -137,33 +137,33 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 		timed_ms = 0;
 		state.cost = {};
 	}
-	if (hash != state.truth_hash) {
-		state.truth.reset();
+	if (hash != state.reference_hash) {
+		state.reference.reset();
 		state.metrics.reset();
-		state.truth_hash = 0;
-		asked_truth = nullptr;
+		state.reference_hash = 0;
+		asked_reference = nullptr;
 	}
-	if (needs_truth) {
-		state.truth_hash = hash;
+	if (needs_reference) {
+		state.reference_hash = hash;
 		traced_sample_count = state.sample_count;
-		ask_truth(r_context, std::move(result));
-	} else if (state.truth) {
+		ask_reference(r_context, std::move(result));
+	} else if (state.reference) {
 		compare(state);
 	}
 }
 
-void ErrorMeter::ask_truth(EditorContext &r_context, RenderResult p_result) {
-	truth.stop();
+void ErrorMeter::ask_reference(EditorContext &r_context, RenderResult p_result) {
+	background_reference.stop();
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
-	if (reference == nullptr || !reference->make_truth_source) {
+	if (reference == nullptr || !reference->make_reference_source) {
 		refuse(r_context.error,
 				"There is no reference to compare with. Switch a module on that has one, in the "
 				"tab Modules.");
 		return;
 	}
-	TruthQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
+	ReferenceQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
 		std::move(p_result.receiver), find_surface_spread() };
-	asked_truth = [make = reference->make_truth_source, question = std::move(question)] {
+	asked_reference = [make = reference->make_reference_source, question = std::move(question)] {
 		return make(question);
 	};
 }
@@ -185,10 +185,10 @@ void ErrorMeter::measure_cost(EditorContext &r_context) {
 }
 
 void ErrorMeter::compare(ErrorState &r_state) {
-	const MaskImage exact = { r_state.truth->size_px, r_state.truth->visibility,
-		r_state.truth->receiver };
+	const MaskImage exact = { r_state.reference->size_px, r_state.reference->visibility,
+		r_state.reference->receiver };
 	r_state.metrics = compute_mask_metrics(exact, r_state.mask);
-	truth_texture = upload_texture("truth", exact.size_px, 1, compute_mask_pixels(exact));
+	reference_texture = upload_texture("reference", exact.size_px, 1, compute_mask_pixels(exact));
 	error_texture =
 			upload_texture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
 }

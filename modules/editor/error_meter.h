@@ -1,12 +1,12 @@
 #pragma once
 
-#include "modules/editor/background_truth.h"
+#include "modules/editor/background_reference.h"
 #include "modules/editor/editor_context.h"
 #include "modules/masks/mask_timing.h"
 
 namespace gnomon {
 
-/// Keeps the error panel true: the mask of the light in question as the viewport sees it, its truth
+/// Keeps the error panel current: the mask of the light in question as the viewport sees it, its reference
 /// in the background, and what the mask costs, a frame at a time. Works only while somebody looks.
 class ErrorMeter {
 public:
@@ -21,14 +21,14 @@ public:
 
 	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.
 	TextureRID get_mask_texture() const { return mask_texture.get(); }
-	TextureRID get_truth_texture() const { return truth_texture.get(); }
+	TextureRID get_reference_texture() const { return reference_texture.get(); }
 	TextureRID get_error_texture() const { return error_texture.get(); }
 
 private:
 	void measure_mask(EditorContext &r_context);
 	void measure_cost(EditorContext &r_context);
 	bool has_cost() const;
-	void ask_truth(EditorContext &r_context, RenderResult p_result);
+	void ask_reference(EditorContext &r_context, RenderResult p_result);
 	void compare(ErrorState &r_state);
 	void refuse(ErrorState &r_state, std::string p_text);
 	OwnedTexture upload_texture(const std::string &p_name, glm::uvec2 p_size_px,
@@ -45,11 +45,11 @@ private:
 	double timed_ms = 0;		 // by those frames
 	bool is_error_stale = false; // the viewport may show an error that is none
 	/// Traced once the cost is known: both at once would slow each other.
-	std::function<std::unique_ptr<TruthSource>()> asked_truth;
+	std::function<std::unique_ptr<ReferenceSource>()> asked_reference;
 	OwnedTexture mask_texture;
-	OwnedTexture truth_texture;
+	OwnedTexture reference_texture;
 	OwnedTexture error_texture;
-	BackgroundTruth truth; // last: its thread ends first
+	BackgroundReference background_reference; // last: its thread ends first
 };
 
 } // namespace gnomon

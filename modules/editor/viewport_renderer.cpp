@@ -77,9 +77,9 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	RenderRequest request = make_request(r_context, p_size_px, viewport.debug_view);
 	drawn_light = request.debug_light;
 	const LightSnapshot *seen = request.scene->find_light(request.debug_light);
-	if (error.truth && seen != nullptr && seen->casts_shadow &&
-			compute_truth_hash(*request.scene, *seen, p_size_px) == error.truth_hash) {
-		request.truth = error.truth;
+	if (error.reference && seen != nullptr && seen->casts_shadow &&
+			compute_reference_hash(*request.scene, *seen, p_size_px) == error.reference_hash) {
+		request.reference = error.reference;
 	}
 	r_context.shown = draw_into(image, request, renderer);
 	r_context.image_size_px = p_size_px;

@@ -20,12 +20,12 @@ struct MaskQuestion {
 	std::string light; // name; empty: all lights at once, for their cost only
 	glm::uvec2 size_px = glm::uvec2(0u);
 	uint64_t filter_hash =
-			0; // of the mask filters that there are, which masks and truths depend on
+			0; // of the mask filters that there are, which masks and references depend on
 	/// The scene a frame later, for errors of change; null: not requested.
 	std::shared_ptr<const SceneSnapshot> next_scene = nullptr;
 };
 
-struct TracedTruth {
+struct TracedReference {
 	MaskImage mask;
 	std::vector<uint8_t> sees_whole_light; // per pixel, see sees_whole_disc; 0 where no receiver
 	std::vector<glm::vec3> positions;	   // per pixel, camera-relative, metres
@@ -61,7 +61,7 @@ class MaskSource {
 public:
 	virtual ~MaskSource() = default;
 	virtual ReportMachine get_machine() const = 0;
-	virtual TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
+	virtual TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
 	/// The questions one after another, as frames of one run: what a technique keeps, it keeps.

@@ -52,7 +52,7 @@ std::optional<double> Report::compute_time_ratio(const ReportCell &p_cell) const
 size_t Report::count(ReportStatus p_status) const {
 	size_t found = 0;
 	for (const ReportConfiguration &configuration : configurations) {
-		found += configuration.has_truth() && configuration.status == p_status ? 1 : 0;
+		found += configuration.has_reference() && configuration.status == p_status ? 1 : 0;
 	}
 	for (const ReportCell &cell : cells) {
 		found += cell.status == p_status ? 1 : 0;

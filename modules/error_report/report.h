@@ -37,7 +37,7 @@ enum class ReportStatus { OK, FAILED, MISSING };
 const char *get_name(ReportStatus p_status);
 
 /// The exact mask of a configuration, as far as the report keeps it.
-struct ReportTruth {
+struct ReportReference {
 	double standard_error = 0;
 	bool is_double = false; // of a stability sweep: in double precision, as float32 was not enough
 	double wall_ms = 0;		// to trace it; from the cache, to load it
@@ -58,7 +58,7 @@ inline constexpr const char *STABILITY_GROUP = "stability"; // points of sweeps,
 /// A scene, a light and its size: one question that all techniques answer.
 struct ReportConfiguration {
 	std::string id;		// its own in the report
-	std::string record; // of its truth, see RecordStore; empty without truth
+	std::string record; // of its reference, see RecordStore; empty without one
 	std::string group = MATRIX_GROUP;
 	double value = 0;  // abscissa in its group: R in metres, triangles, lights, pixels of a side
 	std::string sweep; // of the stability group, else empty: what the value is of
@@ -72,14 +72,14 @@ struct ReportConfiguration {
 	glm::uvec2 size_px = glm::uvec2(0u);
 	uint64_t triangle_count = 0;
 	uint64_t edge_count = 0;
-	ReportStatus status = ReportStatus::MISSING; // of its truth
+	ReportStatus status = ReportStatus::MISSING; // of its reference
 	std::string message;						 // why it failed
-	ReportTruth truth;
+	ReportReference reference;
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
 	bool is_stability() const { return group == STABILITY_GROUP; }
 	/// A curve of cost has none; everything else is measured against one.
-	bool has_truth() const {
+	bool has_reference() const {
 		return group != TRIANGLES_GROUP && group != LIGHT_SIZE_GROUP && group != LIGHTS_GROUP &&
 				group != RESOLUTION_GROUP;
 	}
@@ -95,7 +95,7 @@ struct ReportError {
 enum class ErrorCause {
 	METHOD,	  // exact arithmetic would leave it
 	ROUNDING, // the question itself changes as much when its input is rounded to float32
-	TRUTH,	  // the reference in float32 is off by as much
+	REFERENCE,	  // the reference in float32 is off by as much
 };
 /// "method", "rounding", "truth".
 const char *get_name(ErrorCause p_cause);
@@ -106,7 +106,7 @@ struct VisibilityCondition {
 	/// rho the distance to the light (directional: S).
 	double number = 0;
 	double rounding = 0;	// change of v when P moves by what float32 rounds away
-	double truth_error = 0; // |v in double - v of the reference|
+	double reference_error = 0; // |v in double - v of the reference|
 	double error = 0;		// of the technique
 	ErrorCause cause = ErrorCause::METHOD;
 };
@@ -116,7 +116,7 @@ struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
 	/// plays on for a frame: see TemporalMetrics. None where the light has no place to move to.
 	std::optional<double> temporal_rmse;
-	/// Of the receivers: the share whose truth is 0 or 1 and that are wrong by more than a half.
+	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more than a half.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // that the program gave
 	std::string refusal; // why it drew nothing: an error that says what to do; then no numbers
@@ -145,7 +145,7 @@ struct ReportCell {
 struct Report {
 	std::string project;
 	std::string program;	   // version and hash of what measured
-	uint32_t sample_count = 0; // of the truths
+	uint32_t sample_count = 0; // of the references
 	double precision_percent =
 			0; // to which medians of time were to be known; 0: as well as 20 frames do
 	std::vector<ReportMachine> machines;
@@ -159,7 +159,7 @@ struct Report {
 	const ReportCell *find_baseline(const ReportCell &p_cell) const;
 	/// Cost over the baseline's; nothing where one of both is not there.
 	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
-	/// Cells, and configurations' truths, with that status.
+	/// Cells, and configurations' references, with that status.
 	size_t count(ReportStatus p_status) const;
 };
 

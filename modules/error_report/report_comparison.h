@@ -39,7 +39,7 @@ struct ReportComparison {
 /// Cells are the same when configuration, technique and setting have the same names, and the
 /// images the same size.
 ///
-/// An error differs when it does so by more than 0.0005 + 1 %, and, where the truths have different
+/// An error differs when it does so by more than 0.0005 + 1 %, and, where the references have different
 /// numbers of samples, by more than both standard errors too. Compared are penumbra pixels, and all
 /// receivers, where a leak shows that lies in the lit. A time is compared as ratio to the baseline
 /// of its own report, so that a slower machine alone is no difference, and differs by more than

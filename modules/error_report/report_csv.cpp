@@ -86,7 +86,7 @@ std::string to_csv(const Report &p_report) {
 				cell.machine_index < p_report.machines.size();
 		const ReportMachine machine =
 				has_machine ? p_report.machines[cell.machine_index] : ReportMachine();
-		const bool has_truth = at.has_truth() && at.status == ReportStatus::OK;
+		const bool has_reference = at.has_reference() && at.status == ReportStatus::OK;
 		const ReportError *error = cell.is_ok() && cell.error ? &*cell.error : nullptr;
 		std::vector<std::string> fields = { p_report.program, machine.device, machine.driver,
 			machine.cpu, has_machine ? text(machine.threads) : "", at.id, at.group, at.sweep,
@@ -94,8 +94,8 @@ std::string to_csv(const Report &p_report) {
 			text(at.light_angular_distance_deg), text(at.light_count), text(at.size_px.x),
 			text(at.size_px.y), text(at.triangle_count), text(at.edge_count), cell.technique,
 			cell.setting, join(cell.properties), get_name(cell.status), cell.message,
-			at.has_truth() ? text(p_report.sample_count) : "",
-			has_truth ? text(at.truth.standard_error) : "" };
+			at.has_reference() ? text(p_report.sample_count) : "",
+			has_reference ? text(at.reference.standard_error) : "" };
 		add_metrics(error ? &error->all.receiver : nullptr, fields);
 		add_metrics(error ? &error->all.penumbra : nullptr, fields);
 		add_metrics(error ? &error->whole_light.penumbra : nullptr, fields);

@@ -98,7 +98,7 @@ Report collect_report(
 	Report report = p_plan;
 	for (ReportConfiguration &configuration : report.configurations) {
 		read_record(p_store, configuration.record,
-				[&](const Json &p_content) { read_truth_result(p_content, configuration); });
+				[&](const Json &p_content) { read_reference_result(p_content, configuration); });
 	}
 	for (ReportCell &cell : report.cells) {
 		read_record(p_store, cell.record, [&](const Json &p_content) {

@@ -168,7 +168,7 @@ void describe(const auto &p_form, Either<ReportTechnique> auto &r_technique) {
 
 void describe(const auto &p_form, Either<VisibilityCondition> auto &r_condition) {
 	describe_fields(p_form, "number", r_condition.number, "rounding", r_condition.rounding,
-			"truth_error", r_condition.truth_error, "error", r_condition.error, "cause",
+			"truth_error", r_condition.reference_error, "error", r_condition.error, "cause",
 			r_condition.cause);
 }
 
@@ -197,20 +197,20 @@ void describe(const auto &p_form, Either<ReportCell> auto &r_cell) {
 	describe_result(p_form, r_cell);
 }
 
-/// What is known of a configuration's truth.
+/// What is known of a configuration's reference.
 void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
 	describe_fields(p_form, "status", r_configuration.status, "message", r_configuration.message);
-	const bool has_truth =
-			r_configuration.has_truth() && r_configuration.status == ReportStatus::OK;
-	if (p_form.has("truth", has_truth)) {
-		auto &truth = r_configuration.truth;
-		describe_fields(p_form, "receiver_pixels", truth.receiver_pixel_count, "penumbra_pixels",
-				truth.penumbra_pixel_count);
+	const bool has_reference =
+			r_configuration.has_reference() && r_configuration.status == ReportStatus::OK;
+	if (p_form.has("truth", has_reference)) {
+		auto &reference = r_configuration.reference;
+		describe_fields(p_form, "receiver_pixels", reference.receiver_pixel_count, "penumbra_pixels",
+				reference.penumbra_pixel_count);
 		p_form.part("truth", [&](const auto &p_part) {
-			describe_fields(p_part, "standard_error", truth.standard_error, "wall_ms",
-					truth.wall_ms, "image", truth.image);
-			if (p_part.has("is_double", truth.is_double)) {
-				p_part("is_double", truth.is_double);
+			describe_fields(p_part, "standard_error", reference.standard_error, "wall_ms",
+					reference.wall_ms, "image", reference.image);
+			if (p_part.has("is_double", reference.is_double)) {
+				p_part("is_double", reference.is_double);
 			}
 		});
 	}
@@ -304,13 +304,13 @@ void read_cell_result(const Json &p_json, Report &r_report, ReportCell &r_cell) 
 	}
 }
 
-Json truth_result_to_json(const ReportConfiguration &p_configuration) {
+Json reference_result_to_json(const ReportConfiguration &p_configuration) {
 	Json json;
 	describe_result(Writer{ json }, p_configuration);
 	return json;
 }
 
-void read_truth_result(const Json &p_json, ReportConfiguration &r_configuration) {
+void read_reference_result(const Json &p_json, ReportConfiguration &r_configuration) {
 	read_result(p_json, r_configuration);
 }
 

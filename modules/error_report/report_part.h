@@ -29,12 +29,12 @@ public:
 	virtual void plan(const ReportOptions &p_options, const Add &p_add) const = 0;
 	/// Called once a configuration, before its cells: its reference, and after that whatever else
 	/// of this kind its cells need. p_sample_count: of the report, at most as many are taken.
-	virtual std::vector<TracedTruth> trace_truths(MaskSource &r_source,
+	virtual std::vector<TracedReference> trace_references(MaskSource &r_source,
 			const MaskQuestion &p_question, uint32_t p_sample_count) const = 0;
-	/// Draws a cell and fills its error and its own results. p_truths: of its configuration.
+	/// Draws a cell and fills its error and its own results. p_references: of its configuration.
 	/// Returns the image that is worth keeping, else an empty one. What must not be is an Error.
 	virtual MaskImage run_cell(MaskSource &r_source, const MaskQuestion &p_question,
-			std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const = 0;
+			std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const = 0;
 	/// True of a measured cell whose mask is nonsense, or that refused to draw one.
 	virtual bool is_unusable(const ReportCell &p_cell) const = 0;
 	/// What report.json holds of the part as a whole, under its id.

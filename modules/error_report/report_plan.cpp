@@ -254,10 +254,10 @@ private:
 		const CasterCounts casters = count_casters(*question.scene, &light);
 		p_configuration.triangle_count = casters.triangle_count;
 		p_configuration.edge_count = casters.edge_count;
-		// What has no truth lacks none.
+		// Configurations without a reference need none.
 		p_configuration.status =
-				p_configuration.has_truth() ? ReportStatus::MISSING : ReportStatus::OK;
-		if (p_configuration.has_truth()) {
+				p_configuration.has_reference() ? ReportStatus::MISSING : ReportStatus::OK;
+		if (p_configuration.has_reference()) {
 			const uint64_t hash =
 					compute_text_hash(text(options.sample_count), compute_question_hash(question));
 			p_configuration.record = make_record_name(
@@ -275,7 +275,7 @@ private:
 				// A technique of expensive settings is brute force: many times the cost of another.
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
 						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
-				if (is_expensive && !p_configuration.has_truth() &&
+				if (is_expensive && !p_configuration.has_reference() &&
 						options.scaling == ReportExtent::QUICK) {
 					continue;
 				}
@@ -308,7 +308,7 @@ private:
 		uint64_t hash = compute_question_hash(plan.questions[p_configuration](properties));
 		for (const std::string &part :
 				{ p_technique, p_setting.name, options.program, text(options.precision_percent),
-						configuration.has_truth() ? text(options.sample_count) : std::string() }) {
+						configuration.has_reference() ? text(options.sample_count) : std::string() }) {
 			hash = compute_text_hash(part, hash);
 		}
 		cell.record = make_record_name(configuration.scene, p_technique, hash);

@@ -38,7 +38,7 @@ struct ReportOptions {
 	/// that cast shadows, as they are.
 	std::vector<LightType> light_types;
 	glm::uvec2 size_px = glm::uvec2(256u);
-	uint32_t sample_count = 1024; // of the truth
+	uint32_t sample_count = 1024; // of the reference
 	double precision_percent = 5; // see Report; a third of what a comparison calls a change
 	uint64_t filter_hash = 0;	  // see MaskQuestion
 	ReportExtent scaling = ReportExtent::QUICK;
@@ -51,7 +51,7 @@ struct ReportOptions {
 	bool has_sweep(const std::string &p_id) const;
 };
 
-/// What is to be measured: a report whose truths and cells are still missing, and how to ask for
+/// What is to be measured: a report whose references and cells are still missing, and how to ask for
 /// each. Questions are built when they are asked, since a scene may hold a million triangles.
 struct ReportPlan {
 	Report report;

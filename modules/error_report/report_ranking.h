@@ -35,7 +35,7 @@ std::vector<RankingRow> rank_settings(const Report &p_report);
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
 /// Cells of a configuration by rising cost, of which no other cell is both cheaper and closer to
-/// the truth. Cells without error or time are not on it.
+/// the reference. Cells without error or time are not on it.
 std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration);
 /// The cell of least error whose cost is within the budget; nothing where none is.
 std::optional<size_t> find_within_budget(

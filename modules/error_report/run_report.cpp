@@ -35,7 +35,7 @@ MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_i
 }
 
 /// Grey and alpha: what is no receiver is transparent.
-std::vector<uint8_t> encode_truth_png(const MaskImage &p_mask) {
+std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	const std::vector<uint8_t> grey = compute_mask_pixels(p_mask);
 	std::vector<uint8_t> pixels;
 	for (size_t index = 0; index < grey.size(); ++index) {
@@ -146,11 +146,11 @@ private:
 		std::erase_if(missing, [&](size_t p_cell) {
 			return report.cells[p_cell].status != ReportStatus::MISSING;
 		});
-		const bool needs_truth = configuration.has_truth() && !configuration.record.empty() &&
+		const bool needs_reference = configuration.has_reference() && !configuration.record.empty() &&
 				(!missing.empty() || configuration.status == ReportStatus::MISSING);
-		truths.clear();
-		if (needs_truth) {
-			run_truth(p_index);
+		references.clear();
+		if (needs_reference) {
+			run_reference(p_index);
 		}
 		for (const size_t cell : missing) {
 			run_cell(cell);
@@ -159,34 +159,34 @@ private:
 		}
 	}
 
-	void run_truth(size_t p_index) {
+	void run_reference(size_t p_index) {
 		ReportConfiguration &configuration = report.configurations[p_index];
 		std::vector<uint8_t> image;
 		const std::optional<std::string> failure = find_failure([&] {
 			const MaskQuestion question = plan.questions[p_index]({});
 			if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
-				truths = part->trace_truths(source, question, report.sample_count);
+				references = part->trace_references(source, question, report.sample_count);
 			} else {
-				truths.push_back(source.trace_truth(question, report.sample_count));
+				references.push_back(source.trace_reference(question, report.sample_count));
 			}
-			image = encode_truth_png(truths.front().mask);
+			image = encode_reference_png(references.front().mask);
 		});
 		if (failure) {
 			configuration.status = ReportStatus::FAILED;
 			configuration.message = *failure;
-			log_error("Truth of ", configuration.id, ": ", *failure);
+			log_error("Reference of ", configuration.id, ": ", *failure);
 		} else if (configuration.status == ReportStatus::MISSING) {
-			const TracedTruth &traced = truths.front();
+			const TracedReference &traced = references.front();
 			const MaskMetrics metrics = compute_mask_metrics(traced.mask, traced.mask);
 			configuration.status = ReportStatus::OK;
 			configuration.message.clear();
-			configuration.truth = { traced.standard_error, traced.is_double, traced.wall_ms,
+			configuration.reference = { traced.standard_error, traced.is_double, traced.wall_ms,
 				configuration.record + ".png", metrics.receiver.pixel_count,
 				metrics.penumbra.pixel_count };
 		} else {
 			return; // measured by the run that was stopped
 		}
-		store.save(configuration.record, truth_result_to_json(configuration), image);
+		store.save(configuration.record, reference_result_to_json(configuration), image);
 	}
 
 	void run_cell(size_t p_index) {
@@ -201,8 +201,8 @@ private:
 		}
 		std::vector<uint8_t> image;
 		const std::optional<std::string> failure = find_failure([&] {
-			if (configuration.has_truth() && configuration.status != ReportStatus::OK) {
-				fail("Its truth failed: ", configuration.message);
+			if (configuration.has_reference() && configuration.status != ReportStatus::OK) {
+				fail("Its reference failed: ", configuration.message);
 			}
 			measure(cell, image);
 		});
@@ -227,7 +227,7 @@ private:
 		const ReportConfiguration &configuration =
 				report.configurations[r_cell.configuration_index];
 		if (const ReportPart *part = ReportPartRegistry::find_part(configuration.group)) {
-			const MaskImage mask = part->run_cell(source, question, truths, report, index);
+			const MaskImage mask = part->run_cell(source, question, references, report, index);
 			if (mask.get_pixel_count() > 0 && mask.get_pixel_count() <= MOST_SHOWN_PIXELS) {
 				r_image = encode_png(question.size_px, 1, compute_mask_pixels(mask));
 				r_cell.image = r_cell.record + ".png";
@@ -235,12 +235,12 @@ private:
 			return;
 		}
 		const MeasuredMask measured_mask = source.measure(question, r_cell.technique);
-		if (configuration.has_truth()) {
-			const TracedTruth &truth = truths.front();
+		if (configuration.has_reference()) {
+			const TracedReference &reference = references.front();
 			r_cell.error = ReportError{
-				compute_mask_metrics(truth.mask, measured_mask.mask),
-				compute_mask_metrics(restrict_mask(truth.mask, truth.sees_whole_light),
-						restrict_mask(measured_mask.mask, truth.sees_whole_light)),
+				compute_mask_metrics(reference.mask, measured_mask.mask),
+				compute_mask_metrics(restrict_mask(reference.mask, reference.sees_whole_light),
+						restrict_mask(measured_mask.mask, reference.sees_whole_light)),
 			};
 			r_image = encode_png(question.size_px, 1, compute_mask_pixels(measured_mask.mask));
 			r_cell.image = r_cell.record + ".png";
@@ -255,7 +255,7 @@ private:
 	const ReportRunOptions &options;
 	Report report;
 	const ReportMachine machine;
-	std::vector<TracedTruth> truths; // of the configuration that is running, its own first
+	std::vector<TracedReference> references; // of the configuration that is running, its own first
 	std::set<std::string> measured;	 // records of this run
 	size_t left_count = 0;
 	size_t done_count = 0;

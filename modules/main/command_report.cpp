@@ -106,11 +106,11 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	const size_t failed_count = p_report.count(ReportStatus::FAILED);
 	const size_t missing_count = p_report.count(ReportStatus::MISSING);
 	if (failed_count > 0) {
-		fail(failed_count, " truths or cells failed; the page says which and why. Mend that, then ",
+		fail(failed_count, " references or cells failed; the page says which and why. Mend that, then ",
 				"go on with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
-		fail(missing_count, " truths or cells are missing. Run the other shards, or go on with ",
+		fail(missing_count, " references or cells are missing. Run the other shards, or go on with ",
 				"--resume.");
 	}
 	if (!is_no_worse) {
@@ -197,7 +197,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	add_stage_option(*command, r_common);
 	add_animation_options(*command, r_common);
 	command->add_option("--samples", arguments.options.sample_count,
-				   "Of the truth, per pixel; default 1024")
+				   "Of the reference, per pixel; default 1024")
 			->check(CLI::Range(1u, 65536u));
 	command->add_option("--scaling", arguments.scaling, "Curves of cost: none, quick or full")
 			->check(CLI::IsMember({ "none", "quick", "full" }));

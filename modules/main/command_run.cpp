@@ -18,7 +18,7 @@ namespace gnomon {
 namespace {
 
 RunOptions options;
-std::string truth_path;
+std::string reference_path;
 double speed = 1;
 
 const double HEADLESS_FRAMES_PER_S = 60;
@@ -66,7 +66,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	request.antialiasing = *options.antialiasing;
 	request.technique_override = options.technique;
 	request.debug_view = options.debug_view;
-	request.truth = options.truth;
+	request.reference = options.reference;
 	request.may_leave_out = !options.leaves_out_nothing;
 	RenderResult result;
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
@@ -101,8 +101,8 @@ void run(const CommonOptions &p_common) {
 			check_writable(path);
 		}
 	}
-	if (!truth_path.empty()) {
-		options.truth = RunPartRegistry::find(MASKS_PART)->load_truth(truth_path);
+	if (!reference_path.empty()) {
+		options.reference = RunPartRegistry::find(MASKS_PART)->load_reference(reference_path);
 	}
 	const std::unique_ptr<Scene> scene = load_scene(options.scene, p_common, size_px);
 	for (const std::string &setting : options.settings) {
@@ -153,7 +153,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");
 	if (RunPartRegistry::find(MASKS_PART) != nullptr) {
-		command->add_option("--truth", truth_path,
+		command->add_option("--truth", reference_path,
 				"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
 		CLI::Option *time =
 				command->add_option("--time", options.time,

@@ -35,7 +35,7 @@ struct GameState {
 	Scene &scene;
 	RenderRequest &request;
 	AnimationPlayback playback;
-	bool has_truth = false;
+	bool has_reference = false;
 	bool shows_text = true;
 	std::string shown; // instead of the lit image; empty: what --debug-view says
 
@@ -73,7 +73,7 @@ struct GameState {
 				choose_next_technique();
 				break;
 			case GLFW_KEY_V:
-				shown = shown.empty() ? "mask" : shown == "mask" && has_truth ? "error" : "";
+				shown = shown.empty() ? "mask" : shown == "mask" && has_reference ? "error" : "";
 				break;
 			case GLFW_KEY_SPACE:
 				playback.is_playing = !playback.is_playing;
@@ -146,8 +146,8 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 	request.technique_override = p_options.technique;
 	request.antialiasing = p_options.antialiasing.value_or(1);
 	request.mode = RenderGraph::Mode::QUEUE;
-	const std::shared_ptr<const TruthMask> &truth = p_options.truth;
-	GameState state{ r_scene, request, p_options.playback, truth != nullptr };
+	const std::shared_ptr<const ReferenceMask> &reference = p_options.reference;
+	GameState state{ r_scene, request, p_options.playback, reference != nullptr };
 	RenderResult result;
 	Clock::time_point last = Clock::now();
 	uint32_t drawn_count = 0;
@@ -172,9 +172,9 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;
 		// A view that never was is refused; one that T or a light has taken away gives way.
 		request.needs_debug_view = drawn_count == 0;
-		// Likewise a truth of another size, once the window has been resized.
-		const bool fits = truth && (drawn_count == 0 || truth->size_px == size_px);
-		request.truth = fits ? truth : nullptr;
+		// Likewise a reference of another size, once the window has been resized.
+		const bool fits = reference && (drawn_count == 0 || reference->size_px == size_px);
+		request.reference = fits ? reference : nullptr;
 		request.wants_image = is_last && !p_options.capture.empty();
 		request.overlay = state.shows_text
 				? make_overlay_text(describe_frame(request, device->get_info(), result, seconds),

@@ -20,7 +20,7 @@ struct RunOptions {
 	std::string camera;
 	std::string technique;
 	std::string debug_view;
-	std::shared_ptr<const TruthMask> truth; // null: none
+	std::shared_ptr<const ReferenceMask> reference; // null: none
 	std::vector<std::string> settings;
 	AnimationPlayback playback;
 	bool prints_plan = false;

@@ -12,9 +12,9 @@ namespace {
 
 const char *const COMMAND = "visibility";
 
-std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
+std::shared_ptr<const ReferenceMask> load_reference(const std::string &p_path) {
 	MaskImage image = load_mask_exr(p_path);
-	return std::make_shared<TruthMask>(
+	return std::make_shared<ReferenceMask>(
 			image.size_px, std::move(image.visibility), std::move(image.receiver));
 }
 
@@ -22,7 +22,7 @@ std::shared_ptr<const TruthMask> load_truth(const std::string &p_path) {
 
 void initialize_masks_part() {
 	CommandRegistry::add({ COMMAND, &add_visibility_command });
-	RunPartRegistry::add({ MASKS_PART, nullptr, &load_truth, &measure_time });
+	RunPartRegistry::add({ MASKS_PART, nullptr, &load_reference, &measure_time });
 }
 
 void uninitialize_masks_part() {

@@ -25,7 +25,7 @@ const ShadowTechniqueInfo &get_reference() {
 	if (const ShadowTechniqueInfo *info = ShadowRegistry::find_reference()) {
 		return *info;
 	}
-	fail("No technique of this build is a reference, so that there is no truth to compare with. ",
+	fail("No technique of this build is a reference, so that there is nothing to compare with. ",
 			"Enable the module of one; `gnomon modules` lists them.");
 }
 
@@ -62,7 +62,7 @@ ReportMachine RenderedMasks::get_machine() const {
 	return { info.name, info.driver, find_cpu_name(), std::thread::hardware_concurrency() };
 }
 
-TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) {
+TracedReference RenderedMasks::trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) {
 	const ShadowTechniqueInfo &reference = get_reference();
 	const std::string samples = reference.id + SAMPLES_ENDING;
 	if (!ShadowRegistry::get_light_properties(reference.id).find(samples)) {
@@ -77,24 +77,24 @@ TracedTruth RenderedMasks::trace_truth(const MaskQuestion &p_question, uint32_t 
 	request.scene = scene;
 	request.wants_surfaces = true;
 	Renderer renderer(device);
-	// The reference logs two lines for each truth, which the report keeps.
+	// The reference technique logs two lines for each mask, which the report keeps.
 	set_log_level(LogLevel::WARNING);
 	const struct Restore {
 		~Restore() { set_log_level(LogLevel::INFO); }
 	} restore;
 	RenderResult result = renderer.render(request);
-	TracedTruth truth;
-	truth.sees_whole_light = find_whole_light(p_question, result);
-	truth.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
+	TracedReference traced;
+	traced.sees_whole_light = find_whole_light(p_question, result);
+	traced.mask = { p_question.size_px, std::move(result.visibility), std::move(result.receiver) };
 	for (const SurfacePoint &point : result.surfaces) {
-		truth.positions.push_back(point.position);
-		truth.normals.push_back(point.geometric_normal);
+		traced.positions.push_back(point.position);
+		traced.normals.push_back(point.geometric_normal);
 	}
-	truth.standard_error = result.standard_error;
+	traced.standard_error = result.standard_error;
 	for (const PassTiming &timing : result.timings) {
-		truth.wall_ms += timing.is_on_host ? timing.wall_ms : 0;
+		traced.wall_ms += timing.is_on_host ? timing.wall_ms : 0;
 	}
-	return truth;
+	return traced;
 }
 
 MeasuredMask RenderedMasks::measure(

@@ -19,7 +19,7 @@ struct RunPart {
 	RenderResult (*run_in_window)(Scene &r_scene, glm::uvec2 &r_size_px,
 			const RunOptions &p_options, const CommonOptions &p_common) = nullptr;
 	/// The mask in an EXR.
-	std::shared_ptr<const TruthMask> (*load_truth)(const std::string &p_path) = nullptr;
+	std::shared_ptr<const ReferenceMask> (*load_reference)(const std::string &p_path) = nullptr;
 	/// See measure.h.
 	std::string (*measure_time)(Renderer &r_renderer, RenderRequest p_request,
 			uint32_t p_warm_up_count, uint32_t p_count,

@@ -16,7 +16,7 @@ namespace gnomon {
 namespace {
 
 struct CompareOptions {
-	std::string truth;
+	std::string reference;
 	std::string result;
 	std::string heatmap;
 };
@@ -25,18 +25,18 @@ struct CompareOptions {
 
 void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	static CompareOptions options;
-	CLI::App *command = r_app.add_subcommand("compare", "How far a mask is from the truth");
-	command->add_option("truth", options.truth, "EXR of the exact mask")->required();
+	CLI::App *command = r_app.add_subcommand("compare", "How far a mask is from the reference");
+	command->add_option("reference", options.reference, "EXR of the exact mask")->required();
 	command->add_option("result", options.result, "EXR to measure")->required();
 	command->add_option("--heatmap", options.heatmap,
 			"Also writes a PNG of the signed error: blue too dark, red too light");
 	command->callback([] {
-		const MaskImage truth = load_mask_exr(options.truth);
+		const MaskImage reference = load_mask_exr(options.reference);
 		const MaskImage result = load_mask_exr(options.result);
 		const MaskMetrics metrics =
-				compute_mask_metrics(truth, result, options.truth, options.result);
+				compute_mask_metrics(reference, result, options.reference, options.result);
 		if (!options.heatmap.empty()) {
-			save_error_png(options.heatmap, truth, result);
+			save_error_png(options.heatmap, reference, result);
 		}
 		std::printf("%s\n", to_json(metrics).c_str());
 	});

@@ -10,7 +10,7 @@ def get_layer():
 
 
 def get_description():
-    return "Masks as files and images, their error against a truth, and what they cost"
+    return "Masks as files and images, their error against a reference, and what they cost"
 
 
 def get_hosts():

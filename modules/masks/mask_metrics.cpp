@@ -14,7 +14,7 @@ namespace {
 
 constexpr float PENUMBRA_MINIMUM = 0.002f;
 constexpr float PENUMBRA_MAXIMUM = 0.998f;
-constexpr float UMBRA_OVER_TRUTH = 0.05f;  // visibly lit in truth ...
+constexpr float UMBRA_OVER_REFERENCE = 0.05f;  // visibly lit in the reference ...
 constexpr float UMBRA_OVER_RESULT = 0.01f; // ... and black in the result
 constexpr double PERCENTILE = 0.99;
 constexpr float WRONG_ERROR = 0.2f; // a float as masks are: 0.2f before 0 does not exceed it
@@ -33,26 +33,26 @@ void check_finite(const MaskImage &p_image, const std::string &p_name) {
 }
 
 /// Throws unless both answer the same question.
-void check_pair(const MaskImage &p_truth, const MaskImage &p_result,
-		const std::string &p_truth_name, const std::string &p_result_name) {
-	if (p_truth.size_px != p_result.size_px) {
-		fail("Masks differ in size: ", p_truth_name, " is ", p_truth.size_px.x, " x ",
-				p_truth.size_px.y, ", ", p_result_name, " is ", p_result.size_px.x, " x ",
+void check_pair(const MaskImage &p_reference, const MaskImage &p_result,
+		const std::string &p_reference_name, const std::string &p_result_name) {
+	if (p_reference.size_px != p_result.size_px) {
+		fail("Masks differ in size: ", p_reference_name, " is ", p_reference.size_px.x, " x ",
+				p_reference.size_px.y, ", ", p_result_name, " is ", p_result.size_px.x, " x ",
 				p_result.size_px.y, ". Render both with the same --size.");
 	}
-	check_finite(p_truth, p_truth_name);
+	check_finite(p_reference, p_reference_name);
 	check_finite(p_result, p_result_name);
 	size_t different_count = 0;
 	size_t first = 0;
-	for (size_t i = 0; i < p_truth.get_pixel_count(); ++i) {
-		if (p_truth.is_receiver(i) != p_result.is_receiver(i)) {
+	for (size_t i = 0; i < p_reference.get_pixel_count(); ++i) {
+		if (p_reference.is_receiver(i) != p_result.is_receiver(i)) {
 			first = different_count == 0 ? i : first;
 			++different_count;
 		}
 	}
 	if (different_count > 0) {
 		fail("Masks differ in their receivers: ", different_count, " pixels, the first at (",
-				first % p_truth.size_px.x, ", ", first / p_truth.size_px.x, "), of ", p_truth_name,
+				first % p_reference.size_px.x, ", ", first / p_reference.size_px.x, "), of ", p_reference_name,
 				" and ", p_result_name, ". Render both with the same scene, light and camera.");
 	}
 }
@@ -105,29 +105,29 @@ void add_metrics(const ErrorMetrics &p_metrics, nlohmann::ordered_json &r_json) 
 
 } // namespace
 
-bool is_penumbra(float p_truth) {
-	return p_truth > PENUMBRA_MINIMUM && p_truth < PENUMBRA_MAXIMUM;
+bool is_penumbra(float p_reference) {
+	return p_reference > PENUMBRA_MINIMUM && p_reference < PENUMBRA_MAXIMUM;
 }
 
-MaskMetrics compute_mask_metrics(const MaskImage &p_truth, const MaskImage &p_result,
-		const std::string &p_truth_name, const std::string &p_result_name) {
-	check_pair(p_truth, p_result, p_truth_name, p_result_name);
+MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &p_result,
+		const std::string &p_reference_name, const std::string &p_result_name) {
+	check_pair(p_reference, p_result, p_reference_name, p_result_name);
 	ErrorSum receiver;
 	ErrorSum penumbra;
 	uint64_t lit_count = 0;
 	uint64_t black_count = 0;
-	for (size_t i = 0; i < p_truth.get_pixel_count(); ++i) {
-		if (!p_truth.is_receiver(i)) {
+	for (size_t i = 0; i < p_reference.get_pixel_count(); ++i) {
+		if (!p_reference.is_receiver(i)) {
 			continue;
 		}
-		const float truth = p_truth.visibility[i];
+		const float reference = p_reference.visibility[i];
 		const float result = p_result.visibility[i];
-		const double error = static_cast<double>(result) - truth;
+		const double error = static_cast<double>(result) - reference;
 		receiver.add(error);
-		if (is_penumbra(truth)) {
+		if (is_penumbra(reference)) {
 			penumbra.add(error);
-			lit_count += truth > UMBRA_OVER_TRUTH ? 1 : 0;
-			black_count += truth > UMBRA_OVER_TRUTH && result < UMBRA_OVER_RESULT ? 1 : 0;
+			lit_count += reference > UMBRA_OVER_REFERENCE ? 1 : 0;
+			black_count += reference > UMBRA_OVER_REFERENCE && result < UMBRA_OVER_RESULT ? 1 : 0;
 		}
 	}
 	MaskMetrics metrics;
@@ -139,35 +139,35 @@ MaskMetrics compute_mask_metrics(const MaskImage &p_truth, const MaskImage &p_re
 }
 
 TemporalMetrics compute_temporal_metrics(
-		std::span<const MaskImage> p_truth, std::span<const MaskImage> p_result) {
-	if (p_truth.size() != p_result.size()) {
-		fail("Sequences differ in length: ", p_truth.size(), " frames of truth, ", p_result.size(),
+		std::span<const MaskImage> p_reference, std::span<const MaskImage> p_result) {
+	if (p_reference.size() != p_result.size()) {
+		fail("Sequences differ in length: ", p_reference.size(), " reference frames, ", p_result.size(),
 				" of the result. Render both with the same --frames.");
 	}
-	for (size_t frame = 0; frame < p_truth.size(); ++frame) {
-		check_pair(p_truth[frame], p_result[frame], text("truth, frame ", frame),
+	for (size_t frame = 0; frame < p_reference.size(); ++frame) {
+		check_pair(p_reference[frame], p_result[frame], text("reference, frame ", frame),
 				text("result, frame ", frame));
-		if (p_truth[frame].size_px != p_truth[0].size_px) {
-			fail("Sequence: frame ", frame, " is ", p_truth[frame].size_px.x, " x ",
-					p_truth[frame].size_px.y, ", frame 0 is ", p_truth[0].size_px.x, " x ",
-					p_truth[0].size_px.y, "; all must be equal.");
+		if (p_reference[frame].size_px != p_reference[0].size_px) {
+			fail("Sequence: frame ", frame, " is ", p_reference[frame].size_px.x, " x ",
+					p_reference[frame].size_px.y, ", frame 0 is ", p_reference[0].size_px.x, " x ",
+					p_reference[0].size_px.y, "; all must be equal.");
 		}
 	}
 	TemporalMetrics metrics;
 	double receiver_sum = 0;
 	double penumbra_sum = 0;
-	for (size_t frame = 1; frame < p_truth.size(); ++frame) {
-		const MaskImage &before = p_truth[frame - 1];
-		const MaskImage &after = p_truth[frame];
+	for (size_t frame = 1; frame < p_reference.size(); ++frame) {
+		const MaskImage &before = p_reference[frame - 1];
+		const MaskImage &after = p_reference[frame];
 		for (size_t i = 0; i < after.get_pixel_count(); ++i) {
 			if (!before.is_receiver(i) || !after.is_receiver(i)) {
 				continue;
 			}
-			const double truth_change =
+			const double reference_change =
 					static_cast<double>(after.visibility[i]) - before.visibility[i];
 			const double result_change = static_cast<double>(p_result[frame].visibility[i]) -
 					p_result[frame - 1].visibility[i];
-			const double square = (result_change - truth_change) * (result_change - truth_change);
+			const double square = (result_change - reference_change) * (result_change - reference_change);
 			receiver_sum += square;
 			++metrics.receiver_pixel_count;
 			if (is_penumbra(before.visibility[i]) || is_penumbra(after.visibility[i])) {

@@ -34,17 +34,17 @@ std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image) {
 	return pixels;
 }
 
-std::vector<uint8_t> compute_error_pixels(const MaskImage &p_truth, const MaskImage &p_result) {
-	compute_mask_metrics(p_truth, p_result); // its checks: size, receivers, finite values
+std::vector<uint8_t> compute_error_pixels(const MaskImage &p_reference, const MaskImage &p_result) {
+	compute_mask_metrics(p_reference, p_result); // its checks: size, receivers, finite values
 	std::vector<uint8_t> pixels;
-	pixels.reserve(3 * p_truth.get_pixel_count());
-	for (size_t i = 0; i < p_truth.get_pixel_count(); ++i) {
-		if (!p_truth.is_receiver(i)) {
+	pixels.reserve(3 * p_reference.get_pixel_count());
+	for (size_t i = 0; i < p_reference.get_pixel_count(); ++i) {
+		if (!p_reference.is_receiver(i)) {
 			pixels.insert(pixels.end(), 3, HEAT_MAP_NO_RECEIVER);
 			continue;
 		}
 		const glm::u8vec3 color =
-				compute_heat_map_color(p_result.visibility[i] - p_truth.visibility[i]);
+				compute_heat_map_color(p_result.visibility[i] - p_reference.visibility[i]);
 		pixels.insert(pixels.end(), { color.x, color.y, color.z });
 	}
 	return pixels;
@@ -64,8 +64,8 @@ void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image
 }
 
 void save_error_png(
-		const std::filesystem::path &p_path, const MaskImage &p_truth, const MaskImage &p_result) {
-	save_png(p_path, p_truth.size_px, 3, compute_error_pixels(p_truth, p_result));
+		const std::filesystem::path &p_path, const MaskImage &p_reference, const MaskImage &p_result) {
+	save_png(p_path, p_reference.size_px, 3, compute_error_pixels(p_reference, p_result));
 }
 
 } // namespace gnomon

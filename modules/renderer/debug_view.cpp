@@ -17,25 +17,25 @@ const float NO_RECEIVER = -1.0f; // as error_view.comp
 } // namespace
 
 ShadowTechnique::DebugView add_error_view(
-		const LitImage &p_image, const LightShadow &p_shadow, const TruthMask &p_truth) {
+		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference) {
 	const glm::uvec2 size_px = p_image.size_px;
-	if (p_truth.size_px != size_px) {
-		fail("The truth has ", p_truth.size_px.x, " x ", p_truth.size_px.y, " pixels, the frame ",
+	if (p_reference.size_px != size_px) {
+		fail("The reference has ", p_reference.size_px.x, " x ", p_reference.size_px.y, " pixels, the frame ",
 				size_px.x, " x ", size_px.y, ". Make both with the same --size.");
 	}
-	std::vector<float> truth = p_truth.visibility;
-	for (size_t pixel = 0; pixel < truth.size(); ++pixel) {
-		truth[pixel] = p_truth.receiver[pixel] >= 0.5f ? truth[pixel] : NO_RECEIVER;
+	std::vector<float> reference = p_reference.visibility;
+	for (size_t pixel = 0; pixel < reference.size(); ++pixel) {
+		reference[pixel] = p_reference.receiver[pixel] >= 0.5f ? reference[pixel] : NO_RECEIVER;
 	}
 	const RGBuffer buffer = p_image.graph.upload(
-			"truth", BufferUsage::STORAGE, bytes_of(std::span<const float>(truth)));
+			"reference", BufferUsage::STORAGE, bytes_of(std::span<const float>(reference)));
 	const RGTexture error = p_image.graph.create_texture({ "mask error", Format::RGBA8_UNORM,
 			size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
 	add_compute_pass(p_image.graph, "mask error",
 			p_image.device.get_compute_pipeline({ "mask error", "renderer/error_view.comp",
 					make_mask_constants(p_image.graph, p_shadow.mask) }),
 			{
-					PassBinding::read(RENDERER_BINDING_TRUTH, buffer),
+					PassBinding::read(RENDERER_BINDING_REFERENCE, buffer),
 					PassBinding::read(RENDERER_BINDING_RECEIVERS, p_shadow.receivers),
 					PassBinding::read(RENDERER_BINDING_MASK, p_shadow.mask),
 					PassBinding::write(RENDERER_BINDING_OUTPUT, error),
@@ -67,10 +67,10 @@ const ShadowTechnique::DebugView *choose_debug_view(
 				"shadow_enabled, "
 				"intensity and range of the lights.");
 	}
-	if (p_wish.id == ERROR_VIEW && !p_wish.has_truth) {
-		fail("Debug view \"error\": no truth is loaded. Make one with `gnomon visibility SCENE "
-			 "--out truth.exr` and the reference as its --technique, and give it with --truth "
-			 "truth.exr.");
+	if (p_wish.id == ERROR_VIEW && !p_wish.has_reference) {
+		fail("Debug view \"error\": no reference is loaded. Make one with `gnomon visibility SCENE "
+			 "--out reference.exr` and the reference as its --technique, and give it with --truth "
+			 "reference.exr.");
 	}
 	fail("Debug view \"", p_wish.id,
 			"\" does not exist for this light's technique, must be one of ", ids, ".");

@@ -11,22 +11,22 @@
 namespace gnomon {
 
 /// The true mask of a light, one value per pixel, rows from the top.
-struct TruthMask {
+struct ReferenceMask {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<float> visibility; // 0..1
 	std::vector<float> receiver;   // 1, or 0 where the light does not reach
 };
 
-/// "error": the mask less the truth in the colours of shared/heat_map_shared.h. A truth of another
+/// "error": the mask minus the reference in the colours of shared/heat_map_shared.h. A reference of another
 /// size than the frame's is an Error.
 ShadowTechnique::DebugView add_error_view(
-		const LitImage &p_image, const LightShadow &p_shadow, const TruthMask &p_truth);
+		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference);
 
 /// Which view is wanted, see RenderRequest.
 struct DebugViewWish {
 	const std::string &id;
 	bool is_needed = true;
-	bool has_truth = false;
+	bool has_reference = false;
 };
 
 /// The one that is wanted; an unknown one is an Error that lists those there are. Null: the lit image

@@ -102,8 +102,8 @@ LightShadow Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light) {
 	const LightShadow shadow = r_frame.shadows.add_light(p_light, asks);
 	if (asks) {
 		r_frame.debug_views = shadow.debug_views;
-		if (request.truth) {
-			r_frame.debug_views.push_back(add_error_view(r_frame.image, shadow, *request.truth));
+		if (request.reference) {
+			r_frame.debug_views.push_back(add_error_view(r_frame.image, shadow, *request.reference));
 		}
 	}
 	return shadow;
@@ -162,7 +162,7 @@ void Renderer::add_image(Frame &r_frame) {
 	}
 	RGTexture image;
 	if (const ShadowTechnique::DebugView *view = choose_debug_view(r_frame.debug_views,
-				{ request.debug_view, request.needs_debug_view, request.truth != nullptr })) {
+				{ request.debug_view, request.needs_debug_view, request.reference != nullptr })) {
 		image = add_debug_view_pass(r_frame.image, *view);
 		plan.run("debug view");
 	} else {

@@ -7,9 +7,9 @@
 #include "modules/scene/scene_snapshot.h"
 #include "modules/shadows/frame_plan.h"
 #include "modules/shadows/mask.h"
+#include "modules/shadows/reference_source.h"
 #include "modules/shadows/shadow_system.h"
 #include "modules/shadows/surface_points.h"
-#include "modules/shadows/truth_source.h"
 
 #include <memory>
 #include <optional>
@@ -34,12 +34,12 @@ struct RenderRequest {
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
 	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" where
-	/// there is a truth.
+	/// there is a reference.
 	std::string debug_view;
 	/// Which light's. Empty, or one that casts no shadow: the first that does.
 	std::string debug_light;
 	/// Of that light, as the same camera sees it; of the frame's size.
-	std::shared_ptr<const TruthMask> truth;
+	std::shared_ptr<const ReferenceMask> reference;
 	/// False: where there is no such view the lit image is shown, as a user expects who changes the
 	/// technique or the lights while looking at one.
 	bool needs_debug_view = true;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/shadow_reference/light_disc.h"
-#include "modules/shadow_reference/truth_entry.h"
+#include "modules/shadow_reference/reference_entry.h"
 
 #include <glm/glm.hpp>
 
@@ -38,7 +38,7 @@ struct VisibilityOptions {
 	const SpreadVisibility *spread = nullptr;
 };
 
-struct VisibilityResult : Truth {
+struct VisibilityResult : ReferenceVisibility {
 	uint64_t ray_count = 0;
 	bool is_complete = false; // false when cancelled; pixels not reached are then 0
 };

@@ -31,7 +31,7 @@ public:
 			std::span<const TranslucentTriangles> p_translucent = {},
 			std::span<const CutOutTriangles> p_cut_out = {});
 
-	/// The definition of truth (exact area-light visibility, float32): the share of the rays from
+	/// The definition of the reference (exact area-light visibility, float32): the share of the rays from
 	/// P, moved by 5e-5 S along its geometric normal, to stratified points of the light's disc that
 	/// meet no triangle. Triangles have two sides. Those at the disc and behind it do not occlude.
 	///

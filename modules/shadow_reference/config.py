@@ -11,7 +11,7 @@ def get_layer():
 
 
 def get_description():
-    return "Exact area-light visibility by ray tracing: the truth that techniques are measured against"
+    return "Exact area-light visibility by ray tracing: the reference that techniques are measured against"
 
 
 def get_hosts():

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// The light as the truth sees it. Lengths in metres, in the space of the triangles.
+/// The light as the reference sees it. Lengths in metres, in the space of the triangles.
 struct AreaLight {
 	bool is_directional = false;
 	glm::vec3 position = glm::vec3(0.0f);	   // L, the disc's centre; spot and omni

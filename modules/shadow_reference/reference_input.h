@@ -4,7 +4,7 @@
 #include "modules/shadow_reference/area_light_visibility.h"
 #include "modules/shadow_reference/caster_scene.h"
 #include "modules/shadow_reference/spread_visibility.h"
-#include "modules/shadows/truth_source.h"
+#include "modules/shadows/reference_source.h"
 
 #include <functional>
 #include <memory>

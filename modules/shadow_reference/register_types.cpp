@@ -1,7 +1,7 @@
 #include "modules/shadow_reference/register_types.h"
 
-#include "modules/shadow_reference/reference_truth.h"
 #include "modules/shadow_reference/shadow_reference.h"
+#include "modules/shadow_reference/shadow_reference_source.h"
 #include "modules/shadows/shadow_registry.h"
 
 namespace gnomon {
@@ -14,8 +14,8 @@ void initialize_shadow_reference_module(ModuleLevel p_level) {
 		"Area integral over the light's disc, Embree rays", "#17becf",
 		[] { return std::make_unique<ShadowReference>(); } };
 	info.is_reference = true;
-	info.make_truth_source = [](TruthQuestion p_question) {
-		return std::make_unique<ReferenceTruth>(std::move(p_question));
+	info.make_reference_source = [](ReferenceQuestion p_question) {
+		return std::make_unique<ShadowReferenceSource>(std::move(p_question));
 	};
 	ShadowRegistry::add(std::move(info));
 }

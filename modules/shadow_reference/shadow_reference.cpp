@@ -16,9 +16,9 @@ namespace gnomon {
 
 namespace {
 
-// Counts up when the definition of truth or the tracer changes: older cache entries are then
+// Counts up when the definition of the reference or the tracer changes: older cache entries are then
 // not found.
-constexpr uint64_t TRUTH_VERSION = 1;
+constexpr uint64_t REFERENCE_VERSION = 1;
 
 template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {
 	return compute_hash(bytes_of(p_values), p_hash);
@@ -48,7 +48,7 @@ struct ShadowReference::Job {
 	bool may_keep = true;
 
 	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
-		uint64_t key = add_to_hash(triangles.opaque, TRUTH_VERSION);
+		uint64_t key = add_to_hash(triangles.opaque, REFERENCE_VERSION);
 		for (const CutOutTriangles &body : triangles.cut_out) {
 			key = add_to_hash(body.triangles, key);
 			key = add_to_hash(std::span<const glm::vec2>(body.uvs), key);
@@ -92,7 +92,7 @@ void ShadowReference::get_light_properties(PropertyList &r_list) const {
 }
 
 void ShadowReference::compute(
-		const Job &p_job, const std::vector<ReceiverPoint> &p_points, Truth &r_truth) {
+		const Job &p_job, const std::vector<ReceiverPoint> &p_points, ReferenceVisibility &r_reference) {
 	const auto start = std::chrono::steady_clock::now();
 	const CasterScene tracer(p_job.triangles.opaque.positions, p_job.triangles.opaque.indices,
 			p_job.triangles.translucent, p_job.triangles.cut_out);
@@ -109,7 +109,7 @@ void ShadowReference::compute(
 			std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	log_info("Reference: ", result.ray_count, " rays in ", seconds, " s (",
 			result.ray_count / std::max(seconds, 1e-9) * 1e-6, " million a second).");
-	r_truth = std::move(result);
+	r_reference = std::move(result);
 }
 
 void ShadowReference::run(const Job &p_job, HostContext &p_context) {
@@ -121,30 +121,30 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 							p_job.material ? p_context.get_mapped(p_job.material) : nullptr }),
 			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
-	if (!p_job.may_keep || key != last_key || last_truth.visibility.size() != pixel_count) {
-		const std::optional<Truth> stored = p_job.may_keep
-				? load_truth(key, pixel_count, !p_job.triangles.translucent.empty())
+	if (!p_job.may_keep || key != last_key || last_reference.visibility.size() != pixel_count) {
+		const std::optional<ReferenceVisibility> stored = p_job.may_keep
+				? load_reference(key, pixel_count, !p_job.triangles.translucent.empty())
 				: std::nullopt;
 		if (stored) {
-			last_truth = *stored;
+			last_reference = *stored;
 		} else {
-			compute(p_job, points, last_truth);
-			save_truth(key, last_truth);
+			compute(p_job, points, last_reference);
+			save_reference(key, last_reference);
 		}
 		last_key = key;
 		log_info("Reference of light \"", p_job.light_name, "\": ", p_job.options.sample_count,
-				" samples, standard error ", last_truth.standard_error, " over ",
-				last_truth.penumbra_pixel_count, " penumbra pixels",
+				" samples, standard error ", last_reference.standard_error, " over ",
+				last_reference.penumbra_pixel_count, " penumbra pixels",
 				stored ? " (from the cache)." : ".");
 	}
-	if (last_truth.colors.empty()) {
-		std::memcpy(p_context.get_mapped(p_job.mask), last_truth.visibility.data(),
+	if (last_reference.colors.empty()) {
+		std::memcpy(p_context.get_mapped(p_job.mask), last_reference.visibility.data(),
 				pixel_count * sizeof(float));
 		return;
 	}
 	glm::vec4 *mask = reinterpret_cast<glm::vec4 *>(p_context.get_mapped(p_job.mask));
 	for (size_t index = 0; index < pixel_count; ++index) {
-		mask[index] = glm::vec4(last_truth.colors[index], 1.0f);
+		mask[index] = glm::vec4(last_reference.colors[index], 1.0f);
 	}
 }
 

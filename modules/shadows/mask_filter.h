@@ -53,7 +53,7 @@ using MaskFilterRegistry = Registry<MaskFilterInfo>;
 /// What the first filter approximates that approximates something; null: there is none. A reference
 /// integrates it. Main thread, or the render thread while the main thread waits for the frame.
 std::shared_ptr<const SurfaceSpread> find_surface_spread();
-/// Changes with what filters there are: part of what a truth, or a measured mask, depends on.
+/// Changes with what filters there are: part of what a reference, or a measured mask, depends on.
 uint64_t compute_filter_hash();
 
 } // namespace gnomon

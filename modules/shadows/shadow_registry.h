@@ -1,9 +1,9 @@
 #pragma once
 
 #include "modules/core/project.h"
+#include "modules/shadows/reference_source.h"
 #include "modules/shadows/registry.h"
 #include "modules/shadows/shadow_technique.h"
-#include "modules/shadows/truth_source.h"
 
 #include <functional>
 #include <memory>
@@ -28,7 +28,7 @@ struct ShadowTechniqueInfo {
 	bool is_reference = false;
 	/// Of a reference: the same mask without a device, for whoever cannot wait for a frame. Empty:
 	/// there is no such way.
-	std::function<std::unique_ptr<TruthSource>(TruthQuestion)> make_truth_source = {};
+	std::function<std::unique_ptr<ReferenceSource>(ReferenceQuestion)> make_reference_source = {};
 	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
 	bool is_example = false;
 	/// Shadows fall on instances alone that their node declares planar; of no use to a host whose

@@ -19,7 +19,7 @@ const uint64_t LEAST_PENUMBRA_PIXELS = 40; // fewer have no mean to speak of
 // Of 8 bits: what no image shows is no break, however much smaller the centre's error is.
 const double LEAST_MAE = 1.0 / 256;
 const double ODD_SHARE = 0.02;	 // of the receivers: the edges of hard shadows, a pixel wide
-const double NOISE_ERRORS = 2.0; // of the truth: standard errors that a mean may be off by
+const double NOISE_ERRORS = 2.0; // of the reference: standard errors that a mean may be off by
 
 bool is_in_curve(const ReportConfiguration &p_configuration, const ReportConfiguration &p_other) {
 	return p_configuration.is_stability() && p_other.is_stability() &&
@@ -76,7 +76,7 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 					p_sweep.has_project_scenes ? at.scene + "/" + at.light
 											   : p_sweep.describe_value(value),
 					index,
-					judge_stability(cell, at.truth, center ? &p_report.cells[*center] : nullptr),
+					judge_stability(cell, at.reference, center ? &p_report.cells[*center] : nullptr),
 					get_stability_error(cell) });
 		}
 	}
@@ -108,7 +108,7 @@ std::optional<StabilityError> get_stability_error(const ReportCell &p_cell) {
 }
 
 StabilityState judge_stability(
-		const ReportCell &p_cell, const ReportTruth &p_truth, const ReportCell *p_center) {
+		const ReportCell &p_cell, const ReportReference &p_reference, const ReportCell *p_center) {
 	if (p_cell.status != ReportStatus::OK || !p_cell.stability) {
 		return p_cell.status == ReportStatus::FAILED ? StabilityState::FAILED
 													 : StabilityState::MISSING;
@@ -125,7 +125,7 @@ StabilityState judge_stability(
 	if (error && center) {
 		// Over all receivers no error is larger than over the penumbra alone.
 		const double allowed =
-				std::max(DOUBLED * center->mae, LEAST_MAE) + NOISE_ERRORS * p_truth.standard_error;
+				std::max(DOUBLED * center->mae, LEAST_MAE) + NOISE_ERRORS * p_reference.standard_error;
 		return error->mae > allowed ? StabilityState::DOUBLED : StabilityState::OK;
 	}
 	return StabilityState::OK;

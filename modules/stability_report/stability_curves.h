@@ -30,7 +30,7 @@ std::optional<StabilityError> get_stability_error(const ReportCell &p_cell);
 /// p_center: the same technique at the centre of the same sweep; null or without error: nothing
 /// counts as doubled.
 StabilityState judge_stability(
-		const ReportCell &p_cell, const ReportTruth &p_truth, const ReportCell *p_center);
+		const ReportCell &p_cell, const ReportReference &p_reference, const ReportCell *p_center);
 /// The index of the centre's cell for that cell of a stability sweep; nothing: not planned.
 std::optional<size_t> find_stability_center(const Report &p_report, const ReportCell &p_cell);
 

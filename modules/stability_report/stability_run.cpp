@@ -15,15 +15,15 @@ namespace gnomon {
 namespace {
 
 const double MOTION_SHARE = 1e-3;					  // of R, a frame
-const uint64_t MOST_RAYS = uint64_t(1) << 30;		  // of a truth; some minutes of two cores
+const uint64_t MOST_RAYS = uint64_t(1) << 30;		  // of a reference; some minutes of two cores
 const uint64_t MOST_MOVED_PIXELS = uint64_t(1) << 18; // that are traced a second time
 const uint32_t LEAST_SAMPLES = 16;
 const size_t CONDITION_POINT_COUNT = 16;
-const size_t CHECKED_RECEIVERS = 128; // of a truth, in double
+const size_t CHECKED_RECEIVERS = 128; // of a reference, in double
 // Mean difference that 256 rays on a spiral and 1024 stratified ones do not have: about 0.004 in
 // penumbras.
-const double MOST_TRUTH_ERROR = 0.009;
-const double TRUTH_NOISE_ERRORS = 3.0;		// standard errors of a truth of fewer rays
+const double MOST_REFERENCE_ERROR = 0.009;
+const double REFERENCE_NOISE_ERRORS = 3.0;		// standard errors of a reference with fewer rays
 const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
 
 void check_values(const std::vector<MaskImage> &p_frames) {
@@ -38,29 +38,29 @@ void check_values(const std::vector<MaskImage> &p_frames) {
 	}
 }
 
-double compute_wrong_share(const MaskImage &p_truth, const MaskImage &p_mask) {
+double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask) {
 	uint64_t wrong_count = 0;
 	uint64_t receiver_count = 0;
-	for (size_t index = 0; index < p_truth.visibility.size(); ++index) {
-		if (!p_truth.is_receiver(index)) {
+	for (size_t index = 0; index < p_reference.visibility.size(); ++index) {
+		if (!p_reference.is_receiver(index)) {
 			continue;
 		}
 		++receiver_count;
-		const float truth = p_truth.visibility[index];
-		const bool is_wrong = std::abs(p_mask.visibility[index] - truth) > 0.5f;
-		wrong_count += is_wrong && !is_penumbra(truth) ? 1 : 0;
+		const float reference = p_reference.visibility[index];
+		const bool is_wrong = std::abs(p_mask.visibility[index] - reference) > 0.5f;
+		wrong_count += is_wrong && !is_penumbra(reference) ? 1 : 0;
 	}
 	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
 }
 
 /// The pixels that are worst, as points to be asked in double.
-std::vector<ConditionPoint> find_worst_points(const TracedTruth &p_truth, const MaskImage &p_mask) {
+std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference, const MaskImage &p_mask) {
 	std::vector<ConditionPoint> points;
 	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
-		if (p_truth.mask.is_receiver(index) && index < p_truth.positions.size()) {
-			const double truth = p_truth.mask.visibility[index];
-			points.push_back({ p_truth.positions[index], p_truth.normals[index], truth,
-					std::abs(double(p_mask.visibility[index]) - truth) });
+		if (p_reference.mask.is_receiver(index) && index < p_reference.positions.size()) {
+			const double reference = p_reference.mask.visibility[index];
+			points.push_back({ p_reference.positions[index], p_reference.normals[index], reference,
+					std::abs(double(p_mask.visibility[index]) - reference) });
 		}
 	}
 	const size_t count = std::min(points.size(), CONDITION_POINT_COUNT);
@@ -72,25 +72,25 @@ std::vector<ConditionPoint> find_worst_points(const TracedTruth &p_truth, const 
 	return points;
 }
 
-/// The reference traces in float32. Where that is not enough for the question, the truth is traced
+/// The reference is traced in float32. Where that is not enough for the question, it is traced
 /// anew in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
-enum class DoubleTruth { WHERE_NEEDED, ALWAYS };
-void mend_truth(const MaskQuestion &p_question, DoubleTruth p_when, TracedTruth &r_truth) {
-	MaskImage &mask = r_truth.mask;
+enum class DoubleReference { WHERE_NEEDED, ALWAYS };
+void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
+	MaskImage &mask = r_reference.mask;
 	std::vector<size_t> receivers;
 	for (size_t index = 0; index < mask.visibility.size(); ++index) {
 		if (mask.is_receiver(index)) {
 			receivers.push_back(index);
 		}
 	}
-	if (receivers.empty() || r_truth.positions.size() != mask.visibility.size()) {
+	if (receivers.empty() || r_reference.positions.size() != mask.visibility.size()) {
 		return;
 	}
 	const DoubleVisibility exact(*p_question.scene, get_light(*p_question.scene, p_question.light));
 	const auto compute = [&](size_t p_index) {
 		return exact.compute(
-				p_question.scene->camera.position_world + glm::dvec3(r_truth.positions[p_index]),
-				r_truth.normals[p_index]);
+				p_question.scene->camera.position_world + glm::dvec3(r_reference.positions[p_index]),
+				r_reference.normals[p_index]);
 	};
 	// Shadows that are missing show anywhere, blurred ones in penumbras, of which there may be few.
 	std::vector<size_t> soft;
@@ -105,16 +105,16 @@ void mend_truth(const MaskQuestion &p_question, DoubleTruth p_when, TracedTruth 
 		}
 		return count == 0 ? 0.0 : sum / double(count);
 	};
-	const double most = std::max(MOST_TRUTH_ERROR, TRUTH_NOISE_ERRORS * r_truth.standard_error);
-	if (p_when == DoubleTruth::WHERE_NEEDED && compute_error(receivers) <= most &&
+	const double most = std::max(MOST_REFERENCE_ERROR, REFERENCE_NOISE_ERRORS * r_reference.standard_error);
+	if (p_when == DoubleReference::WHERE_NEEDED && compute_error(receivers) <= most &&
 			compute_error(soft) <= most) {
 		return;
 	}
 	for (const size_t index : receivers) {
 		mask.visibility[index] = float(compute(index));
 	}
-	r_truth.is_double = true;
-	r_truth.standard_error = DOUBLE_STANDARD_ERROR;
+	r_reference.is_double = true;
+	r_reference.standard_error = DOUBLE_STANDARD_ERROR;
 }
 
 } // namespace
@@ -141,30 +141,30 @@ MaskQuestion move_light(const MaskQuestion &p_question) {
 	return moved;
 }
 
-std::vector<TracedTruth> StabilityPart::trace_truths(
+std::vector<TracedReference> StabilityPart::trace_references(
 		MaskSource &r_source, const MaskQuestion &p_question, uint32_t p_sample_count) const {
 	const uint64_t pixel_count = uint64_t(p_question.size_px.x) * p_question.size_px.y;
 	const uint32_t sample_count = static_cast<uint32_t>(std::clamp<uint64_t>(
 			MOST_RAYS / pixel_count, std::min(LEAST_SAMPLES, p_sample_count), p_sample_count));
-	std::vector<TracedTruth> truths;
-	truths.push_back(r_source.trace_truth(p_question, sample_count));
+	std::vector<TracedReference> references;
+	references.push_back(r_source.trace_reference(p_question, sample_count));
 	if (pixel_count > MOST_MOVED_PIXELS) {
-		return truths;
+		return references;
 	}
-	mend_truth(p_question, DoubleTruth::WHERE_NEEDED, truths[0]);
+	correct_reference(p_question, DoubleReference::WHERE_NEEDED, references[0]);
 	const MaskQuestion moved = move_light(p_question);
-	truths.push_back(r_source.trace_truth(moved, sample_count));
-	if (truths[0].is_double) {
-		mend_truth(moved, DoubleTruth::ALWAYS, truths[1]);
+	references.push_back(r_source.trace_reference(moved, sample_count));
+	if (references[0].is_double) {
+		correct_reference(moved, DoubleReference::ALWAYS, references[1]);
 	}
-	return truths;
+	return references;
 }
 
 MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskQuestion &p_question,
-		std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const {
+		std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const {
 	ReportCell &cell = r_report.cells[p_cell];
-	const TracedTruth &still = p_truths.front();
-	const TracedTruth *moved = p_truths.size() > 1 ? &p_truths[1] : nullptr;
+	const TracedReference &still = p_references.front();
+	const TracedReference *moved = p_references.size() > 1 ? &p_references[1] : nullptr;
 	ReportStability stability;
 	std::vector<MaskQuestion> questions = { p_question };
 	if (moved != nullptr) {
@@ -190,15 +190,15 @@ MaskImage StabilityPart::run_cell(MaskSource &r_source, const MaskQuestion &p_qu
 	cell.error->whole_light = cell.error->all;
 	stability.wrong_share = compute_wrong_share(still.mask, mask);
 	if (moved != nullptr && still.mask.receiver == moved->mask.receiver) {
-		const MaskImage truths[] = { still.mask, moved->mask };
-		stability.temporal_rmse = compute_temporal_metrics(truths, drawn.frames).penumbra_rmse;
+		const MaskImage references[] = { still.mask, moved->mask };
+		stability.temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
 	}
 	cell.stability = stability;
 	ReportCell judged = cell;
 	judged.status = ReportStatus::OK;
 	const std::optional<size_t> center = find_stability_center(r_report, cell);
 	const StabilityState state =
-			judge_stability(judged, r_report.configurations[cell.configuration_index].truth,
+			judge_stability(judged, r_report.configurations[cell.configuration_index].reference,
 					center ? &r_report.cells[*center] : nullptr);
 	if (state == StabilityState::DOUBLED || state == StabilityState::NONSENSE) {
 		cell.stability->condition = compute_visibility_condition(*p_question.scene,

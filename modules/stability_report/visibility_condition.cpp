@@ -105,10 +105,10 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		}
 		mean.number += share * number;
 		mean.rounding += share * rounding;
-		mean.truth_error += share * std::abs(visibility - point.truth);
+		mean.reference_error += share * std::abs(visibility - point.reference);
 		mean.error += share * point.error;
 	}
-	mean.cause = mean.truth_error >= EXPLAINING_SHARE * mean.error ? ErrorCause::TRUTH
+	mean.cause = mean.reference_error >= EXPLAINING_SHARE * mean.error ? ErrorCause::REFERENCE
 			: mean.rounding >= EXPLAINING_SHARE * mean.error	   ? ErrorCause::ROUNDING
 																   : ErrorCause::METHOD;
 	return mean;

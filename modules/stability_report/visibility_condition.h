@@ -44,8 +44,8 @@ private:
 struct ConditionPoint {
 	glm::vec3 position = glm::vec3(0.0f); // camera-relative, metres
 	glm::vec3 normal = glm::vec3(0.0f);	  // of the face, unit
-	double truth = 0;					  // v as the reference has it, in float32
-	double error = 0;					  // |v of the technique - truth|
+	double reference = 0;					  // v of the reference, in float32
+	double error = 0;					  // |v of the technique - reference|
 };
 
 /// Traces 256 rays a point and perturbation, with neither GPU nor Embree. For a few dozen points.

@@ -5,10 +5,10 @@
 #include "renderer/renderer_shared.h"
 #include "shared/heat_map_shared.h"
 
-// A mask less the truth, in colours.
+// A mask minus the reference, in colours.
 layout(local_size_x = RENDERER_GROUP_SIZE, local_size_y = RENDERER_GROUP_SIZE) in;
-layout(std430, set = 0, binding = RENDERER_BINDING_TRUTH) readonly buffer Truth {
-	float truth[]; // below 0: no receiver
+layout(std430, set = 0, binding = RENDERER_BINDING_REFERENCE) readonly buffer ReferenceMask {
+	float reference[]; // below 0: no receiver
 };
 layout(set = 0, binding = RENDERER_BINDING_RECEIVERS) uniform texture2D receivers_texture;
 layout(set = 0, binding = RENDERER_BINDING_MASK) uniform texture2D mask_texture;
@@ -21,7 +21,7 @@ void main() {
 	if (any(greaterThanEqual(pixel, size))) {
 		return;
 	}
-	const float true_visibility = truth[pixel.y * size.x + pixel.x];
+	const float true_visibility = reference[pixel.y * size.x + pixel.x];
 	const vec4 mask = texelFetch(mask_texture, pixel, 0);
 	const float visibility = IS_COLORED != 0u ? mask_luminance(mask.rgb) : mask.r;
 	const float error = (visibility - true_visibility) / HEAT_MAP_RANGE;

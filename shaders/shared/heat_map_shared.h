@@ -1,4 +1,4 @@
-// The colours of errors, result minus truth: white 0, blue too dark, red too light, in full colour from
+// The colours of errors, result minus reference: white 0, blue too dark, red too light, in full colour from
 // HEAT_MAP_RANGE on; grey where there is no receiver.
 #ifndef HEAT_MAP_SHARED_H
 #define HEAT_MAP_SHARED_H

@@ -6,7 +6,7 @@
 #include <cmath>
 
 /// Visibilities of a disc light that are known in closed form, in double. For the tests of the
-/// truth and of every technique; independent of both.
+/// reference and of every technique; independent of both.
 namespace gnomon::closed_form {
 
 /// Share of a unit disc that stays when everything beyond a straight edge is hidden. p_distance:

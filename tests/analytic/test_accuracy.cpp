@@ -77,12 +77,12 @@ MaskImage render_reference(RenderFixture &r_fixture, const nlohmann::json &p_lim
 }
 
 /// Of all receivers: even one wrong pixel is seen in an image.
-double find_greatest_error(const MaskImage &p_truth, const MaskImage &p_mask) {
+double find_greatest_error(const MaskImage &p_reference, const MaskImage &p_mask) {
 	double greatest = 0;
-	for (size_t pixel = 0; pixel < p_truth.get_pixel_count(); ++pixel) {
-		if (p_truth.is_receiver(pixel)) {
+	for (size_t pixel = 0; pixel < p_reference.get_pixel_count(); ++pixel) {
+		if (p_reference.is_receiver(pixel)) {
 			greatest = std::max(greatest,
-					double(std::abs(p_mask.visibility[pixel] - p_truth.visibility[pixel])));
+					double(std::abs(p_mask.visibility[pixel] - p_reference.visibility[pixel])));
 		}
 	}
 	return greatest;
@@ -99,7 +99,7 @@ bool has_reference() {
 
 } // namespace
 
-TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it was accepted") {
+TEST_CASE("[GPU][Accuracy] no technique is further from the reference than when it was accepted") {
 	if (!has_reference()) {
 		return;
 	}
@@ -113,7 +113,7 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it w
 		const uint32_t size_px = read_size_px(limits, accuracy_case);
 		CAPTURE(accuracy_case.at("scene").get<std::string>());
 		CAPTURE(accuracy_case.at("light").get<std::string>());
-		const MaskImage truth = render_reference(fixture, limits, accuracy_case);
+		const MaskImage reference = render_reference(fixture, limits, accuracy_case);
 		double previous_mae = 0; // results of one case are listed from best to worst
 		for (const nlohmann::json &entry : accuracy_case.at("results")) {
 			const std::string id = entry.at("id").get<std::string>();
@@ -125,12 +125,12 @@ TEST_CASE("[GPU][Accuracy] no technique is further from the truth than when it w
 			}
 			AccuracyScene scene(accuracy_case, entry.at("settings"));
 			const MaskImage mask = scene.render(fixture, id, size_px);
-			const MaskMetrics metrics = compute_mask_metrics(truth, mask);
+			const MaskMetrics metrics = compute_mask_metrics(reference, mask);
 			CHECK(metrics.penumbra.pixel_count > 200);
 			CHECK(metrics.receiver.mae <= entry.at("receiver_mae").get<double>());
 			CHECK(metrics.penumbra.mae <= entry.at("penumbra_mae").get<double>());
 			CHECK(metrics.umbra_over <= entry.value("umbra_over", 1.0));
-			CHECK(find_greatest_error(truth, mask) <= entry.value("greatest", 1.0));
+			CHECK(find_greatest_error(reference, mask) <= entry.value("greatest", 1.0));
 			CHECK(metrics.penumbra.mae > previous_mae);
 			previous_mae = metrics.penumbra.mae;
 		}
@@ -148,7 +148,7 @@ TEST_CASE("[GPU][Accuracy] hard shadows differ from rays to the light's centre i
 		CAPTURE(hard_case.at("scene").get<std::string>());
 		CAPTURE(hard_case.at("light").get<std::string>());
 		AccuracyScene exact(hard_case, limits.at("hard_settings"));
-		const MaskImage truth =
+		const MaskImage reference =
 				exact.render(fixture, ShadowRegistry::find_reference()->id, size_px);
 		for (const nlohmann::json &entry : hard_case.at("results")) {
 			const std::string id = entry.at("id").get<std::string>();
@@ -159,7 +159,7 @@ TEST_CASE("[GPU][Accuracy] hard shadows differ from rays to the light's centre i
 			}
 			AccuracyScene scene(hard_case, limits.at("hard_settings"));
 			const MaskMetrics metrics =
-					compute_mask_metrics(truth, scene.render(fixture, id, size_px));
+					compute_mask_metrics(reference, scene.render(fixture, id, size_px));
 			CHECK(metrics.receiver.pixel_count > 10000);
 			CHECK(metrics.receiver.mae <= entry.at("wrong_share").get<double>());
 		}
@@ -187,8 +187,8 @@ TEST_CASE("[GPU][Accuracy] canary: a light twice as large is seen as an error") 
 	RenderFixture fixture;
 	const nlohmann::json limits = load_limits();
 	const nlohmann::json &accuracy_case = limits.at("cases").at(0);
-	const MaskImage truth = render_reference(fixture, limits, accuracy_case);
+	const MaskImage reference = render_reference(fixture, limits, accuracy_case);
 	const MaskMetrics metrics = compute_mask_metrics(
-			truth, render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
+			reference, render_reference(fixture, limits, accuracy_case, { { "light_size", 0.8 } }));
 	CHECK(metrics.penumbra.mae > 0.05); // twice and more what good techniques have
 }

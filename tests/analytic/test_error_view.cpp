@@ -13,16 +13,16 @@ using namespace gnomon;
 namespace {
 
 /// The mask of a scene, every third column of it wrong by up to half, and some pixels no receivers.
-MaskImage make_wrong_truth(const RenderResult &p_frame, glm::uvec2 p_size_px) {
-	MaskImage truth = { p_size_px, p_frame.visibility, p_frame.receiver };
-	for (size_t pixel = 0; pixel < truth.get_pixel_count(); ++pixel) {
-		if (pixel % 3 == 0 && truth.is_receiver(pixel)) {
+MaskImage make_wrong_reference(const RenderResult &p_frame, glm::uvec2 p_size_px) {
+	MaskImage reference = { p_size_px, p_frame.visibility, p_frame.receiver };
+	for (size_t pixel = 0; pixel < reference.get_pixel_count(); ++pixel) {
+		if (pixel % 3 == 0 && reference.is_receiver(pixel)) {
 			const float change = 0.5f * float(pixel % 64) / 64.0f;
-			const float visibility = truth.visibility[pixel];
-			truth.visibility[pixel] = visibility > 0.5f ? visibility - change : visibility + change;
+			const float visibility = reference.visibility[pixel];
+			reference.visibility[pixel] = visibility > 0.5f ? visibility - change : visibility + change;
 		}
 	}
-	return truth;
+	return reference;
 }
 
 } // namespace
@@ -34,20 +34,20 @@ TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error image"
 	const glm::uvec2 size_px(48, 40);
 	const RenderResult frame = fixture.render_mask(scene, id, size_px);
 	const MaskImage mask = { size_px, frame.visibility, frame.receiver };
-	const MaskImage truth = make_wrong_truth(frame, size_px);
+	const MaskImage reference = make_wrong_reference(frame, size_px);
 	RenderRequest request;
 	request.scene = scene.snap();
 	request.size_px = size_px;
 	request.technique_override = id;
 	request.wants_image = true;
 	request.debug_view = "error";
-	request.truth = std::make_shared<TruthMask>(truth.size_px, truth.visibility, truth.receiver);
+	request.reference = std::make_shared<ReferenceMask>(reference.size_px, reference.visibility, reference.receiver);
 	const std::vector<uint8_t> shown = fixture.renderer->render(request).image;
-	const std::vector<uint8_t> expected = compute_error_pixels(truth, mask);
-	REQUIRE(shown.size() == 4 * truth.get_pixel_count());
+	const std::vector<uint8_t> expected = compute_error_pixels(reference, mask);
+	REQUIRE(shown.size() == 4 * reference.get_pixel_count());
 	int greatest = 0;
 	size_t colored_count = 0;
-	for (size_t pixel = 0; pixel < truth.get_pixel_count(); ++pixel) {
+	for (size_t pixel = 0; pixel < reference.get_pixel_count(); ++pixel) {
 		for (size_t channel = 0; channel < 3; ++channel) {
 			greatest = std::max(greatest,
 					std::abs(int(shown[4 * pixel + channel]) - int(expected[3 * pixel + channel])));
@@ -55,10 +55,10 @@ TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error image"
 		colored_count += shown[4 * pixel] != shown[4 * pixel + 2] ? 1 : 0;
 	}
 	CHECK(greatest <= 1);
-	CHECK(colored_count > truth.get_pixel_count() / 5);
+	CHECK(colored_count > reference.get_pixel_count() / 5);
 }
 
-TEST_CASE("[GPU][ErrorView] an error view without a truth, or with one of another size, is "
+TEST_CASE("[GPU][ErrorView] an error view without a reference, or with one of another size, is "
 		  "refused") {
 	RenderFixture fixture;
 	const SmallScene scene;
@@ -68,7 +68,7 @@ TEST_CASE("[GPU][ErrorView] an error view without a truth, or with one of anothe
 	request.debug_view = "error";
 	CHECK_THROWS_WITH_AS(fixture.renderer->render(request), doctest::Contains("--truth"), Error);
 	const std::vector<float> values(12, 1.0f);
-	request.truth = std::make_shared<TruthMask>(glm::uvec2(4, 3), values, values);
+	request.reference = std::make_shared<ReferenceMask>(glm::uvec2(4, 3), values, values);
 	CHECK_THROWS_WITH_AS(fixture.renderer->render(request),
 			doctest::Contains("4 x 3 pixels, the frame 16 x 16"), Error);
 }

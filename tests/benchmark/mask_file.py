@@ -75,9 +75,9 @@ def load_mask(path):
     return mask
 
 
-def compute_mean_error(truth, result, pixels):
-    """Mean of |result - truth| over the pixels."""
-    return sum(abs(result.visibility[i] - truth.visibility[i]) for i in pixels) / max(len(pixels), 1)
+def compute_mean_error(reference, result, pixels):
+    """Mean of |result - reference| over the pixels."""
+    return sum(abs(result.visibility[i] - reference.visibility[i]) for i in pixels) / max(len(pixels), 1)
 
 
 def halve(mask):

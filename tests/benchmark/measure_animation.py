@@ -93,13 +93,13 @@ def measure_errors(techniques):
                 words = ["visibility", os.path.join(SCENES, "courtyard.gltf"), *at, "--camera", CAMERA, "--light", light,
                          "--size", SIZE, "--set", setting]
                 run(*words, "--technique", "reference", "--set", "reference_samples=%d" % SAMPLES, "--out", reference)
-                truth = load_mask(reference)
-                receivers = [index for index in moving if truth.receiver[index] >= 0.5]
+                reference_mask = load_mask(reference)
+                receivers = [index for index in moving if reference_mask.receiver[index] >= 0.5]
                 for technique in techniques:
                     run(*words, "--technique", technique, "--out", mask)
                     error = json.loads(run("compare", reference, mask))
                     found = load_mask(mask)
-                    wrong = sum(abs(found.visibility[i] - truth.visibility[i]) > WRONG for i in receivers)
+                    wrong = sum(abs(found.visibility[i] - reference_mask.visibility[i]) > WRONG for i in receivers)
                     row = (error["penumbra"]["mae"], error["receiver"]["wrong"] * 1e5, wrong / len(receivers) * 1e5)
                     before = greatest.get((light, technique), (0, 0, 0))
                     greatest[light, technique] = tuple(map(max, before, row))

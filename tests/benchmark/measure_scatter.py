@@ -3,9 +3,9 @@
 
     measure_scatter.py [--only errors|times|resolutions|shades] [--samples N]
 
-errors: each method against the truth at s = 0.15, 0.50 and 0.80, and against a plain blur of the same number of taps.
+errors: each method against the reference at s = 0.15, 0.50 and 0.80, and against a plain blur of the same number of taps.
 times: what the filter's passes cost. resolutions: how much the mask changes between images of 512 and 2048 pixels.
-shades: coloured shadows against the truth. --samples: rays per pixel of the truths (default 4096).
+shades: coloured shadows against the reference. --samples: rays per pixel of the references (default 4096).
 """
 
 import argparse
@@ -62,21 +62,21 @@ def blur(mask, radius_px):
 
 def measure_errors(folder, sample_count):
     lines = ["| s | technique | method | penumbra MAE | MAE over all receivers |", "|---|---|---|---|---|"]
-    truth_path, mask_path = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
+    reference_path, mask_path = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     for scene, scatter in SCENES:
-        render(scene, find_reference(), ["reference_samples=%d" % sample_count], truth_path)
-        truth = load_mask(truth_path)
-        penumbra = truth.find_penumbra()
-        receivers = [i for i, value in enumerate(truth.receiver) if value >= 0.5]
+        render(scene, find_reference(), ["reference_samples=%d" % sample_count], reference_path)
+        reference = load_mask(reference_path)
+        penumbra = reference.find_penumbra()
+        receivers = [i for i, value in enumerate(reference.receiver) if value >= 0.5]
         for technique in TECHNIQUES:
             for name, settings in METHODS:
                 render(scene, technique, settings + (MAP if technique == "shadow_map" else []), mask_path)
                 mask = load_mask(mask_path)
-                errors = compute_mean_error(truth, mask, penumbra), compute_mean_error(truth, mask, receivers)
+                errors = compute_mean_error(reference, mask, penumbra), compute_mean_error(reference, mask, receivers)
                 lines.append("| %g | `%s` | %s | %.4f | %.4f |" % (scatter, technique, name, *errors))
                 if name == "none":
                     blurred = blur(mask, 16.0 * scatter)
-                    errors = compute_mean_error(truth, blurred, penumbra), compute_mean_error(truth, blurred, receivers)
+                    errors = compute_mean_error(reference, blurred, penumbra), compute_mean_error(reference, blurred, receivers)
                     lines.append("| %g | `%s` | blur, 48 taps | %.4f | %.4f |" % (scatter, technique, *errors))
     return lines
 
@@ -130,13 +130,13 @@ def measure_resolutions(folder):
 
 def measure_shades(folder, sample_count):
     lines = ["| R in m | technique | penumbra MAE | MAE over all receivers |", "|---|---|---|---|"]
-    truth, mask = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
+    reference, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     for size_m in (0.0, 0.08, 0.4):
         light = ["light_size=%g" % size_m]
-        render("stained_glass", find_reference(), light + ["reference_samples=%d" % min(sample_count, 1024)], truth, 256)
+        render("stained_glass", find_reference(), light + ["reference_samples=%d" % min(sample_count, 1024)], reference, 256)
         for technique in ("edge_count", "pcss", "shadow_map", "penumbra_fins"):
             render("stained_glass", technique, light, mask, 256)
-            error = json.loads(run("compare", truth, mask))
+            error = json.loads(run("compare", reference, mask))
             values = (size_m, technique, error["penumbra"]["mae"], error["receiver"]["mae"])
             lines.append("| %g | `%s` | %.4f | %.4f |" % values)
     return lines

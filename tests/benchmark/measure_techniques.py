@@ -3,7 +3,7 @@
 
 A table stands between `<!-- begin errors ID [property=value ...] -->` and `<!-- end errors -->`:
 penumbra errors on the six study scenes at three light sizes. `begin times` likewise: the total of
-`visibility --time` at R = 0.4 m. Truths are traced once (the program keeps them in its cache).
+`visibility --time` at R = 0.4 m. References are traced once (the program keeps them in its cache).
 
     measure_techniques.py [--only ID]... [--errors | --times]
 """
@@ -49,13 +49,13 @@ def format_number(value):
 
 def build_errors(technique, settings, reference, folder):
     lines = ["| scene | R in m | MAE | RMSE | p99 | bias | `umbra_over` |", "|---|---|---|---|---|---|---|"]
-    truth, mask = os.path.join(folder, "truth.exr"), os.path.join(folder, "mask.exr")
+    reference_path, mask = os.path.join(folder, "reference.exr"), os.path.join(folder, "mask.exr")
     for scene in SCENES:
         for size in SIZES_M:
             light = ["light_size=%g" % size]
-            render(scene, reference, light, truth)
+            render(scene, reference, light, reference_path)
             render(scene, technique, light + settings, mask)
-            error = json.loads(run("compare", truth, mask))["penumbra"]
+            error = json.loads(run("compare", reference_path, mask))["penumbra"]
             names = ("mae", "rmse", "p99", "bias", "umbra_over")
             lines.append("| %s | %g | %s |" % (scene, size, " | ".join(format_number(error[name]) for name in names)))
             print(technique, *settings, lines[-1], flush=True)

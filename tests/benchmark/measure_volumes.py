@@ -44,22 +44,22 @@ def render(scene, light, technique, settings, out, *more):
     run([GNOMON, "visibility", scene, "--light", light, "--technique", technique, "--size", SIZE, "--out", out, *words, *more])
 
 
-def count_wrong(truth, mask):
+def count_wrong(reference, mask):
     """(receivers, those that differ)"""
-    result = json.loads(run([GNOMON, "compare", truth, mask]))
+    result = json.loads(run([GNOMON, "compare", reference, mask]))
     return result["pixels"], round(result["receiver"]["mae"] * result["pixels"])
 
 
 def measure(scene, light, folder):
-    truth, mask, times = (os.path.join(folder, name) for name in ("truth.exr", "mask.exr", "time.json"))
-    render(scene, light, "reference", ["reference_samples=1"], truth)
+    reference, mask, times = (os.path.join(folder, name) for name in ("reference.exr", "mask.exr", "time.json"))
+    render(scene, light, "reference", ["reference_samples=1"], reference)
     wrong, cost = {}, {}
     for name, (technique, *settings) in TIMED.items():
         render(scene, light, technique, settings, mask, "--time", times)
         with open(times, encoding="utf-8") as file:
             cost[name] = json.load(file)["total"]["wall_ms"]
         if name in COMPARED:
-            receivers, wrong[name] = count_wrong(truth, mask)
+            receivers, wrong[name] = count_wrong(reference, mask)
     return receivers, wrong, cost
 
 

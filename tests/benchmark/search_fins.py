@@ -6,7 +6,7 @@
 The error that falls is the MAE over penumbra pixels. From r = t = R/4 the widths are moved one by one, by factors
 that shrink, with 0 among them; then beta is tried over fixed values, then the widths once more. The table also
 shows what the derived widths, r = t = R, give, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
-Truths are traced once (the program keeps them in its cache).
+References are traced once (the program keeps them in its cache).
 """
 
 import argparse
@@ -35,7 +35,7 @@ MAX_EVALUATIONS = 40  # of one target
 KEPT_EVALUATIONS = 6  # for the widths after beta
 SCENE_SIZE_M = 4  # of the demo scenes: a sun's derived width is the tangent of half its angle times this
 SUN_ANGLES_DEG = (1.0, 6.0, 20.0)
-LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the truth's noise
+LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the reference's noise
 ERRORS = ("mae", "bias", "umbra_over")
 
 
@@ -78,18 +78,18 @@ class Search:
         self.derived = (target.width_m, target.width_m, DERIVED)
         self.best = self.derived
 
-    def measure(self, point, truth):
+    def measure(self, point, reference_path):
         settings = ["%s=%g" % pair for pair in zip(PROPERTIES, point)]
         with tempfile.TemporaryDirectory() as folder:
             mask = os.path.join(folder, "mask.exr")
             self.target.render(TECHNIQUE, settings, mask)
-            return json.loads(run("compare", truth, mask))["penumbra"]
+            return json.loads(run("compare", reference_path, mask))["penumbra"]
 
-    def evaluate(self, points, truth, limit):
+    def evaluate(self, points, reference_path, limit):
         """Adds the errors of the points that are new, up to `limit` errors in all. True when one is the best now."""
         fresh = [point for point in dict.fromkeys(points) if point not in self.errors]
         fresh = fresh[: max(0, limit - len(self.errors))]
-        results = self.pool.map(lambda point: self.measure(point, truth), fresh)
+        results = self.pool.map(lambda point: self.measure(point, reference_path), fresh)
         self.errors.update(zip(fresh, results))
         found = min(fresh, key=self.get_error, default=self.best)
         is_better = self.get_error(found) < self.get_error(self.best) - LEAST_GAIN
@@ -100,7 +100,7 @@ class Search:
     def get_error(self, point):
         return self.errors[point]["mae"]
 
-    def improve_width(self, index, factor, truth, limit):
+    def improve_width(self, index, factor, reference_path, limit):
         """Moves r or t by the factor for as long as the error falls. True when it fell."""
         is_better_once = False
         while True:
@@ -108,26 +108,26 @@ class Search:
             values = [value * factor, value / factor] if value > 0 else [LEAST_SHARE * self.target.width_m]
             if factor == FACTORS[0]:
                 values.append(0.0)
-            if not self.evaluate([move(self.best, index, other) for other in values], truth, limit):
+            if not self.evaluate([move(self.best, index, other) for other in values], reference_path, limit):
                 return is_better_once
             is_better_once = True
 
-    def improve_widths(self, factor, truth, limit):
+    def improve_widths(self, factor, reference_path, limit):
         """Both in turn, until neither is better: a list, since any() alone would leave out t after r fell."""
-        while any([self.improve_width(index, factor, truth, limit) for index in (OUTER, INNER)]):
+        while any([self.improve_width(index, factor, reference_path, limit) for index in (OUTER, INNER)]):
             pass
 
     def run(self):
         start = START_SHARE * self.target.width_m
         with tempfile.TemporaryDirectory() as folder:
-            truth = os.path.join(folder, "truth.exr")
-            self.pool.submit(self.target.render, self.reference, [], truth).result()
-            self.evaluate([self.derived, (start, start, DERIVED)], truth, MAX_EVALUATIONS)
+            reference_path = os.path.join(folder, "reference.exr")
+            self.pool.submit(self.target.render, self.reference, [], reference_path).result()
+            self.evaluate([self.derived, (start, start, DERIVED)], reference_path, MAX_EVALUATIONS)
             for factor in FACTORS:
-                self.improve_widths(factor, truth, MAX_EVALUATIONS - len(BETAS_M) - KEPT_EVALUATIONS)
+                self.improve_widths(factor, reference_path, MAX_EVALUATIONS - len(BETAS_M) - KEPT_EVALUATIONS)
             if self.best[INNER] > 0:  # beta is of the inner fins
-                self.evaluate([move(self.best, BETA, beta_m) for beta_m in BETAS_M], truth, MAX_EVALUATIONS)
-            self.improve_widths(FACTORS[-1], truth, MAX_EVALUATIONS)
+                self.evaluate([move(self.best, BETA, beta_m) for beta_m in BETAS_M], reference_path, MAX_EVALUATIONS)
+            self.improve_widths(FACTORS[-1], reference_path, MAX_EVALUATIONS)
         return self
 
 

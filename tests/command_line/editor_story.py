@@ -1,5 +1,5 @@
 """What the editor is for, from end to end: open, switch a soft shadow on for a light, drag its size, compare it with the
-truth, save, run the game. A test tells it; doc/make_editor_images.py photographs it.
+reference, save, run the game. A test tells it; doc/make_editor_images.py photographs it.
 """
 
 import os
@@ -10,7 +10,7 @@ from command_line_case import find_technique
 from editor_case import LIGHT, load
 from display_case import TIMEOUT_S
 
-TRUTH_RAYS = 256  # that are enough to judge by
+REFERENCE_RAYS = 256  # that are enough to judge by
 SOFT_MAE = 0.02
 
 
@@ -64,7 +64,7 @@ def tell(case, take):
 
     case.click("penumbra")
     case.click("tab Error")
-    error = case.wait_for(lambda state: state["error"]["rays"] >= TRUTH_RAYS)["error"]
+    error = case.wait_for(lambda state: state["error"]["rays"] >= REFERENCE_RAYS)["error"]
     case.assertEqual(error["light"], LIGHT)
     case.assertLess(error["penumbra_mae"], SOFT_MAE)
     case.choose("against", find_technique("is_fallback"))

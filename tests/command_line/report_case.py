@@ -8,8 +8,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from command_line_case import ROOT, CommandLineTest, load_json, run  # noqa: E402
 
 PROJECT = os.path.join(ROOT, "demo_project")
-SMALL_TRUTH = ("--size", "64x64", "--samples", "64")
-QUICK = (*SMALL_TRUTH, "--scaling", "none", "--stability", "none")
+SMALL_REFERENCE = ("--size", "64x64", "--samples", "64")
+QUICK = (*SMALL_REFERENCE, "--scaling", "none", "--stability", "none")
 
 
 def load_report(folder):

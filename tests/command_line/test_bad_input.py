@@ -259,7 +259,7 @@ class BadArguments(CommandLineTest):
         self.assertIn(result.returncode, (1, 2))
         self.assert_refused(result, "Moon", code=result.returncode)
 
-    def test_an_error_view_without_its_truth_names_the_next_step(self):
+    def test_an_error_view_without_its_reference_names_the_next_step(self):
         show = ("run", CONTACT_BOX, "--headless", *SMALL, "--debug-view", "error")
         self.assert_refused(run(*show), "--truth")
         self.assert_refused(run(*show, "--truth", self.path("missing.exr")), "missing.exr")

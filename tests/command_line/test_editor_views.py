@@ -1,4 +1,4 @@
-"""What the editor shows: the error beside its truth, two techniques, changed shaders, what was open before."""
+"""What the editor shows: the error beside its reference, two techniques, changed shaders, what was open before."""
 
 import os
 import shutil
@@ -24,7 +24,7 @@ class EditorViewsTest(EditorCase):
         self.assertLess(soft["penumbra_mae"], SOFT_MAE)
         self.choose("property shadow_technique", find_technique("is_fallback"))
         hard = self.wait_for(lambda state: state["error"]["penumbra_mae"] > 2.0 * SOFT_MAE)["error"]
-        self.assertGreaterEqual(hard["rays"], 256)  # the truth is the same, and was not traced again
+        self.assertGreaterEqual(hard["rays"], 256)  # the reference is the same, and was not traced again
         screenshot = self.photograph()
         self.click("image error")  # a click shows it in the viewport
         self.assertGreater(self.count_different(screenshot, self.photograph()), 0.2)
@@ -34,12 +34,12 @@ class EditorViewsTest(EditorCase):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
-    def test_the_truth_can_be_stopped_and_started(self):
+    def test_the_reference_can_be_stopped_and_started(self):
         self.open_editor()
         self.click("tab Error")
         self.select_light()
         self.wait_for(lambda state: state["error"]["rays"] >= 16)
-        self.click("button truth")
+        self.click("button reference")
         self.rest()
         stopped = self.wait_for(lambda state: not state["error"]["is_tracing"])["error"]["rays"]
         self.rest()
@@ -50,7 +50,7 @@ class EditorViewsTest(EditorCase):
         self.rest()
         error = self.get_state()["error"]
         self.assertEqual((error["rays"], error["is_tracing"]), (0, False), "nothing is traced while it is stopped")
-        self.click("button truth")
+        self.click("button reference")
         self.wait_for(lambda state: state["error"]["rays"] >= 16)
         self.press("key", "ctrl+z")
         self.wait_for(lambda state: not state["is_changed"])

@@ -63,16 +63,16 @@ class GoodCommands(CommandLineTest):
 
     def test_masks_are_compared(self):
         reference = find_technique("is_reference")
-        truth, mask, times = self.path("truth.exr"), self.path("mask.exr"), self.path("time.json")
+        reference_path, mask, times = self.path("reference.exr"), self.path("mask.exr"), self.path("time.json")
         size = ("--size", "128x128")
         samples = ("--set", "%s_samples=64" % reference)
-        result = run("visibility", CONTACT_BOX, "--technique", reference, "--out", truth, *size, *samples)
-        self.assert_mask(result, "truth.exr")
+        result = run("visibility", CONTACT_BOX, "--technique", reference, "--out", reference_path, *size, *samples)
+        self.assert_mask(result, "reference.exr")
         result = run(
             "visibility", CONTACT_BOX, "--technique", self.get_fallback(), "--out", mask, *size, "--time", times
         )
         self.assert_mask(result)
-        found = load_json("compare", truth, mask)
+        found = load_json("compare", reference_path, mask)
         self.assertEqual(set(found), {"pixels", "receiver", "penumbra"})
         self.assertEqual(set(found["receiver"]), {"mae", "rmse", "p99", "bias", "wrong"})
         self.assertEqual(set(found["penumbra"]), {"pixels", "mae", "rmse", "p99", "bias", "wrong", "umbra_over"})
@@ -83,7 +83,7 @@ class GoodCommands(CommandLineTest):
         self.assertLess(found["penumbra"]["pixels"], found["pixels"])
         self.assertTrue(0.0 < found["receiver"]["mae"] < found["penumbra"]["mae"] < 0.5)
         self.assertLessEqual(abs(found["penumbra"]["bias"]), found["penumbra"]["mae"])
-        same = load_json("compare", truth, truth)
+        same = load_json("compare", reference_path, reference_path)
         self.assertEqual(same["penumbra"]["mae"], 0)
         self.assertEqual(same["receiver"]["wrong"], 0)
         with open(times, encoding="utf-8") as file:
@@ -224,7 +224,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(read_png_size(path), (32, 32))
 
-    def test_the_error_against_a_truth_is_shown(self):
+    def test_the_error_against_a_reference_is_shown(self):
         self.assert_mask(self.compute_mask(CONTACT_BOX))
         images = {}
         for name, more in (("error", ("--debug-view", "error")), ("image", ())):

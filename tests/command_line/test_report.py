@@ -9,7 +9,7 @@ import unittest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from check_report_page import check_page  # noqa: E402
 from command_line_case import SCENES, find_technique, load_json, run  # noqa: E402
-from report_case import PROJECT, SMALL_TRUTH, ReportCase, drop_times, load_report  # noqa: E402
+from report_case import PROJECT, SMALL_REFERENCE, ReportCase, drop_times, load_report  # noqa: E402
 
 
 class Reports(ReportCase):
@@ -38,11 +38,11 @@ class Reports(ReportCase):
 
     def test_the_errors_are_those_of_compare(self):
         report = self.load_done("report", self.small("report"))
-        truth, mask = self.path("truth.exr"), self.path("mask.exr")
+        reference_path, mask = self.path("reference.exr"), self.path("mask.exr")
         scene = os.path.join(SCENES, "sphere.gltf")
         common = ("--size", "64x64", "--set", "light_size=0.8")
         reference = find_technique("is_reference")
-        run("visibility", scene, "--technique", reference, "--out", truth, *common, "--set", reference + "_samples=64")
+        run("visibility", scene, "--technique", reference, "--out", reference_path, *common, "--set", reference + "_samples=64")
         run("visibility", scene, "--technique", self.get_fallback(), "--out", mask, *common)
         index = [item["id"] for item in report["configurations"]].index("sphere/Light/0.8")
         (cell,) = [
@@ -50,7 +50,7 @@ class Reports(ReportCase):
             for item in report["cells"]
             if item["configuration"] == index and item["technique"] == self.get_fallback()
         ]
-        self.assertEqual(cell["error"]["all"], load_json("compare", truth, mask))
+        self.assertEqual(cell["error"]["all"], load_json("compare", reference_path, mask))
 
     def test_the_page_is_drawn_without_a_console_message(self):
         self.load_done("report", self.small("report"))
@@ -80,7 +80,7 @@ class Reports(ReportCase):
         result = self.report("report", *fallback, "--light-types", "spot,omni,directional")
         types = [item["light_type"] for item in self.load_done("report", result)["configurations"]]
         self.assertEqual(types, ["spot", "omni", "directional"])
-        options = (*SMALL_TRUTH, *fallback, "--scaling", "quick", "--out", self.path("more"))
+        options = (*SMALL_REFERENCE, *fallback, "--scaling", "quick", "--out", self.path("more"))
         report = self.load_done("more", run("report", PROJECT, *options))
         self.assertEqual([item["name"] for item in report["scaling"]], ["triangles", "light_size", "lights", "resolution"])
         for curve in report["scaling"]:

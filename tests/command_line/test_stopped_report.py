@@ -72,11 +72,11 @@ class StoppedReports(ReportCase):
         self.assertIn("1 are left", result.stderr)
         self.assertEqual(drop_times(self.load_done("report", result)["cells"]), drop_times(whole["cells"]))
 
-    def test_a_damaged_truth_in_the_cache_is_traced_anew(self):
+    def test_a_damaged_reference_in_the_cache_is_traced_anew(self):
         cache = self.path("cache")
         arguments = ("--scenes", "sphere", "--sizes", "0.4", "--techniques", self.get_fallback())
         whole = self.load_done("report", self.report("report", *arguments, GNOMON_CACHE_DIR=cache))
-        (entry,) = [os.path.join(cache, name) for name in os.listdir(cache) if name.startswith("truth")]
+        (entry,) = [os.path.join(cache, name) for name in os.listdir(cache) if name.startswith("reference")]
         with open(entry, "rb") as file:
             data = bytearray(file.read())
         data[len(data) // 2] ^= 0x10

@@ -122,9 +122,9 @@ TEST_CASE("[GPU][Shaders] illuminance follows KHR_lights_punctual") {
 						: std::max(distance_m * distance_m, 1e-12);
 				for (int channel = 0; channel < 3; ++channel) {
 					const double intensity = double(light.intensity[channel]);
-					const double truth = compute_illuminance(light, position, intensity);
+					const double expected = compute_illuminance(light, position, intensity);
 					largest_error = std::max(largest_error,
-							std::abs(double(results[index][channel]) - truth) * scale / intensity);
+							std::abs(double(results[index][channel]) - expected) * scale / intensity);
 				}
 			}
 			CHECK(largest_error < 2e-5);

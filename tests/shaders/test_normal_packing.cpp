@@ -45,11 +45,11 @@ TEST_CASE("[GPU][Shaders] packed normals are within 6.5e-5 rad, and C++ unpacks 
 	double largest_error_rad = 0;
 	float largest_difference = 0;
 	for (size_t index = 0; index < directions.size(); ++index) {
-		const glm::dvec3 truth(directions[index]);
+		const glm::dvec3 expected(directions[index]);
 		const glm::vec3 unpacked(results[2 * index]);
 		const glm::dvec3 value(unpacked);
 		const double error_rad =
-				std::atan2(glm::length(glm::cross(truth, value)), glm::dot(truth, value));
+				std::atan2(glm::length(glm::cross(expected, value)), glm::dot(expected, value));
 		largest_error_rad = std::max(largest_error_rad, error_rad);
 		const glm::vec4 &halves = results[2 * index + 1];
 		const uint32_t packed =

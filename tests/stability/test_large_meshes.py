@@ -45,13 +45,13 @@ class LargeMeshes(unittest.TestCase):
 
     def check(self, name):
         scene = make_scene(name, self.folder)
-        truth, mask = os.path.join(self.folder, "truth.exr"), os.path.join(self.folder, "mask.exr")
-        render(scene, truth, "reference", "reference_samples=1")
+        reference, mask = os.path.join(self.folder, "reference.exr"), os.path.join(self.folder, "mask.exr")
+        render(scene, reference, "reference", "reference_samples=1")
         for way, (technique, *settings) in WAYS.items():
             with self.subTest(mesh=name, way=way):
                 plan = render(scene, mask, technique, *settings)
                 self.assertIn("robust volumes, casters: 1: runs", plan)
-                found = json.loads(run("compare", truth, mask))
+                found = json.loads(run("compare", reference, mask))
                 wrong = round(found["receiver"]["mae"] * found["pixels"])
                 print("%s, %s: %d of %d receivers differ from rays" % (name, way, wrong, found["pixels"]))
                 self.assertGreater(found["pixels"], 50000)

@@ -61,8 +61,8 @@ class Stability(StabilityCase):
                 with self.subTest(sweep=plot["sweep"], light=plot["light_type"], value=point["label"]):
                     if plot["sweep"] in HELD_SWEEPS and point["value"] <= HELD_SWEEPS[plot["sweep"]]:
                         center = next(item for item in series["points"] if item["label"] == plot["center"])
-                        truth = self.report["configurations"][cell["configuration"]]["truth"]
-                        allowed = max(2 * center["mae"], LEAST_MAE) + 2 * truth["standard_error"]
+                        reference = self.report["configurations"][cell["configuration"]]["truth"]
+                        allowed = max(2 * center["mae"], LEAST_MAE) + 2 * reference["standard_error"]
                         self.assertLessEqual(point["mae"], allowed)
                     if moved is not None and point["label"] not in VERTEX_LIGHTS:
                         self.assertLessEqual(moved, MOST_CHANGE)

@@ -20,7 +20,7 @@ QUICK_TECHNIQUES = ("shadow_map", "pcss", "shadow_volume", "edge_count")
 # have masks that lack parts of the mesh.
 SOFT_TECHNIQUES = ("pcss", "views")
 MOST_SOFT_MAE = 0.16
-# Share of the receivers that are fully lit or dark in truth and wrong by more than a half; shadow volumes are exact there.
+# Share of the receivers that are fully lit or dark in the reference and wrong by more than a half; shadow volumes are exact there.
 EXACT_TECHNIQUES = ("shadow_volume", "shadow_volume_cpu")
 MOST_WRONG_SHARE = 0.001
 

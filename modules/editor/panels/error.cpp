@@ -37,13 +37,13 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 
-/// What the truth is worth so far, and how to have more or less of it.
-void draw_truth(EditorContext &r_context) {
+/// The precision of the reference so far, and the controls of its tracing.
+void draw_reference(EditorContext &r_context) {
 	ErrorState &state = r_context.error;
 	if (ImGui::Button(state.is_stopped ? "Start" : "Stop")) {
 		state.is_stopped = !state.is_stopped;
 	}
-	r_context.note_item("button truth");
+	r_context.note_item("button reference");
 	if (ImGui::IsItemHovered()) {
 		ImGui::SetTooltip("The reference is traced in the background while this tab or the view "
 						  "\"error\" is open");
@@ -64,13 +64,13 @@ void draw_truth(EditorContext &r_context) {
 		ImGui::ProgressBar(state.progress, ImVec2(-1.0f, 0.0f), label.c_str());
 	} else if (r_context.document.get_timeline().is_playing()) {
 		ImGui::TextDisabled("measured when paused");
-	} else if (!state.truth) {
-		ImGui::TextDisabled(state.is_stopped ? "no truth" : "measuring the cost");
+	} else if (!state.reference) {
+		ImGui::TextDisabled(state.is_stopped ? "no reference" : "measuring the cost");
 	} else {
 		ImGui::TextDisabled("%.1f s", state.round.seconds);
 	}
-	if (state.truth) {
-		ImGui::Text("Truth: %u rays a pixel, standard error", state.round.sample_count);
+	if (state.reference) {
+		ImGui::Text("Reference: %u rays a pixel, standard error", state.round.sample_count);
 		ImGui::SameLine();
 		if (state.round.standard_error < 0.0f) {
 			ImGui::TextUnformatted("unknown");
@@ -110,7 +110,7 @@ void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVe
 	}
 }
 
-/// Mask, truth and their difference side by side, as large as fits.
+/// Mask, reference and their difference side by side, as large as fits.
 void draw_images(EditorContext &r_context) {
 	const ErrorState &state = r_context.error;
 	const ImVec2 space = ImGui::GetContentRegionAvail();
@@ -125,11 +125,11 @@ void draw_images(EditorContext &r_context) {
 	const ImVec2 size(size_px.x * scale, size_px.y * scale);
 	draw_view(r_context, "mask", state.mask_texture, size);
 	ImGui::SameLine();
-	draw_image(r_context, "truth", state.metrics ? state.truth_texture : nullptr, size);
+	draw_image(r_context, "reference", state.metrics ? state.reference_texture : nullptr, size);
 	ImGui::SameLine();
 	draw_view(r_context, "error", state.metrics ? state.error_texture : nullptr, size);
 	if (ImGui::IsItemHovered()) {
-		ImGui::SetTooltip("Mask less truth. Blue: too dark, red: too light, full colour at %.2g",
+		ImGui::SetTooltip("Mask minus reference. Blue: too dark, red: too light, full colour at %.2g",
 				double(HEAT_MAP_RANGE));
 	}
 }
@@ -149,7 +149,7 @@ void draw_error(EditorContext &r_context) {
 		ImGui::TextUnformatted(state.light.c_str());
 		ImGui::SameLine();
 		ImGui::TextDisabled("%s", state.technique.c_str());
-		draw_truth(r_context);
+		draw_reference(r_context);
 		draw_cost(state);
 		if (state.metrics) {
 			draw_metrics(*state.metrics);

@@ -23,7 +23,7 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	context.viewport.size_px = glm::uvec2(32);
 	context.viewport.camera.frame(document.compute_selected_bounds());
 	context.error.is_shown = true;
-	context.error.sample_count = BackgroundTruth::FIRST_SAMPLE_COUNT;
+	context.error.sample_count = BackgroundReference::FIRST_SAMPLE_COUNT;
 	ErrorMeter meter(*fixture.device, *fixture.renderer);
 	uint32_t image_count = 0;
 	const auto measure = [&] {
@@ -32,14 +32,14 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 			meter.update(context, image_count);
 			REQUIRE(context.error.refusal == "");
 			std::this_thread::yield();
-		} while (!context.error.truth);
-		return context.error.truth_hash;
+		} while (!context.error.reference);
+		return context.error.reference_hash;
 	};
 	timeline.play();
 	for (int frame = 0; frame < 3; ++frame) {
 		CHECK(timeline.advance(0.1));
 		meter.update(context, ++image_count);
-		CHECK(context.error.truth_hash == 0);
+		CHECK(context.error.reference_hash == 0);
 		CHECK_FALSE(context.error.is_tracing);
 	}
 	timeline.pause();
@@ -49,7 +49,7 @@ TEST_CASE("[ErrorMeter] nothing is measured while an animation plays, and the sh
 	CHECK(timeline.advance(0.5));
 	meter.update(context, ++image_count);
 	CHECK_FALSE(context.error.is_tracing);
-	CHECK(context.error.truth_hash == hash); // the last one stays
+	CHECK(context.error.reference_hash == hash); // the last one stays
 	timeline.pause();
 	meter.update(context, ++image_count);
 	CHECK(measure() != hash);

@@ -75,7 +75,7 @@
 
 	report.isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 
-	/* The two numbers of every plot; undefined where a cell failed, is missing or has no truth. */
+	/* The two numbers of every plot; undefined where a cell failed, is missing or has no reference. */
 	report.getMae = (cell) => cell.error?.all?.penumbra?.mae;
 	report.getCostMs = (cell) => cell.time?.cost_ms;
 	report.isDrawn = (cell) => report.isNumber(report.getMae(cell)) && report.getCostMs(cell) > 0;

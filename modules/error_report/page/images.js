@@ -1,4 +1,4 @@
-/* The image viewer of a scene: result against truth, the signed error, and the numbers of one cell. Images are
+/* The image viewer of a scene: result against reference, the signed error, and the numbers of one cell. Images are
    decoded when they are shown, because a report can hold several hundred. */
 (function () {
 	"use strict";
@@ -121,19 +121,19 @@
 
 	/* { element, select(cell), draw() }; p_on_select is told of every cell that is chosen here or from outside. */
 	report.makeViewer = function (configurations, onSelect, getLabel = report.getLightText) {
-		const truthCanvas = make("canvas", { "aria-hidden": "true" });
+		const referenceCanvas = make("canvas", { "aria-hidden": "true" });
 		const resultCanvas = make("canvas", { class: "over", "aria-hidden": "true" });
-		const heatCanvas = make("canvas", { role: "img", "aria-label": "Signed error, result minus truth" });
-		const slider = make("input", { type: "range", min: 0, max: 100, value: 50, "aria-label": "Wipe between result and truth",
+		const heatCanvas = make("canvas", { role: "img", "aria-label": "Signed error, result minus reference" });
+		const slider = make("input", { type: "range", min: 0, max: 100, value: 50, "aria-label": "Wipe between result and reference",
 			oninput: () => wipe.style.setProperty("--x", `${slider.value}%`) });
-		const wipe = make("div", { class: "wipe", "--x": "50%" }, truthCanvas, resultCanvas, make("i"),
-			make("b", { class: "left" }, "result"), make("b", { class: "right" }, "truth"), slider);
+		const wipe = make("div", { class: "wipe", "--x": "50%" }, referenceCanvas, resultCanvas, make("i"),
+			make("b", { class: "left" }, "result"), make("b", { class: "right" }, "reference"), slider);
 		const probe = make("p", { class: "probe" });
 		const message = make("p", { class: "failure", hidden: true });
 		const metrics = make("p", { class: "metrics" });
 		const passes = make("div", { class: "passes" });
 		const views = make("div", { class: "views" },
-			make("figure", {}, wipe, make("figcaption", {}, "Result and truth: drag to wipe. Hatched: no receiver.")),
+			make("figure", {}, wipe, make("figcaption", {}, "Result and reference: drag to wipe. Hatched: no receiver.")),
 			make("figure", {}, make("div", { class: "heat" }, heatCanvas), report.makeHeatLegend(), probe), passes);
 		const chooseConfiguration = makeSelect("light and size", (index) => select(findAlike(configurations[index])));
 		const chooseCell = makeSelect("technique and setting", (index) => select(report.data.cells[index]));
@@ -169,11 +169,11 @@
 
 		async function draw() {
 			const cell = chosen;
-			const truthName = report.data.configurations[cell.configuration].truth?.image;
+			const referenceName = report.data.configurations[cell.configuration].truth?.image;
 			try {
-				const [result, truth] = await Promise.all([loadPixels(cell.image), loadPixels(truthName)]);
+				const [result, reference] = await Promise.all([loadPixels(cell.image), loadPixels(referenceName)]);
 				if (cell === chosen) {
-					showPixels(cell, result, truth);
+					showPixels(cell, result, reference);
 				}
 			} catch (error) {
 				showMessage(error.message);
@@ -186,32 +186,32 @@
 			views.classList.toggle("empty", Boolean(text));
 		}
 
-		function showPixels(cell, result, truth) {
+		function showPixels(cell, result, reference) {
 			probe.textContent = "";
 			shown = null;
 			if (cell.status !== "ok") {
 				return showMessage(cell.status === "missing" ? "Not measured." : `Failed: ${cell.message || "no message"}`);
 			}
-			if (!result || !truth) {
+			if (!result || !reference) {
 				return showMessage("This cell has no image in this page.");
 			}
-			if (result.width !== truth.width || result.height !== truth.height) {
-				return showMessage("Result and truth differ in size.");
+			if (result.width !== reference.width || result.height !== reference.height) {
+				return showMessage("Result and reference differ in size.");
 			}
 			showMessage("");
 			const range = report.data.heat_map.range;
 			const toGrey = (pixels) => (offset) => [pixels.data[offset], pixels.data[offset], pixels.data[offset],
-				truth.data[offset + 3] > 0 ? 255 : 0];
-			const getError = (offset) => (result.data[offset] - truth.data[offset]) / 255;
+				reference.data[offset + 3] > 0 ? 255 : 0];
+			const getError = (offset) => (result.data[offset] - reference.data[offset]) / 255;
 			// 511 differences at most: a table spares a mix of colours per pixel.
 			const table = d3.range(-255, 256).map((step) => [...getHeatColor(step / 255).map(Math.round), 255]);
 			const grey = report.data.heat_map.no_receiver;
-			paint(resultCanvas, truth, toGrey(result));
-			paint(truthCanvas, truth, toGrey(truth));
-			paint(heatCanvas, truth, (offset) => (truth.data[offset + 3] > 0
-				? table[result.data[offset] - truth.data[offset] + 255] : [grey, grey, grey, 255]));
-			views.style.setProperty("--aspect", `${truth.width} / ${truth.height}`);
-			shown = { result, truth, getError, range };
+			paint(resultCanvas, reference, toGrey(result));
+			paint(referenceCanvas, reference, toGrey(reference));
+			paint(heatCanvas, reference, (offset) => (reference.data[offset + 3] > 0
+				? table[result.data[offset] - reference.data[offset] + 255] : [grey, grey, grey, 255]));
+			views.style.setProperty("--aspect", `${reference.width} / ${reference.height}`);
+			shown = { result, reference, getError, range };
 			return undefined;
 		}
 
@@ -220,14 +220,14 @@
 			if (!shown) {
 				return;
 			}
-			const { result, truth, getError } = shown;
+			const { result, reference, getError } = shown;
 			const box = event.currentTarget.getBoundingClientRect();
 			const clamp = (value, size) => Math.max(0, Math.min(size - 1, Math.floor(value * size)));
-			const x_px = clamp((event.clientX - box.left) / box.width, truth.width);
-			const y_px = clamp((event.clientY - box.top) / box.height, truth.height);
-			const offset = 4 * (y_px * truth.width + x_px);
-			const values = truth.data[offset + 3] === 0 ? "no receiver" : `result ${(result.data[offset] / 255).toFixed(3)}, ` +
-				`truth ${(truth.data[offset] / 255).toFixed(3)}, error ${report.showBias(getError(offset))}`;
+			const x_px = clamp((event.clientX - box.left) / box.width, reference.width);
+			const y_px = clamp((event.clientY - box.top) / box.height, reference.height);
+			const offset = 4 * (y_px * reference.width + x_px);
+			const values = reference.data[offset + 3] === 0 ? "no receiver" : `result ${(result.data[offset] / 255).toFixed(3)}, ` +
+				`reference ${(reference.data[offset] / 255).toFixed(3)}, error ${report.showBias(getError(offset))}`;
 			probe.textContent = `pixel ${x_px}, ${y_px}: ${values}`;
 		}
 		[wipe, heatCanvas].forEach((item) => item.addEventListener("pointermove", showProbe));

@@ -187,7 +187,7 @@
 		const items = [];
 		for (const configuration of data.configurations) {
 			if (configuration.status === "failed") {
-				items.push([`Truth of ${configuration.id}`, configuration.message]);
+				items.push([`Reference of ${configuration.id}`, configuration.message]);
 			}
 		}
 		for (const cell of data.cells.filter((item) => item.status === "failed")) {

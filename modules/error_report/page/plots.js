@@ -4,7 +4,7 @@
 
 	const report = window.GnomonReport;
 	const make = report.make;
-	// Below this an error is the noise of the truth and its 8-bit image; a logarithmic axis has no place for 0.
+	// Below this an error is the noise of the reference and its 8-bit image; a logarithmic axis has no place for 0.
 	const LEAST_ERROR_FLOOR = 1e-4;
 	// A narrower axis would show a difference of a few percent as large.
 	const LEAST_SPAN = Math.log(3);

@@ -15,7 +15,7 @@
 		const facts = data.machines.flatMap((machine, index) => [
 			[data.machines.length > 1 ? `machine ${index + 1}` : "device", `${machine.device}, driver ${machine.driver}`],
 			["CPU", `${machine.cpu}, ${machine.threads} threads`]]);
-		facts.push(["images", `${[...sizes].join(", ") || "–"} pixels`], ["truth", `${data.samples} samples a pixel`],
+		facts.push(["images", `${[...sizes].join(", ") || "–"} pixels`], ["reference", `${data.samples} samples a pixel`],
 			["measured", `${report.matrix.length} configurations`]);
 		document.getElementById("facts").append(...facts.map(([name, value]) => make("div", {}, make("dt", {}, name), make("dd", {}, value))));
 		const warning = report.makeWarning(data);
@@ -78,7 +78,7 @@
 		const partial = full.length < rows.length ? make("p", { class: "soft" }, "Hollow dots and marked rows: measured in fewer " +
 			`than ${most} configurations, so their means are over other images. They take no part in the Pareto front and the answers beside it.`) : null;
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
-			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the truth, further left is faster."), choice), host), tiles),
+			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),
 		data.best_settings.length > 0 ? report.makeRankingTable("Best setting chosen for each configuration", data.best_settings) : null);
 		drawOnEverySize(host, draw);
@@ -105,8 +105,8 @@
 		}) : null;
 		const grid = make("div", { class: "grid" }, configurations.map((configuration) => {
 			const own = configuration.cells.filter(report.isDrawn);
-			const truth = configuration.truth ? `${report.showCount(configuration.penumbra_pixels)} penumbra pixels, truth ± ${report.showError(configuration.truth.standard_error)}` : "";
-			const figure = make("figure", {}, make("h3", {}, report.getLightText(configuration)), make("p", { class: "soft" }, truth));
+			const reference = configuration.truth ? `${report.showCount(configuration.penumbra_pixels)} penumbra pixels, reference ± ${report.showError(configuration.truth.standard_error)}` : "";
+			const figure = make("figure", {}, make("h3", {}, report.getLightText(configuration)), make("p", { class: "soft" }, reference));
 			if (own.length === 0) {
 				figure.append(make("p", { class: configuration.status === "failed" ? "failure" : "soft" },
 					configuration.status === "failed" ? `Failed: ${configuration.message || "no message"}` : "Not measured."));
@@ -174,8 +174,8 @@
 	}
 
 	const DEFINITIONS = [
-		["Visibility", "The share of the light that a receiver sees: 0 hidden, 1 lit. Penumbra pixels are those with a truth between 0.002 and 0.998."],
-		["Error", "Visibility of the technique minus that of the truth, a ray-traced area light. Negative: too dark. Positive: too light."],
+		["Visibility", "The share of the light that a receiver sees: 0 hidden, 1 lit. Penumbra pixels are those with a reference visibility between 0.002 and 0.998."],
+		["Error", "Visibility of the technique minus that of the reference, a ray-traced area light. Negative: too dark. Positive: too light."],
 		["MAE, RMSE", "Mean absolute error; root of the mean squared error. Over penumbra pixels if nothing else is said."],
 		["Bias", "Mean signed error. Near 0 does not mean correct: too dark and too light cancel."],
 		["p99", "99 of 100 pixels have a smaller absolute error."],

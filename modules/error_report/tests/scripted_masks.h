@@ -14,12 +14,12 @@ namespace gnomon {
 /// Thrown where the process would be killed; no part of the report may catch it.
 struct Killed {};
 
-/// Answers without a GPU: the truth is a ramp, a technique's error its own constant.
+/// Answers without a GPU: the reference is a ramp, a technique's error its own constant.
 class ScriptedMasks : public MaskSource {
 public:
 	std::map<std::string, float> errors = { { "hard", 0.25f }, { "soft", 0.125f } };
 	std::string failing_technique;
-	bool fails_truth = false;
+	bool fails_reference = false;
 	bool runs_out_of_memory = false;	// what fails, fails so
 	size_t lose_after_count = SIZE_MAX; // calls of measure, before the device is lost
 	size_t kill_after_count = SIZE_MAX; // calls of measure
@@ -29,24 +29,24 @@ public:
 	std::vector<std::string> warnings; // that drawing gives
 	unsigned validation_message_count = 0;
 	std::optional<float> spoiled_value; // of a pixel of what is drawn
-	size_t truth_count = 0;
+	size_t reference_count = 0;
 	size_t measure_count = 0;
 	std::vector<PropertyValues> asked; // properties of the light, as measure got them
 
 	ReportMachine get_machine() const override { return { device, "driver", "cpu", 2 }; }
 
-	TracedTruth trace_truth(const MaskQuestion &p_question, uint32_t p_sample_count) override {
-		++truth_count;
-		if (fails_truth) {
+	TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) override {
+		++reference_count;
+		if (fails_reference) {
 			fail("no rays today");
 		}
-		TracedTruth truth;
-		truth.mask = make_mask(p_question, 0.0f);
-		truth.sees_whole_light.assign(truth.mask.get_pixel_count(), 1);
-		truth.sees_whole_light[0] = 0;
-		truth.standard_error = 1.0 / p_sample_count;
-		truth.wall_ms = 12;
-		return truth;
+		TracedReference reference;
+		reference.mask = make_mask(p_question, 0.0f);
+		reference.sees_whole_light.assign(reference.mask.get_pixel_count(), 1);
+		reference.sees_whole_light[0] = 0;
+		reference.standard_error = 1.0 / p_sample_count;
+		reference.wall_ms = 12;
+		return reference;
 	}
 
 	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override {
@@ -101,8 +101,8 @@ private:
 		mask.size_px = p_question.size_px;
 		mask.receiver.assign(mask.get_pixel_count(), 1.0f);
 		for (size_t index = 0; index < mask.get_pixel_count(); ++index) {
-			const float truth = float(index % 8) / 8.0f;
-			mask.visibility.push_back(truth == 0.0f ? 0.0f : truth - p_error * truth);
+			const float reference = float(index % 8) / 8.0f;
+			mask.visibility.push_back(reference == 0.0f ? 0.0f : reference - p_error * reference);
 		}
 		return mask;
 	}

@@ -19,7 +19,7 @@ Report make_report() {
 	report.configurations.resize(1);
 	report.configurations[0].id = "sphere/Spot/0.4";
 	report.configurations[0].size_px = { 64, 64 };
-	report.configurations[0].truth.standard_error = 0.002;
+	report.configurations[0].reference.standard_error = 0.002;
 	ReportCell cell;
 	cell.technique = "hard";
 	cell.setting = "default";
@@ -85,12 +85,12 @@ TEST_CASE("[ErrorReport] an error differs by more than 0.0005 and 1 %, in both d
 	CHECK(find_difference(make_report(0), make_report(0.00051)).is_worse);
 }
 
-TEST_CASE("[ErrorReport] truths of other numbers of samples widen the margin by their noise") {
+TEST_CASE("[ErrorReport] references of other numbers of samples widen the margin by their noise") {
 	Report new_report = make_report(0.1054); // the margin is now 0.0015 + 0.002 + 0.002
 	CHECK(find_difference(make_report(), new_report).is_worse);
 	new_report.sample_count = 256;
 	CHECK(count_differences(make_report(), new_report) == 0);
-	new_report.configurations[0].truth.standard_error = 0.0018;
+	new_report.configurations[0].reference.standard_error = 0.0018;
 	CHECK(find_difference(make_report(), new_report).is_worse);
 	new_report.cells[1].error->all.penumbra.mae = 0.0946;
 	CHECK_FALSE(find_difference(make_report(), new_report).is_worse);

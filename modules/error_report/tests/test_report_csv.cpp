@@ -78,7 +78,7 @@ Report make_report() {
 	configuration.size_px = { 640, 480 };
 	configuration.triangle_count = 5132;
 	configuration.status = ReportStatus::OK;
-	configuration.truth.standard_error = 0.0021;
+	configuration.reference.standard_error = 0.0021;
 	report.configurations = { configuration };
 	ReportCell cell;
 	cell.technique = "hard";
@@ -202,7 +202,7 @@ TEST_CASE("[ErrorReport] a cell that was not run has neither numbers nor a machi
 	check_no_numbers(row);
 }
 
-TEST_CASE("[ErrorReport] a cell of a scaling curve has a time and no truth") {
+TEST_CASE("[ErrorReport] a cell of a scaling curve has a time and no reference") {
 	Report report = make_report();
 	report.configurations[0].group = TRIANGLES_GROUP;
 	report.cells[1].error.reset();

@@ -28,18 +28,18 @@ public:
 		configuration.light = question.light;
 		p_add(configuration, [question](const PropertyValues &) { return question; });
 	}
-	std::vector<TracedTruth> trace_truths(MaskSource &r_source, const MaskQuestion &p_question,
+	std::vector<TracedReference> trace_references(MaskSource &r_source, const MaskQuestion &p_question,
 			uint32_t p_sample_count) const override {
-		return { r_source.trace_truth(p_question, p_sample_count) };
+		return { r_source.trace_reference(p_question, p_sample_count) };
 	}
 	MaskImage run_cell(MaskSource & /*r_source*/, const MaskQuestion & /*p_question*/,
-			std::span<const TracedTruth> p_truths, Report &r_report, size_t p_cell) const override {
-		MaskImage mask = p_truths.front().mask;
+			std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const override {
+		MaskImage mask = p_references.front().mask;
 		for (float &visibility : mask.visibility) {
 			visibility *= 0.5f;
 		}
 		r_report.cells[p_cell].error = ReportError();
-		r_report.cells[p_cell].error->all = compute_mask_metrics(p_truths.front().mask, mask);
+		r_report.cells[p_cell].error->all = compute_mask_metrics(p_references.front().mask, mask);
 		r_report.cells[p_cell].stability = ReportStability();
 		return mask;
 	}
@@ -63,7 +63,7 @@ TEST_CASE("[ReportPart] a part that a module adds is planned, run and written un
 	const ReportPlan plan =
 			make_report_plan(make_scripted_options(), {}, make_scripted_techniques());
 	REQUIRE(plan.report.configurations.size() == 1);
-	CHECK(plan.report.configurations[0].has_truth());
+	CHECK(plan.report.configurations[0].has_reference());
 	ScriptedMasks masks;
 	const Report report = run_report(plan, masks, store, {});
 	REQUIRE(report.cells.size() == 2);
@@ -72,7 +72,7 @@ TEST_CASE("[ReportPart] a part that a module adds is planned, run and written un
 		CHECK(cell.error->all.receiver.mae == doctest::Approx(0.5 * 3.5 / 8));
 		CHECK_FALSE(cell.image.empty());
 	}
-	CHECK(masks.truth_count == 1);
+	CHECK(masks.reference_count == 1);
 	CHECK(masks.measure_count == 0); // the part draws, and times nothing
 	CHECK(to_json(report).at(PART_ID) == 2);
 }

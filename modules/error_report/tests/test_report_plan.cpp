@@ -143,7 +143,7 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 		const ReportConfiguration &at = plan.report.configurations[cell.configuration_index];
 		groups.insert(at.group);
 		records.insert(cell.record);
-		CHECK(!at.has_truth());
+		CHECK(!at.has_reference());
 		CHECK(cell.setting == "default");
 		CHECK(cell.technique != "soft");
 	}

@@ -36,19 +36,19 @@ std::string to_text(const Report &p_report) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] a run measures every cell against its truth") {
+TEST_CASE("[ErrorReport] a run measures every cell against its reference") {
 	TemporaryFolder folder;
 	const ReportPlan plan = make_scripted_plan(2);
 	ScriptedMasks masks;
 	const Report report = run(plan, masks, folder.path);
-	CHECK(masks.truth_count == 6);
+	CHECK(masks.reference_count == 6);
 	CHECK(masks.measure_count == plan.report.cells.size());
 	CHECK(report.count(ReportStatus::OK) == 6 + 14);
 	REQUIRE(report.machines.size() == 1);
 	CHECK(report.machines[0].device == "scripted");
 	for (const ReportCell &cell : report.cells) {
 		REQUIRE(cell.error);
-		// The script's truth is a ramp of eighths, its error a share of it; black pixels count not.
+		// The script's reference is a ramp of eighths, its error a share of it; black pixels count not.
 		const double share = cell.technique == "hard" ? 0.25 : 0.125;
 		CHECK(cell.error->all.penumbra.mae == doctest::Approx(0.5 * share));
 		CHECK(cell.error->all.penumbra.pixel_count == 16 * 14);
@@ -57,8 +57,8 @@ TEST_CASE("[ErrorReport] a run measures every cell against its truth") {
 		CHECK(report.compute_time_ratio(cell) == doctest::Approx(1.0));
 		CHECK(fs::exists(get_record_folder(folder.path) / cell.image));
 	}
-	CHECK(report.configurations[0].truth.standard_error == doctest::Approx(1.0 / 64));
-	CHECK(report.configurations[0].truth.penumbra_pixel_count == 16 * 14);
+	CHECK(report.configurations[0].reference.standard_error == doctest::Approx(1.0 / 64));
+	CHECK(report.configurations[0].reference.penumbra_pixel_count == 16 * 14);
 }
 
 TEST_CASE("[ErrorReport] a run that is killed at any place and resumed gives the same report") {
@@ -90,7 +90,7 @@ TEST_CASE("[ErrorReport] a finished run that is resumed asks for nothing") {
 	const std::string whole = to_text(run(plan, masks, folder.path));
 	ScriptedMasks none;
 	CHECK(to_text(run(plan, none, folder.path, { true, 0, 1 })) == whole);
-	CHECK(none.truth_count == 0);
+	CHECK(none.reference_count == 0);
 	CHECK(none.measure_count == 0);
 }
 
@@ -124,7 +124,7 @@ TEST_CASE("[ErrorReport] a damaged record is measured anew, and only that one") 
 	CHECK(rest.measure_count == 2);
 }
 
-TEST_CASE("[ErrorReport] a damaged record of a truth is traced anew") {
+TEST_CASE("[ErrorReport] a damaged record of a reference is traced anew") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);
@@ -134,7 +134,7 @@ TEST_CASE("[ErrorReport] a damaged record of a truth is traced anew") {
 	save_file_atomically(get_record_folder(folder.path) / (name + ".json"), "{}");
 	ScriptedMasks rest;
 	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);
-	CHECK(rest.truth_count == 1);
+	CHECK(rest.reference_count == 1);
 	CHECK(rest.measure_count == 0);
 }
 
@@ -188,16 +188,16 @@ TEST_CASE("[ErrorReport] a lost device ends the run, and a resume measures all t
 	CHECK(rest.measure_count == plan.report.cells.size() - 5);
 }
 
-TEST_CASE("[ErrorReport] cells of a truth that failed say so") {
+TEST_CASE("[ErrorReport] cells of a reference that failed say so") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);
 	ScriptedMasks masks;
-	masks.fails_truth = true;
+	masks.fails_reference = true;
 	const Report report = run(plan, masks, folder.path);
 	CHECK(report.count(ReportStatus::FAILED) == 3 + 7);
 	CHECK(report.configurations[0].message == "no rays today");
-	CHECK(report.cells[0].message == "Its truth failed: no rays today");
+	CHECK(report.cells[0].message == "Its reference failed: no rays today");
 	CHECK(masks.measure_count == 0);
 }
 

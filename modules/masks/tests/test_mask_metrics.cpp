@@ -37,10 +37,10 @@ TEST_CASE("[MaskMetrics] equal masks have no error") {
 }
 
 TEST_CASE("[MaskMetrics] five pixels computed by hand") {
-	// Receivers: errors +0.5, -0.5, -0.25, 0; penumbra: -0.5, -0.25 (truth 0.5 and 0.25).
-	const MaskImage truth = make_row({ 0, 0.5f, 0.25f, 1, -1 });
+	// Receivers: errors +0.5, -0.5, -0.25, 0; penumbra: -0.5, -0.25 (reference 0.5 and 0.25).
+	const MaskImage reference = make_row({ 0, 0.5f, 0.25f, 1, -1 });
 	const MaskImage result = make_row({ 0.5f, 0, 0, 1, -1 });
-	const MaskMetrics metrics = compute_mask_metrics(truth, result);
+	const MaskMetrics metrics = compute_mask_metrics(reference, result);
 	CHECK(metrics.receiver.mae == doctest::Approx(1.25 / 4));
 	CHECK(metrics.receiver.rmse == doctest::Approx(std::sqrt(0.5625 / 4)));
 	CHECK(metrics.receiver.bias == doctest::Approx(-0.25 / 4));
@@ -49,28 +49,28 @@ TEST_CASE("[MaskMetrics] five pixels computed by hand") {
 	CHECK(metrics.penumbra.rmse == doctest::Approx(std::sqrt(0.3125 / 2)));
 	CHECK(metrics.penumbra.bias == -0.375);
 	CHECK(metrics.penumbra.p99 == 0.5);
-	CHECK(metrics.umbra_over == 1); // both are black where truth is not
+	CHECK(metrics.umbra_over == 1); // both are black where the reference is not
 }
 
 TEST_CASE(
 		"[MaskMetrics] the penumbra is open at 0.002 and 0.998, the umbra share at 0.05 and 0.01") {
-	const MaskImage truth =
+	const MaskImage reference =
 			make_row({ 0.002f, 0.0021f, 0.998f, 0.9979f, 0.05f, 0.051f, 0.5f, 0.6f });
 	const MaskImage result = make_row({ 0, 0, 0.998f, 0.5f, 0, 0.0099f, 0.01f, 0.6f });
-	const MaskMetrics metrics = compute_mask_metrics(truth, result);
+	const MaskMetrics metrics = compute_mask_metrics(reference, result);
 	CHECK(metrics.receiver.pixel_count == 8);
 	CHECK(metrics.penumbra.pixel_count == 6); // not 0.002 and 0.998 themselves
-	// Truth above 0.05: 0.9979, 0.051, 0.5, 0.6; below 0.01 of them: the second.
+	// Reference above 0.05: 0.9979, 0.051, 0.5, 0.6; below 0.01 of them: the second.
 	CHECK(metrics.umbra_over == 0.25);
 }
 
 TEST_CASE("[MaskMetrics] 99 of 100 pixels do not exceed p99") {
 	std::vector<float> values(100, 0.0f);
-	const MaskImage truth = make_row(values);
+	const MaskImage reference = make_row(values);
 	values[17] = 1.0f;
-	CHECK(compute_mask_metrics(truth, make_row(values)).receiver.p99 == 0);
+	CHECK(compute_mask_metrics(reference, make_row(values)).receiver.p99 == 0);
 	values[3] = 0.5f;
-	CHECK(compute_mask_metrics(truth, make_row(values)).receiver.p99 == 0.5);
+	CHECK(compute_mask_metrics(reference, make_row(values)).receiver.p99 == 0.5);
 }
 
 TEST_CASE("[MaskMetrics] wrong is the share of pixels whose error exceeds 0.2, of either sign") {
@@ -96,46 +96,46 @@ TEST_CASE("[MaskMetrics] without receivers or penumbra all is 0, never NaN") {
 }
 
 TEST_CASE("[MaskMetrics] other sizes, other receivers and values that are not finite are errors") {
-	const MaskImage truth = make_row({ 0, 0.5f, 1 });
-	CHECK_THROWS_AS(compute_mask_metrics(truth, make_row({ 0, 1 })), Error);
-	CHECK_THROWS_WITH_AS(compute_mask_metrics(truth, make_row({ 0, 0.5f, -1 }), "a.exr", "b.exr"),
+	const MaskImage reference = make_row({ 0, 0.5f, 1 });
+	CHECK_THROWS_AS(compute_mask_metrics(reference, make_row({ 0, 1 })), Error);
+	CHECK_THROWS_WITH_AS(compute_mask_metrics(reference, make_row({ 0, 0.5f, -1 }), "a.exr", "b.exr"),
 			"Masks differ in their receivers: 1 pixels, the first at (2, 0), of a.exr and b.exr. "
 			"Render "
 			"both with the same scene, light and camera.",
 			Error);
 	for (const float bad :
 			{ std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity() }) {
-		MaskImage result = truth;
+		MaskImage result = reference;
 		result.visibility[1] = bad;
-		CHECK_THROWS_AS(compute_mask_metrics(truth, result), Error);
-		CHECK_THROWS_AS(compute_mask_metrics(result, truth), Error);
-		result = truth;
+		CHECK_THROWS_AS(compute_mask_metrics(reference, result), Error);
+		CHECK_THROWS_AS(compute_mask_metrics(result, reference), Error);
+		result = reference;
 		result.receiver[1] = bad;
-		CHECK_THROWS_AS(compute_mask_metrics(truth, result), Error);
+		CHECK_THROWS_AS(compute_mask_metrics(reference, result), Error);
 	}
 }
 
 TEST_CASE("[MaskMetrics] the temporal error sees flicker and is blind to a constant error") {
-	const std::vector<MaskImage> truth = { make_row({ 0.2f, 1, 1, -1 }),
+	const std::vector<MaskImage> reference = { make_row({ 0.2f, 1, 1, -1 }),
 		make_row({ 0.4f, 1, 1, 1 }), make_row({ 0.6f, 1, -1, 1 }) };
-	std::vector<MaskImage> result = truth;
+	std::vector<MaskImage> result = reference;
 	for (MaskImage &image : result) {
 		image.visibility[0] += 0.1f;
 	}
-	TemporalMetrics metrics = compute_temporal_metrics(truth, result);
+	TemporalMetrics metrics = compute_temporal_metrics(reference, result);
 	CHECK(metrics.receiver_pixel_count == 6); // pixel 0 twice, 1 twice, 2 once, 3 once
 	CHECK(metrics.penumbra_pixel_count == 2);
 	CHECK(metrics.receiver_rmse < 1e-6);
 
 	result[1].visibility[0] += 0.3f; // differences wrong by +0.3 and -0.3
-	metrics = compute_temporal_metrics(truth, result);
+	metrics = compute_temporal_metrics(reference, result);
 	CHECK(metrics.receiver_rmse == doctest::Approx(std::sqrt(2 * 0.09 / 6)));
 	CHECK(metrics.penumbra_rmse == doctest::Approx(0.3));
 
 	CHECK(compute_temporal_metrics({}, {}).receiver_rmse == 0);
-	CHECK(compute_temporal_metrics(std::span(truth).first(1), std::span(result).first(1))
+	CHECK(compute_temporal_metrics(std::span(reference).first(1), std::span(result).first(1))
 					.receiver_pixel_count == 0);
-	CHECK_THROWS_AS(compute_temporal_metrics(truth, std::span(result).first(2)), Error);
+	CHECK_THROWS_AS(compute_temporal_metrics(reference, std::span(result).first(2)), Error);
 	const std::vector<MaskImage> mixed = { make_row({ 0, 1 }), make_row({ 0, 1, 1 }) };
 	CHECK_THROWS_AS(compute_temporal_metrics(mixed, mixed), Error);
 }

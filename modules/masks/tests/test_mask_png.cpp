@@ -58,10 +58,10 @@ TEST_CASE("[MaskPng] a mask is written as linear grey, no receiver as black") {
 }
 
 TEST_CASE("[MaskPng] errors are white at 0, blue when too dark, red when too light") {
-	const MaskImage truth = make_test_mask();
-	MaskImage result = truth;
+	const MaskImage reference = make_test_mask();
+	MaskImage result = reference;
 	result.visibility = { 0, 0.25f, 0, 0.375f, 0, 0.999f };
-	const std::vector<uint8_t> pixels = compute_error_pixels(truth, result);
+	const std::vector<uint8_t> pixels = compute_error_pixels(reference, result);
 	const std::vector<uint8_t> expected = {
 		255,
 		255,

@@ -94,21 +94,21 @@ private:
 struct MaskDifference {
 	double mean = 0; // over receivers
 	double greatest = 0;
-	double penumbra_mean = 0; // where the truth is neither 0 nor 1
+	double penumbra_mean = 0; // where the reference is neither 0 nor 1
 	size_t receiver_count = 0;
 	size_t penumbra_count = 0;
 	size_t apart_count = 0; // by more than 0.01
 };
 
-inline MaskDifference compare_masks(const std::vector<float> &p_mask, const MaskResult &p_truth) {
+inline MaskDifference compare_masks(const std::vector<float> &p_mask, const MaskResult &p_reference) {
 	MaskDifference difference;
 	for (size_t index = 0; index < p_mask.size(); ++index) {
-		if (p_truth.receiver[index] == 0.0f) {
+		if (p_reference.receiver[index] == 0.0f) {
 			continue;
 		}
-		const double truth = p_truth.visibility[index];
-		const double error = std::abs(p_mask[index] - truth);
-		const bool is_penumbra = truth > 0.002 && truth < 0.998;
+		const double reference = p_reference.visibility[index];
+		const double error = std::abs(p_mask[index] - reference);
+		const bool is_penumbra = reference > 0.002 && reference < 0.998;
 		difference.mean += error;
 		difference.greatest = std::max(difference.greatest, error);
 		difference.apart_count += error > 0.01 ? 1 : 0;
@@ -145,7 +145,7 @@ inline bool has_reference() {
 	return true;
 }
 
-/// The truth, which there must be. p_sample_count: rays per pixel.
+/// The reference mask; has_reference() must be true. p_sample_count: rays per pixel.
 inline MaskResult render_reference(MaskFixture &r_fixture, SmallScene &r_scene,
 		glm::uvec2 p_size_px = glm::uvec2(96), int64_t p_sample_count = 256) {
 	const std::string id = ShadowRegistry::find_reference()->id;

@@ -53,13 +53,13 @@ Difference compare(const CountScene &p_scene, double p_half_width, Predicate p_i
 			if (p_is_inside(position)) {
 				continue;
 			}
-			const double truth = p_scene.trace(position, UP, ray_count);
+			const double reference = p_scene.trace(position, UP, ray_count);
 			const double counted = p_scene.count(position, UP);
 			REQUIRE(counted >= 0.0);
 			REQUIRE(counted <= 1.0);
-			const double error = std::abs(counted - truth);
+			const double error = std::abs(counted - reference);
 			difference.greatest = std::max(difference.greatest, error);
-			if (truth > 0.002 && truth < 0.998) {
+			if (reference > 0.002 && reference < 0.998) {
 				difference.mean += error;
 				++difference.penumbra_count;
 			}

@@ -111,13 +111,13 @@ TEST_CASE("[GPU][EdgeCount] where two of an omni light's views meet nothing is s
 			glm::rotate(scene.light->parent_from_node, glm::radians(45.0), glm::dvec3(0, 1, 0));
 	const MaskResult frame =
 			render_frame(fixture, scene, { .size_px = size_px, .wants_surfaces = true });
-	const MaskResult truth = render_reference(fixture, scene, size_px, 1024);
+	const MaskResult reference = render_reference(fixture, scene, size_px, 1024);
 	const std::vector<int> views = find_views(scene, frame);
 	MeanError near_seam;
 	MeanError elsewhere;
 	for (size_t index = 0; index < views.size(); ++index) {
-		const float visibility = truth.visibility[index];
-		if (truth.receiver[index] == 0.0f || visibility < 0.002f || visibility > 0.998f) {
+		const float visibility = reference.visibility[index];
+		if (reference.receiver[index] == 0.0f || visibility < 0.002f || visibility > 0.998f) {
 			continue;
 		}
 		const glm::ivec2 pixel(index % size_px.x, index / size_px.x);

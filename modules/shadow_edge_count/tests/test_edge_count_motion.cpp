@@ -1,4 +1,4 @@
-// A light that moves a little each frame: what the mask changes must be what the truth changes.
+// A light that moves a little each frame: what the mask changes must be what the reference changes.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
 
@@ -41,34 +41,34 @@ Masks count_frames(MaskFixture &r_fixture) {
 struct MotionError {
 	double rmse = 0; // of the change from frame to frame, in the penumbra of either
 	double greatest = 0;
-	double truth_rms = 0; // of the change itself
+	double reference_rms = 0; // of the change itself
 	size_t pixel_count = 0;
 };
 
-MotionError compute_motion_error(const Masks &p_masks, const Masks &p_truths) {
+MotionError compute_motion_error(const Masks &p_masks, const Masks &p_references) {
 	MotionError error;
 	for (size_t frame = 1; frame < p_masks.size(); ++frame) {
-		const MaskResult *truth = &p_truths[frame];
-		for (size_t index = 0; index < truth->visibility.size(); ++index) {
-			const auto is_penumbra = [&](const MaskResult &p_truth) {
-				return p_truth.receiver[index] > 0 && p_truth.visibility[index] > 0.002f &&
-						p_truth.visibility[index] < 0.998f;
+		const MaskResult *reference = &p_references[frame];
+		for (size_t index = 0; index < reference->visibility.size(); ++index) {
+			const auto is_penumbra = [&](const MaskResult &p_reference) {
+				return p_reference.receiver[index] > 0 && p_reference.visibility[index] > 0.002f &&
+						p_reference.visibility[index] < 0.998f;
 			};
-			if (!is_penumbra(truth[0]) && !is_penumbra(truth[-1])) {
+			if (!is_penumbra(reference[0]) && !is_penumbra(reference[-1])) {
 				continue;
 			}
 			const double change =
 					p_masks[frame].visibility[index] - p_masks[frame - 1].visibility[index];
-			const double truth_change = truth[0].visibility[index] - truth[-1].visibility[index];
-			const double difference = std::abs(change - truth_change);
+			const double reference_change = reference[0].visibility[index] - reference[-1].visibility[index];
+			const double difference = std::abs(change - reference_change);
 			error.rmse += difference * difference;
 			error.greatest = std::max(error.greatest, difference);
-			error.truth_rms += truth_change * truth_change;
+			error.reference_rms += reference_change * reference_change;
 			++error.pixel_count;
 		}
 	}
 	error.rmse = std::sqrt(error.rmse / double(std::max(error.pixel_count, size_t(1))));
-	error.truth_rms = std::sqrt(error.truth_rms / double(std::max(error.pixel_count, size_t(1))));
+	error.reference_rms = std::sqrt(error.reference_rms / double(std::max(error.pixel_count, size_t(1))));
 	return error;
 }
 
@@ -77,12 +77,12 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_truths) {
 TEST_CASE("[GPU][EdgeCount] under a light that moves nothing flickers") {
 	MaskFixture fixture;
 	REQUIRE(ShadowRegistry::find_fallback() != nullptr);
-	const Masks truths = count_frames(fixture);
-	const MotionError own = compute_motion_error(render_frames(fixture, "edge_count"), truths);
+	const Masks references = count_frames(fixture);
+	const MotionError own = compute_motion_error(render_frames(fixture, "edge_count"), references);
 	const MotionError filtered = compute_motion_error(
-			render_frames(fixture, ShadowRegistry::find_fallback()->id), truths);
+			render_frames(fixture, ShadowRegistry::find_fallback()->id), references);
 	CHECK(own.pixel_count > 500);
-	CHECK(own.truth_rms > 0.005); // it does move
+	CHECK(own.reference_rms > 0.005); // it does move
 	// Two roundings to the mask's 16 bits: 0.0002 each.
 	CHECK(own.rmse < 0.001);
 	CHECK(own.greatest < 0.02);

@@ -54,7 +54,7 @@ double compute_overlap(double p_low, double p_width, int p_texel) {
 }
 
 /// Area of the box about the texel place that lies on lit texels or beyond the map.
-double compute_truth(
+double compute_reference(
 		const std::vector<bool> &p_is_hidden, const glm::dvec2 &p_texel, double p_width) {
 	const glm::dvec2 low = p_texel - 0.5 * p_width;
 	double hidden = 0;
@@ -89,8 +89,8 @@ TEST_CASE("[GPU][Shaders] a filtered lookup weighs each texel by what the box co
 		const std::vector<glm::vec4> results = look_up(fixture, is_hidden, texels, width);
 		double largest_error = 0;
 		for (size_t index = 0; index < texels.size(); ++index) {
-			const double truth = compute_truth(is_hidden, glm::dvec2(texels[index]), double(width));
-			largest_error = std::max(largest_error, std::abs(double(results[index].x) - truth));
+			const double reference = compute_reference(is_hidden, glm::dvec2(texels[index]), double(width));
+			largest_error = std::max(largest_error, std::abs(double(results[index].x) - reference));
 		}
 		CHECK(largest_error < 1e-5);
 	}

@@ -1,5 +1,5 @@
 #include "modules/shadow_planar/receiver_planes.h"
-#include "modules/shadows/tests/hard_truth.h"
+#include "modules/shadows/tests/hard_reference.h"
 
 #include <doctest/doctest.h>
 
@@ -26,7 +26,7 @@ MaskResult render_planar(
 /// Surfaces at the height of the floor's top.
 HardDifference compare_floor(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const double camera_height = p_scene.snap()->camera.position_world.y;
-	return HardTruth(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
+	return HardReference(p_scene).compare(p_frame, [&](const SurfacePoint &p_surface) {
 		return std::abs(p_surface.position.y + camera_height) < 1e-3 &&
 				p_surface.geometric_normal.y > 0.99f;
 	});

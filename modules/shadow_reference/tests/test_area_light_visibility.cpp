@@ -88,31 +88,31 @@ TEST_CASE("[DiscSamples] every power of two puts one point in each cell of each 
 }
 
 TEST_CASE("[Reference] the result does not depend on threads; the seed alone decides it") {
-	const CasterScene truth = make_scene().build();
+	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	VisibilityOptions options = make_options(100);
 	options.thread_count = 1;
-	const VisibilityResult one = truth.compute(points, SIZE_PX, LIGHT, options);
+	const VisibilityResult one = tracer.compute(points, SIZE_PX, LIGHT, options);
 	for (const uint32_t thread_count : { 2u, 5u, 100u, 0u }) {
 		options.thread_count = thread_count;
-		const VisibilityResult many = truth.compute(points, SIZE_PX, LIGHT, options);
+		const VisibilityResult many = tracer.compute(points, SIZE_PX, LIGHT, options);
 		CHECK(many.visibility == one.visibility);
 		CHECK(many.standard_error == one.standard_error);
 		CHECK(many.ray_count == 1600 * 100);
 		CHECK(many.is_complete);
 	}
 	options.seed = 1;
-	CHECK(truth.compute(points, SIZE_PX, LIGHT, options).visibility != one.visibility);
+	CHECK(tracer.compute(points, SIZE_PX, LIGHT, options).visibility != one.visibility);
 }
 
 TEST_CASE("[Reference] the error falls faster than that of random samples") {
-	const CasterScene truth = make_scene().build();
+	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	double error_before = 0;
 	for (const uint32_t sample_count : { 16u, 64u, 256u, 1024u, 4096u }) {
 		CAPTURE(sample_count);
 		const double error = compute_rms_error(
-				truth.compute(points, SIZE_PX, LIGHT, make_options(sample_count)), points);
+				tracer.compute(points, SIZE_PX, LIGHT, make_options(sample_count)), points);
 		CHECK(error < 0.5 * std::pow(sample_count, -0.7)); // 0.5 n^-0.5 would be random
 		if (error_before > 0) {
 			CHECK(error < 0.45 * error_before); // 4^-0.75 = 0.35
@@ -122,12 +122,12 @@ TEST_CASE("[Reference] the error falls faster than that of random samples") {
 }
 
 TEST_CASE("[Reference] the printed standard error is the real one within a quarter") {
-	const CasterScene truth = make_scene().build();
+	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	for (const uint32_t sample_count : { 2u, 3u, 17u, 64u, 1000u, 1024u, 9216u }) {
 		CAPTURE(sample_count);
 		const VisibilityResult result =
-				truth.compute(points, SIZE_PX, LIGHT, make_options(sample_count));
+				tracer.compute(points, SIZE_PX, LIGHT, make_options(sample_count));
 		const double error = compute_rms_error(result, points);
 		CHECK(result.penumbra_pixel_count > 100);
 		// Few samples: a pixel whose rays agree by chance looks lit and is not counted.
@@ -135,7 +135,7 @@ TEST_CASE("[Reference] the printed standard error is the real one within a quart
 		CHECK(result.standard_error < tolerance * error);
 		CHECK(result.standard_error > error / tolerance);
 	}
-	CHECK(truth.compute(points, SIZE_PX, LIGHT, make_options(1)).standard_error == -1.0f);
+	CHECK(tracer.compute(points, SIZE_PX, LIGHT, make_options(1)).standard_error == -1.0f);
 }
 
 TEST_CASE("[Reference] a scene scaled with every length has the same mask") {
@@ -209,34 +209,34 @@ TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are l
 }
 
 TEST_CASE("[Reference] a light or an option out of range is an error that names the range") {
-	const CasterScene truth = make_scene().build();
+	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(1, 1.0f);
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	for (const float radius : { nan, -1.0f, INFINITY }) {
 		AreaLight light = LIGHT;
 		light.disc_radius = radius;
-		CHECK_THROWS_AS(truth.compute(points, { 1, 1 }, light, make_options(4)), Error);
+		CHECK_THROWS_AS(tracer.compute(points, { 1, 1 }, light, make_options(4)), Error);
 	}
 	AreaLight light = LIGHT;
 	light.position.x = nan;
-	CHECK_THROWS_AS(truth.compute(points, { 1, 1 }, light, make_options(4)), Error);
+	CHECK_THROWS_AS(tracer.compute(points, { 1, 1 }, light, make_options(4)), Error);
 	light = LIGHT;
 	light.is_directional = true;
 	light.direction = glm::vec3(0.0f);
-	CHECK_THROWS_AS(truth.compute(points, { 1, 1 }, light, make_options(4)), Error);
+	CHECK_THROWS_AS(tracer.compute(points, { 1, 1 }, light, make_options(4)), Error);
 	light.direction = glm::vec3(0, 0, -1e-30f); // any length will do
-	CHECK_NOTHROW(truth.compute(points, { 1, 1 }, light, make_options(4)));
+	CHECK_NOTHROW(tracer.compute(points, { 1, 1 }, light, make_options(4)));
 	for (const uint32_t sample_count : { 0u, 65537u }) {
-		CHECK_THROWS_AS(truth.compute(points, { 1, 1 }, LIGHT, make_options(sample_count)), Error);
+		CHECK_THROWS_AS(tracer.compute(points, { 1, 1 }, LIGHT, make_options(sample_count)), Error);
 	}
 	VisibilityOptions options = make_options(4);
 	options.scene_size_m = nan;
-	CHECK_THROWS_AS(truth.compute(points, { 1, 1 }, LIGHT, options), Error);
-	CHECK(truth.compute({}, { 0, 0 }, LIGHT, make_options(4)).is_complete); // no receivers
+	CHECK_THROWS_AS(tracer.compute(points, { 1, 1 }, LIGHT, options), Error);
+	CHECK(tracer.compute({}, { 0, 0 }, LIGHT, make_options(4)).is_complete); // no receivers
 }
 
 TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop the work") {
-	const CasterScene truth = make_scene().build();
+	const CasterScene tracer = make_scene().build();
 	const std::vector<ReceiverPoint> points = make_ground(40, 1.0f);
 	VisibilityOptions options = make_options(16);
 	float last = 0;
@@ -246,21 +246,21 @@ TEST_CASE("[Reference] progress rises to 1 on the calling thread, and may stop t
 		is_rising = is_rising && p_fraction >= last && std::this_thread::get_id() == caller;
 		last = p_fraction;
 	};
-	CHECK(truth.compute(points, SIZE_PX, LIGHT, options).is_complete);
+	CHECK(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete);
 	CHECK(is_rising);
 	CHECK(last == 1.0f);
 
 	std::atomic<bool> is_cancelled = true;
 	options.is_cancelled = &is_cancelled;
-	CHECK_FALSE(truth.compute(points, SIZE_PX, LIGHT, options).is_complete); // by all threads
+	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete); // by all threads
 
 	is_cancelled = false;
 	options.thread_count = 1; // others might have traced all tiles before this one is called
 	options.progress = [&](float) { is_cancelled = true; };
-	CHECK_FALSE(truth.compute(points, SIZE_PX, LIGHT, options).is_complete);
+	CHECK_FALSE(tracer.compute(points, SIZE_PX, LIGHT, options).is_complete);
 
 	options.is_cancelled = nullptr;
 	options.thread_count = 0;
 	options.progress = [](float) { fail("stop"); };
-	CHECK_THROWS_AS(truth.compute(points, SIZE_PX, LIGHT, options), Error);
+	CHECK_THROWS_AS(tracer.compute(points, SIZE_PX, LIGHT, options), Error);
 }

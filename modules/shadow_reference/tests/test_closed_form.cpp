@@ -49,13 +49,13 @@ TEST_CASE("[ClosedForm] the formulas meet their limits and known values") {
 TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment of its disc") {
 	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
-	const CasterScene truth = triangles.build();
+	const CasterScene tracer = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	for (const float radius : { 0.08f, 0.4f, 1.2f }) {
 		CAPTURE(radius);
 		const AreaLight light = make_spot({ 0.3f, 1.2f, 6.0f }, radius);
 		const VisibilityResult result =
-				truth.compute(points, { 24, 24 }, light, make_options(SAMPLE_COUNT));
+				tracer.compute(points, { 24, 24 }, light, make_options(SAMPLE_COUNT));
 		double largest_error = 0;
 		unsigned penumbra_count = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
@@ -72,12 +72,12 @@ TEST_CASE("[Reference] a half-plane before a spot light hides a circular segment
 TEST_CASE("[Reference] a half-plane before a directional light hides a segment of the same form") {
 	TriangleBuilder triangles;
 	triangles.add_half_plane(0.25f, 2.5f);
-	const CasterScene truth = triangles.build();
+	const CasterScene tracer = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	const glm::vec3 direction(0.1f, -0.4f, -1.0f);
 	for (const float tangent : { 0.00465f, 0.1f, 0.5f }) { // the first is the sun's
 		CAPTURE(tangent);
-		const VisibilityResult result = truth.compute(points, { 24, 24 },
+		const VisibilityResult result = tracer.compute(points, { 24, 24 },
 				make_directional(direction, tangent), make_options(SAMPLE_COUNT));
 		double largest_error = 0;
 		for (size_t i = 0; i < points.size(); ++i) {
@@ -130,10 +130,10 @@ TEST_CASE(
 	const glm::dvec3 centre = 3.0 * axis;
 	TriangleBuilder triangles;
 	triangles.add_disc(centre, side, glm::cross(axis, side), 0.5);
-	const CasterScene truth = triangles.build();
+	const CasterScene tracer = triangles.build();
 	const std::vector<ReceiverPoint> points = make_ground(24, 2.0f);
 	for (const float tangent : { 0.05f, 0.3f }) {
-		const VisibilityResult result = truth.compute(points, { 24, 24 },
+		const VisibilityResult result = tracer.compute(points, { 24, 24 },
 				make_directional(glm::vec3(-axis), tangent), make_options(SAMPLE_COUNT));
 		double largest_error = 0;
 		for (size_t i = 0; i < points.size(); ++i) {

@@ -91,7 +91,7 @@ TEST_CASE("[GPU][ShadowVolume] 300 frames through volumes, walls and casters, wr
 			const bool has_z_fail = plan.find("by z-fail") != std::string::npos;
 			by_z_fail += has_z_fail ? 1 : 0;
 			mixed += has_z_fail && plan.find("by z-pass") != std::string::npos ? 1 : 0;
-			const HardDifference difference = HardTruth(scene).compare(result);
+			const HardDifference difference = HardReference(scene).compare(result);
 			CHECK(difference.unexplained_count == 0);
 			CHECK(difference.wrong_count <= 3 + difference.receiver_count / 500);
 			receiver_count += difference.receiver_count;

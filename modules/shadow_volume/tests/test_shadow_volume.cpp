@@ -62,7 +62,7 @@ TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its bo
 				look_at({ -0.3 + 1.2 * way, 0.5 + 0.1 * step, -0.1 + way }, { 0.6, 0, 1.4 - way });
 		const MaskResult frame = render_volumes(fixture, scene);
 		z_fail_count += frame.plan.to_text().find("by z-fail") != std::string::npos ? 1 : 0;
-		const HardDifference difference = HardTruth(scene).compare(frame);
+		const HardDifference difference = HardReference(scene).compare(frame);
 		CHECK(difference.wrong_count <= difference.receiver_count / 500);
 		CHECK(difference.unexplained_count == 0);
 	}
@@ -77,8 +77,8 @@ TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of 
 	};
 	place_light({ 0.05, 1.02, 0.03 }); // all is hidden
 	const MaskResult inside = render_volumes(fixture, scene);
-	CHECK(HardTruth(scene).compare(inside).wrong_count == 0);
-	CHECK(HardTruth(scene).compare(inside).hidden_count == count_receivers(inside));
+	CHECK(HardReference(scene).compare(inside).wrong_count == 0);
+	CHECK(HardReference(scene).compare(inside).hidden_count == count_receivers(inside));
 	place_light({ 0.5, 3.0, 0.4 }); // above an edge of the box
 	check_against_rays(scene, render_volumes(fixture, scene));
 	place_light({ 2.0, 1.3, 0.0 }); // in the plane of its top

@@ -2,7 +2,7 @@
 
 #include "modules/core/text.h"
 #include "modules/mesh_tools/tests/test_meshes.h"
-#include "modules/shadows/tests/hard_truth.h"
+#include "modules/shadows/tests/hard_reference.h"
 #include "modules/shadows/tests/setting_scope.h"
 
 #include <doctest/doctest.h>
@@ -79,7 +79,7 @@ inline MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
 /// p_most_wrong: of so many receivers one may be wrong, at the shadow's border.
 inline void check_against_rays(
 		const SmallScene &p_scene, const MaskResult &p_frame, size_t p_most_wrong = 1000) {
-	const HardDifference difference = HardTruth(p_scene).compare(p_frame);
+	const HardDifference difference = HardReference(p_scene).compare(p_frame);
 	CHECK(difference.receiver_count > 3000);
 	CHECK(difference.hidden_count > 50);
 	CHECK(difference.wrong_count <= difference.receiver_count / p_most_wrong);

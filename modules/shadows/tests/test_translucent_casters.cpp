@@ -165,26 +165,26 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 	scene.light->properties["light_size"] = 0.0;
 	add_pane(scene, "Upper", RED, { 0.65, 1.6, 0.0 });
 	add_pane(scene, "Lower", BLUE, { 0.1, 0.8, -0.4 });
-	const MaskResult truth = fixture.render_mask(scene, reference->id, glm::uvec2(96));
+	const MaskResult expected = fixture.render_mask(scene, reference->id, glm::uvec2(96));
 	const MaskResult result =
 			fixture.render_mask(scene, ShadowRegistry::find_default()->id, glm::uvec2(96));
 	const std::vector<glm::vec3> shades = { glm::vec3(1.0f), RED, BLUE, RED * BLUE };
 	std::vector<size_t> counts(shades.size());
 	size_t differing_count = 0;
-	for (size_t index = 0; index < truth.colors.size(); ++index) {
-		if (truth.receiver[index] == 0) {
+	for (size_t index = 0; index < expected.colors.size(); ++index) {
+		if (expected.receiver[index] == 0) {
 			continue;
 		}
 		size_t nearest = 0;
 		for (size_t shade = 1; shade < shades.size(); ++shade) {
-			nearest = glm::distance(truth.colors[index], shades[shade]) <
-							glm::distance(truth.colors[index], shades[nearest])
+			nearest = glm::distance(expected.colors[index], shades[shade]) <
+							glm::distance(expected.colors[index], shades[nearest])
 					? shade
 					: nearest;
 		}
-		CHECK(glm::distance(truth.colors[index], shades[nearest]) < 1e-5f);
+		CHECK(glm::distance(expected.colors[index], shades[nearest]) < 1e-5f);
 		++counts[nearest];
-		differing_count += glm::distance(result.colors[index], truth.colors[index]) > 0.01f;
+		differing_count += glm::distance(result.colors[index], expected.colors[index]) > 0.01f;
 	}
 	for (const size_t count : counts) {
 		CHECK(count > 30);
@@ -193,7 +193,7 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 	CHECK_FALSE(result.plan.is_left_out("Light", "translucent 2: light view 0"));
 }
 
-TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the truth's") {
+TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the reference's") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	REQUIRE(reference != nullptr);
 	MaskFixture fixture;
@@ -203,19 +203,19 @@ TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the truth's") {
 	add_pane(scene, "Upper", RED, { 0.3, 1.9, 0.3 });
 	const auto opaque_mesh = make_box_mesh("Post", glm::vec3(0.1f, 0.6f, 0.1f));
 	add_mesh(scene.scene, "Post", opaque_mesh, { 0.7, 0.6, -0.3 });
-	const MaskResult truth = fixture.render_mask(scene, reference->id);
+	const MaskResult expected = fixture.render_mask(scene, reference->id);
 	const MaskResult result = fixture.render_mask(scene, ShadowRegistry::find_default()->id);
 	double error = 0;
 	size_t count = 0;
-	for (size_t index = 0; index < truth.colors.size(); ++index) {
-		if (truth.receiver[index] > 0) {
-			error += glm::length(truth.colors[index] - result.colors[index]);
+	for (size_t index = 0; index < expected.colors.size(); ++index) {
+		if (expected.receiver[index] > 0) {
+			error += glm::length(expected.colors[index] - result.colors[index]);
 			++count;
 		}
 	}
 	REQUIRE(count > 0);
 	CHECK(error / double(count) < 0.004);
-	CHECK(truth.standard_error > 0);
+	CHECK(expected.standard_error > 0);
 }
 
 TEST_CASE("[GPU][TranslucentCasters] glass that comes and goes leaves opaque frames as they were") {

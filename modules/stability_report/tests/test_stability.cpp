@@ -284,7 +284,7 @@ TEST_CASE("[Stability] scenes of the project are drawn with each of their lights
 	CHECK(report.configurations[2].message == "the file is not there");
 	CHECK(report.configurations[2].status == ReportStatus::FAILED);
 	CHECK(report.configurations[3].light_size_m == doctest::Approx(0.3));
-	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and truths
+	CHECK(report.count(ReportStatus::OK) == 6 + 3); // cells and references
 
 	// Without a centre an error alone is no break; nonsense still is.
 	const std::vector<StabilityPlot> plots = find_stability_plots(report);

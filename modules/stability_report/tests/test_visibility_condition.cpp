@@ -63,7 +63,7 @@ TEST_CASE("[Condition] the number is the slope of visibility, and tells rounding
 			compute_visibility_condition(soft.scene, soft.get_light(), { &point, 1 });
 	CHECK(smooth.number < 100);
 	CHECK(smooth.rounding < 0.02);
-	CHECK(smooth.truth_error < 0.03);
+	CHECK(smooth.reference_error < 0.03);
 	CHECK(smooth.error == 0.3);
 	CHECK(smooth.cause == ErrorCause::METHOD);
 	// So sharp that rounding alone moves a receiver from light to shadow.
@@ -77,6 +77,6 @@ TEST_CASE("[Condition] the number is the slope of visibility, and tells rounding
 	// A reference that says dark where all is lit.
 	const ConditionPoint lied = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &lied, 1 }).cause ==
-			ErrorCause::TRUTH);
+			ErrorCause::REFERENCE);
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), {}).error == 0.0);
 }

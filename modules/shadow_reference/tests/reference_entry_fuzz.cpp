@@ -1,6 +1,6 @@
-// fuzz: modules=core sources=modules/shadow_reference/truth_entry.cpp
-// Any bytes as a kept truth. The first nine say what is asked for: the pixels, and with colours?
-#include "modules/shadow_reference/truth_entry.h"
+// fuzz: modules=core sources=modules/shadow_reference/reference_entry.cpp
+// Any bytes as a kept reference. The first nine say what is asked for: the pixels, and with colours?
+#include "modules/shadow_reference/reference_entry.h"
 
 #include "tests/fuzz/fuzz_target.h"
 
@@ -24,13 +24,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		std::memcpy(&pixel_count, p_data, sizeof(pixel_count));
 		const bool is_colored = (p_data[sizeof(pixel_count)] & 1) != 0;
 		const auto bytes = std::span(p_data, p_size).subspan(sizeof(pixel_count) + 1);
-		const auto truth = parse_truth_entry(bytes, KEY, pixel_count, is_colored);
-		if (!truth) {
+		const auto reference = parse_reference_entry(bytes, KEY, pixel_count, is_colored);
+		if (!reference) {
 			return;
 		}
-		GNOMON_ASSERT(truth->visibility.size() == pixel_count, truth->visibility.size(), " values");
-		GNOMON_ASSERT(truth->colors.size() == (is_colored ? pixel_count : 0), "colours");
-		const std::vector<uint8_t> again = build_truth_entry(KEY, *truth);
+		GNOMON_ASSERT(reference->visibility.size() == pixel_count, reference->visibility.size(), " values");
+		GNOMON_ASSERT(reference->colors.size() == (is_colored ? pixel_count : 0), "colours");
+		const std::vector<uint8_t> again = build_reference_entry(KEY, *reference);
 		constexpr size_t PADDING_BYTES = 4; // the last of the header, never looked at
 		constexpr size_t HEADER_BYTES = 32;
 		GNOMON_ASSERT(again.size() == bytes.size() &&
@@ -38,6 +38,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 								bytes.begin()) &&
 						std::equal(again.begin() + HEADER_BYTES, again.end(),
 								bytes.begin() + HEADER_BYTES),
-				"another truth came back");
+				"another reference came back");
 	});
 }

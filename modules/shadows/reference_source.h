@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-struct TruthQuestion {
+struct ReferenceQuestion {
 	std::shared_ptr<const SceneSnapshot> scene;
 	LightSnapshot light; // of that scene
 	glm::uvec2 size_px = glm::uvec2(0);
@@ -23,7 +23,7 @@ struct TruthQuestion {
 	std::shared_ptr<const SurfaceSpread> spread = nullptr;
 };
 
-struct TruthAnswer {
+struct ReferenceAnswer {
 	std::vector<float> visibility; // 0..1; 0 where there is no receiver
 	float standard_error = 0;	   // of visibility, over the penumbra pixels; -1: unknown
 	uint64_t penumbra_pixel_count = 0;
@@ -31,19 +31,19 @@ struct TruthAnswer {
 };
 
 /// Answers one question, as often and as precisely as it is asked. One thread at a time.
-class TruthSource {
+class ReferenceSource {
 public:
-	virtual ~TruthSource() = default;
+	virtual ~ReferenceSource() = default;
 	/// p_sample_count: rays a pixel, 1..65536. p_is_cancelled may be set from any thread and ends
 	/// the trace soon. p_progress gets 0..1 on the calling thread; may be empty. A question that
 	/// cannot be answered is an Error.
-	virtual TruthAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+	virtual ReferenceAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 			const std::function<void(float)> &p_progress) = 0;
 };
 
 /// Of everything that the light's exact mask depends on, the camera included: equal hashes, equal
 /// masks.
-uint64_t compute_truth_hash(
+uint64_t compute_reference_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px);
 
 } // namespace gnomon

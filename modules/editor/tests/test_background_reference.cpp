@@ -1,5 +1,5 @@
 #include "modules/core/error.h"
-#include "modules/editor/background_truth.h"
+#include "modules/editor/background_reference.h"
 
 #include <doctest/doctest.h>
 
@@ -19,11 +19,11 @@ struct Script {
 	bool fails = false;
 };
 
-class ScriptedSource : public TruthSource {
+class ScriptedSource : public ReferenceSource {
 public:
 	explicit ScriptedSource(Script &r_script) : script(r_script) {}
 
-	TruthAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+	ReferenceAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 			const std::function<void(float)> &p_progress) override {
 		script.sample_counts.push_back(p_sample_count);
 		if (script.fails) {
@@ -34,7 +34,7 @@ public:
 			std::this_thread::sleep_for(std::chrono::milliseconds(1));
 		}
 		script.was_cancelled = p_is_cancelled.load();
-		TruthAnswer answer;
+		ReferenceAnswer answer;
 		answer.visibility = { 1.0f / float(p_sample_count) };
 		answer.is_complete = !p_is_cancelled;
 		return answer;
@@ -44,66 +44,66 @@ private:
 	Script &script;
 };
 
-void start(BackgroundTruth &r_truth, Script &r_script, uint32_t p_sample_count) {
-	r_truth.start([&] { return std::make_unique<ScriptedSource>(r_script); }, p_sample_count);
+void start(BackgroundReference &r_reference, Script &r_script, uint32_t p_sample_count) {
+	r_reference.start([&] { return std::make_unique<ScriptedSource>(r_script); }, p_sample_count);
 }
 
-void wait_for_end(const BackgroundTruth &p_truth) {
-	while (p_truth.is_running()) {
+void wait_for_end(const BackgroundReference &p_reference) {
+	while (p_reference.is_running()) {
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
 }
 
 } // namespace
 
-TEST_CASE("Each round of a truth has four times the rays, the last as many as are wanted") {
+TEST_CASE("Each round of a reference has four times the rays, the last as many as are wanted") {
 	Script script;
-	BackgroundTruth truth;
-	CHECK(!truth.take());
-	start(truth, script, 1000);
-	wait_for_end(truth);
+	BackgroundReference reference;
+	CHECK(!reference.take());
+	start(reference, script, 1000);
+	wait_for_end(reference);
 	CHECK(script.sample_counts == std::vector<uint32_t>{ 16, 64, 256, 1000 });
-	const std::optional<TruthRound> round = truth.take();
+	const std::optional<ReferenceRound> round = reference.take();
 	REQUIRE(round);
 	CHECK(round->sample_count == 1000);
 	CHECK(round->visibility == std::vector<float>{ 0.001f });
-	CHECK(!truth.take()); // only once
+	CHECK(!reference.take()); // only once
 }
 
 TEST_CASE("Fewer rays than the first round has are one round") {
 	Script script;
-	BackgroundTruth truth;
-	start(truth, script, 4);
-	wait_for_end(truth);
+	BackgroundReference reference;
+	start(reference, script, 4);
+	wait_for_end(reference);
 	CHECK(script.sample_counts == std::vector<uint32_t>{ 4 });
 }
 
-TEST_CASE("A stopped truth ends at once and gives nothing more; it can start again") {
+TEST_CASE("A stopped trace ends at once and returns nothing more; it can start again") {
 	Script script;
 	script.blocks = true;
-	BackgroundTruth truth;
-	start(truth, script, 1000);
-	while (truth.get_progress() < 0.5f) {
+	BackgroundReference reference;
+	start(reference, script, 1000);
+	while (reference.get_progress() < 0.5f) {
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
-	CHECK(truth.is_running());
-	truth.stop();
-	CHECK(!truth.is_running());
+	CHECK(reference.is_running());
+	reference.stop();
+	CHECK(!reference.is_running());
 	CHECK(script.was_cancelled);
 	CHECK(script.sample_counts.size() == 1);
-	CHECK(!truth.take());
+	CHECK(!reference.take());
 	script.blocks = false;
-	start(truth, script, 16);
-	wait_for_end(truth);
-	CHECK(truth.take());
+	start(reference, script, 16);
+	wait_for_end(reference);
+	CHECK(reference.take());
 }
 
 TEST_CASE("A failure in the background is told once, by whoever asks") {
 	Script script;
 	script.fails = true;
-	BackgroundTruth truth;
-	start(truth, script, 64);
-	wait_for_end(truth);
-	CHECK_THROWS_WITH_AS(truth.take(), "No rays today.", Error);
-	CHECK(!truth.take());
+	BackgroundReference reference;
+	start(reference, script, 64);
+	wait_for_end(reference);
+	CHECK_THROWS_WITH_AS(reference.take(), "No rays today.", Error);
+	CHECK(!reference.take());
 }

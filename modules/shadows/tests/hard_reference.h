@@ -20,9 +20,9 @@ struct HardDifference {
 };
 
 /// Rays to the light's centre, in double. Images are square.
-class HardTruth {
+class HardReference {
 public:
-	explicit HardTruth(const SmallScene &p_scene) : scene(p_scene.snap()) {
+	explicit HardReference(const SmallScene &p_scene) : scene(p_scene.snap()) {
 		for (const InstanceSnapshot &instance : scene->instances) {
 			if (instance.casts_shadow) {
 				trees.push_back({ RayTree(instance.caster_mesh), glm::inverse(instance.world_from_node) });

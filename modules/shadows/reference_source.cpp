@@ -1,11 +1,11 @@
-#include "modules/shadows/truth_source.h"
+#include "modules/shadows/reference_source.h"
 
 #include "modules/core/files.h"
 #include "modules/shadows/mask_filter.h"
 
 namespace gnomon {
 
-uint64_t compute_truth_hash(
+uint64_t compute_reference_hash(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light, glm::uvec2 p_size_px) {
 	uint64_t hash = compute_filter_hash();
 	hash = compute_value_hash(p_size_px, hash);

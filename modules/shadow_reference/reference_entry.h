@@ -10,7 +10,7 @@
 namespace gnomon {
 
 /// A computed mask and what is known of its precision.
-struct Truth {
+struct ReferenceVisibility {
 	/// v in 0..1, one per pixel. 0 where nothing was asked.
 	std::vector<float> visibility;
 	/// Where casters are translucent: of each colour; visibility is then its luminance. Else empty.
@@ -24,16 +24,16 @@ struct Truth {
 	uint64_t penumbra_pixel_count = 0;
 };
 
-/// The bytes that the cache keeps of a truth.
-std::vector<uint8_t> build_truth_entry(uint64_t p_key, const Truth &p_truth);
-/// The truth in such bytes; nothing when they are of another key or size. p_is_colored: whether it
+/// The bytes that the cache keeps of a reference.
+std::vector<uint8_t> build_reference_entry(uint64_t p_key, const ReferenceVisibility &p_reference);
+/// The reference in such bytes; nothing when they are of another key or size. p_is_colored: whether it
 /// must have colours.
-std::optional<Truth> parse_truth_entry(
+std::optional<ReferenceVisibility> parse_reference_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
 
-/// Stores a truth in the cache folder under its key. A failure to write only warns.
-void save_truth(uint64_t p_key, const Truth &p_truth);
-/// The stored truth, as parse_truth_entry reads it; nothing when absent or damaged.
-std::optional<Truth> load_truth(uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
+/// Stores a reference in the cache folder under its key. A failure to write only warns.
+void save_reference(uint64_t p_key, const ReferenceVisibility &p_reference);
+/// The stored reference, as parse_reference_entry reads it; nothing when absent or damaged.
+std::optional<ReferenceVisibility> load_reference(uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
 
 } // namespace gnomon

@@ -1,6 +1,6 @@
 #include "modules/shadows/mask_filter.h"
+#include "modules/shadows/reference_source.h"
 #include "modules/shadows/tests/mask_fixture.h"
-#include "modules/shadows/truth_source.h"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@ const int64_t SAMPLE_COUNT = 64;
 struct TracedScene {
 	SmallScene scene;
 	MaskResult result;
-	TruthQuestion question;
+	ReferenceQuestion question;
 
 	TracedScene(MaskFixture &r_fixture, const ShadowTechniqueInfo &p_reference, LightType p_type) :
 			scene(p_type) {
@@ -34,18 +34,18 @@ struct TracedScene {
 
 } // namespace
 
-TEST_CASE("[GPU] The truth beside the frames is that of the reference, bit for bit") {
+TEST_CASE("[GPU] The reference traced beside the frames is the technique's, bit for bit") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return; // a build without one
 	}
-	REQUIRE(reference->make_truth_source);
+	REQUIRE(reference->make_reference_source);
 	MaskFixture fixture;
 	for (LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		CAPTURE(int(type));
 		const TracedScene traced(fixture, *reference, type);
 		float last_progress = 0;
-		const TruthAnswer answer = reference->make_truth_source(traced.question)
+		const ReferenceAnswer answer = reference->make_reference_source(traced.question)
 										   ->trace(uint32_t(SAMPLE_COUNT), std::atomic<bool>(false),
 												   [&](float p_share) { last_progress = p_share; });
 		CHECK(answer.is_complete);
@@ -56,24 +56,24 @@ TEST_CASE("[GPU] The truth beside the frames is that of the reference, bit for b
 	}
 }
 
-TEST_CASE("[GPU] A cancelled truth says that it is not complete, and a later one is") {
+TEST_CASE("[GPU] A cancelled reference says that it is not complete, and a later one is") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return;
 	}
 	MaskFixture fixture;
 	const TracedScene traced(fixture, *reference, LightType::SPOT);
-	const std::unique_ptr<TruthSource> source = reference->make_truth_source(traced.question);
+	const std::unique_ptr<ReferenceSource> source = reference->make_reference_source(traced.question);
 	CHECK(!source->trace(16, std::atomic<bool>(true), {}).is_complete);
 	CHECK(source->trace(16, std::atomic<bool>(false), {}).is_complete);
 }
 
-TEST_CASE("The hash of a truth follows what the mask depends on, and nothing else") {
+TEST_CASE("The hash of a reference follows what the mask depends on, and nothing else") {
 	SmallScene scene;
 	const glm::uvec2 SIZE_PX(64);
 	const auto hash = [&](glm::uvec2 p_size_px) {
 		const auto snapshot = scene.snap();
-		return compute_truth_hash(*snapshot, snapshot->lights.front(), p_size_px);
+		return compute_reference_hash(*snapshot, snapshot->lights.front(), p_size_px);
 	};
 	const uint64_t first = hash(SIZE_PX);
 	scene.light->properties["shadow_technique"] = std::string("another");

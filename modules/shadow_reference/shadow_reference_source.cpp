@@ -1,11 +1,11 @@
-#include "modules/shadow_reference/reference_truth.h"
+#include "modules/shadow_reference/shadow_reference_source.h"
 
 #include "modules/core/error.h"
 #include "modules/shadow_reference/reference_input.h"
 
 namespace gnomon {
 
-TruthAnswer ReferenceTruth::trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
+ReferenceAnswer ShadowReferenceSource::trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 		const std::function<void(float)> &p_progress) {
 	if (!tracer) {
 		const size_t pixel_count = size_t(question.size_px.x) * question.size_px.y;

@@ -1,4 +1,4 @@
-#include "modules/editor/background_truth.h"
+#include "modules/editor/background_reference.h"
 
 #include "modules/core/error.h"
 
@@ -16,8 +16,8 @@ const int NICENESS = 15;
 
 } // namespace
 
-void BackgroundTruth::start(
-		std::function<std::unique_ptr<TruthSource>()> p_make, uint32_t p_sample_count) {
+void BackgroundReference::start(
+		std::function<std::unique_ptr<ReferenceSource>()> p_make, uint32_t p_sample_count) {
 	stop();
 	is_cancelled = false;
 	is_busy = true;
@@ -36,7 +36,7 @@ void BackgroundTruth::start(
 	});
 }
 
-void BackgroundTruth::stop() {
+void BackgroundReference::stop() {
 	is_cancelled = true;
 	if (thread.joinable()) {
 		thread.join();
@@ -47,7 +47,7 @@ void BackgroundTruth::stop() {
 	failure.clear();
 }
 
-std::optional<TruthRound> BackgroundTruth::take() {
+std::optional<ReferenceRound> BackgroundReference::take() {
 	const std::lock_guard lock(mutex);
 	if (!failure.empty()) {
 		fail(std::exchange(failure, std::string()));
@@ -55,21 +55,21 @@ std::optional<TruthRound> BackgroundTruth::take() {
 	return std::exchange(ended_round, std::nullopt);
 }
 
-void BackgroundTruth::run(
-		const std::function<std::unique_ptr<TruthSource>()> &p_make, uint32_t p_sample_count) {
+void BackgroundReference::run(
+		const std::function<std::unique_ptr<ReferenceSource>()> &p_make, uint32_t p_sample_count) {
 	const auto start = std::chrono::steady_clock::now();
-	const std::unique_ptr<TruthSource> source = p_make();
+	const std::unique_ptr<ReferenceSource> source = p_make();
 	uint32_t sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	while (!is_cancelled) {
 		round_sample_count = sample_count;
-		TruthAnswer answer = source->trace(
+		ReferenceAnswer answer = source->trace(
 				sample_count, is_cancelled, [&](float p_fraction) { progress = p_fraction; });
 		if (!answer.is_complete) {
 			return;
 		}
 		{
 			const std::lock_guard lock(mutex);
-			ended_round = TruthRound{ std::move(answer.visibility), answer.standard_error,
+			ended_round = ReferenceRound{ std::move(answer.visibility), answer.standard_error,
 				sample_count,
 				std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() };
 		}
