@@ -109,8 +109,8 @@ def make_pages():
     added = json.loads(run_gnomon("techniques", "--json")) + json.loads(run_gnomon("filters", "--json"))
     pages = {item["id"] + ".md": make_added_page(item) for item in added if not item.get("is_example")}
     pages["light_3d.md"] = make_light_page(parse_common_properties(run_gnomon("techniques")))
-    kept = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
-    names = {name for name in [*pages, *kept] if name.endswith(".md")} - {"light_3d.md", "index.md"}
+    existing = os.listdir(FOLDER) if os.path.isdir(FOLDER) else []
+    names = {name for name in [*pages, *existing] if name.endswith(".md")} - {"light_3d.md", "index.md"}
     pages["index.md"] = make_index(sorted(name[: -len(".md")] for name in names))
     return pages
 

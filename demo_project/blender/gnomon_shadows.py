@@ -5,7 +5,7 @@ Without a window:
     blender -b FILE.blend -P demo_project/blender/gnomon_shadows.py -- --export OUT.gltf|OUT.glb [--embedded]
 
 What Blender has itself (radius, angle, the box "Shadow") is taken from Blender while a file is exported.
-What it lacks (technique, r, t) is kept in custom properties of the light, under the engine's own names.
+What it lacks (technique, r, t) is stored in custom properties of the light, under the engine's own names.
 All is in one file, as that is what Blender installs.
 """
 

@@ -87,21 +87,21 @@ def fit_points(points, turn):
 def make_creased_mesh(points, triangles):
     """The triangles as they are, but for those without area; normals are split at creases."""
     mesh = Mesh(is_closed=False, is_manifold=False)
-    kept, area_normals, faces_of = [], [], {}
+    faces, area_normals, faces_of = [], [], {}
     for triangle in triangles:
         corners = [points[index] for index in triangle]
         area_normal = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]))
         if dot(area_normal, area_normal) <= LEAST_AREA_SQUARED_M4:
             continue
         for corner in corners:
-            faces_of.setdefault(corner, []).append(len(kept))
-        kept.append(corners)
+            faces_of.setdefault(corner, []).append(len(faces))
+        faces.append(corners)
         area_normals.append(area_normal)
-    if not kept:
+    if not faces:
         raise MeshUnavailable("it has no triangle with an area")
     directions = [normalize(area_normal) for area_normal in area_normals]
     known = {}
-    for face, corners in enumerate(kept):
+    for face, corners in enumerate(faces):
         indices = []
         for corner in corners:
             total = (0.0, 0.0, 0.0)

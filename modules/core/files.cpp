@@ -143,7 +143,7 @@ void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_byte
 	try {
 		save_file_atomically(get_cache_folder() / p_name, build_cache_entry(p_bytes));
 	} catch (const Error &error) {
-		log_warning("Cache entry not kept: ", error.what());
+		log_warning("Cache entry not stored: ", error.what());
 	}
 }
 

@@ -41,11 +41,11 @@ std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 /// True when the path, with `..` and links resolved, lies in the folder or below it.
 bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
 
-/// Where data that can be made again is kept: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,
+/// Where data that can be made again is cached: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,
 /// else ~/.cache/gnomon, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_cache_folder();
 
-/// Where a user's choices are kept: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
+/// Where a user's choices are stored: $GNOMON_CONFIG_DIR, else $XDG_CONFIG_HOME/gnomon, else
 /// ~/.config/gnomon, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_config_folder();
 

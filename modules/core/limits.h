@@ -16,6 +16,6 @@ inline constexpr double MAX_LENGTH_M = 1e4;
 inline constexpr const char *LENGTH_HINT = "0,10000,0.01";
 /// What was not used for so many frames is freed: a camera or light that turns away often turns
 /// back soon, and one that stays away holds no memory.
-inline constexpr uint64_t KEPT_FRAMES = 60;
+inline constexpr uint64_t MAX_UNUSED_FRAMES = 60;
 
 } // namespace gnomon

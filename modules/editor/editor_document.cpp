@@ -291,10 +291,10 @@ void EditorDocument::recover() {
 	try {
 		open(get_recovery_path());
 	} catch (const Error &error) {
-		const fs::path kept = get_recovery_path().string() + ".unread";
+		const fs::path moved = get_recovery_path().string() + ".unread";
 		std::error_code code;
-		fs::rename(get_recovery_path(), kept, code);
-		fail("What was kept aside cannot be read and stays as ", kept, ": ", error.what());
+		fs::rename(get_recovery_path(), moved, code);
+		fail("What was saved aside cannot be read and stays as ", moved, ": ", error.what());
 	}
 	is_recovered = true;
 	owns_recovery = true;

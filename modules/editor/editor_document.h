@@ -85,7 +85,7 @@ public:
 	void save_aside();
 	/// True when an earlier program ended without saving what is there.
 	bool has_recovery() const;
-	/// Takes over what was saved aside; it counts as changed. Where it cannot be read it is kept
+	/// Takes over what was saved aside; it counts as changed. Where it cannot be read it stays
 	/// under another name, and that is an Error.
 	void recover();
 	/// Whosever it is.

@@ -217,7 +217,7 @@ void EditorSession::draw_questions() {
 		}
 	} else if (asks_to_recover) {
 		asks_to_recover = !draw_question({ "Recover changes?",
-				"The editor ended without saving. What was changed was kept aside.", "Recover",
+				"The editor ended without saving. What was changed was saved aside.", "Recover",
 				"Discard", [&] { recover(); }, [&] { document.discard_recovery(); } });
 	} else if (asks_to_reload) {
 		asks_to_reload = !draw_question({ "Read the file anew?",

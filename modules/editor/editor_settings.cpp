@@ -80,7 +80,7 @@ void EditorSettings::save() const {
 		const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace);
 		save_file_atomically(get_path(), text + "\n");
 	} catch (const Error &error) {
-		log_warning("The editor's settings are not kept: ", error.what());
+		log_warning("The editor's settings are not saved: ", error.what());
 	}
 }
 

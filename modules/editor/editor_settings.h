@@ -30,7 +30,7 @@ struct EditorSettings {
 	std::string tab;			  // that is open below the viewport; empty: the first
 	uint32_t sample_count = 1024; // rays a pixel of the error panel's reference
 	bool shows_penumbra = true;	  // in the viewport
-	/// After which changes are kept aside, 1 to 600.
+	/// After which changes are saved aside, 1 to 600.
 	uint32_t autosave_s = uint32_t(EditorDocument::AUTOSAVE_INTERVAL.count());
 	std::vector<std::string> recent; // scenes, absolute, the newest first
 

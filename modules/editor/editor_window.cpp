@@ -143,7 +143,7 @@ private:
 			}
 			session.follow_file(start);
 			if (shaders.update(context, start)) {
-				viewport_renderer.forget_kept();
+				viewport_renderer.forget_cached();
 				error_meter.forget_cost();
 			}
 			if (document.get_timeline().advance(seconds)) {

@@ -173,7 +173,7 @@ void ErrorMeter::measure_cost(EditorContext &r_context) {
 	RenderRequest timed = request;
 	timed.wants_mask = false;
 	timed.wants_surfaces = false;
-	timed.may_keep = false;
+	timed.may_reuse = false;
 	timed.mode = RenderGraph::Mode::ONE_BY_ONE;
 	std::vector<PassCost> passes;
 	for (const PassTiming &pass : renderer.render(timed).find_light_passes(light.name)) {

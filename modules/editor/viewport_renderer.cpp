@@ -65,8 +65,8 @@ void ViewportRenderer::update(EditorContext &r_context) {
 	}
 }
 
-void ViewportRenderer::forget_kept() {
-	renderer.forget_kept();
+void ViewportRenderer::forget_cached() {
+	renderer.forget_cached();
 	compared_renderer.reset();
 }
 

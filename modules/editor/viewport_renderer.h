@@ -16,8 +16,8 @@ public:
 
 	/// Draws if need be. An Error is told in the status bar, and the last image stays.
 	void update(EditorContext &r_context);
-	/// What techniques kept of earlier frames is not true any more: shaders are others.
-	void forget_kept();
+	/// What techniques cached of earlier frames is not valid any more: shaders are others.
+	void forget_cached();
 	/// Empty before the first image.
 	TextureRID get_image() const { return image.get(); }
 	/// Of the compared technique; empty while none is.
@@ -37,7 +37,7 @@ private:
 
 	RenderingDevice &device;
 	Renderer &renderer;
-	/// Keeps what the compared technique keeps; only while there is one.
+	/// Keeps what the compared technique caches; only while there is one.
 	std::unique_ptr<Renderer> compared_renderer;
 	OwnedTexture image;
 	OwnedTexture compared_image;

@@ -26,13 +26,13 @@ auto tie_state(Light3D &r_light) {
 /// A light's own state, given back when the variant is built.
 class LightKeeper {
 public:
-	explicit LightKeeper(Light3D &r_light) : light(r_light), kept(tie_state(r_light)) {
+	explicit LightKeeper(Light3D &r_light) : light(r_light), saved(tie_state(r_light)) {
 		for (const std::unique_ptr<Node3D> &child : r_light.children) {
 			light_from_children.push_back(child->parent_from_node);
 		}
 	}
 	~LightKeeper() {
-		tie_state(light) = kept;
+		tie_state(light) = saved;
 		for (size_t index = 0; index < light_from_children.size(); ++index) {
 			light.children[index]->parent_from_node = light_from_children[index];
 		}
@@ -42,7 +42,7 @@ public:
 
 private:
 	Light3D &light;
-	std::tuple<LightType, glm::dmat4, float, float, float, PropertyValues> kept;
+	std::tuple<LightType, glm::dmat4, float, float, float, PropertyValues> saved;
 	std::vector<glm::dmat4> light_from_children;
 };
 

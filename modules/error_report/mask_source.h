@@ -64,7 +64,7 @@ public:
 	virtual TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
-	/// The questions one after another, as frames of one run: what a technique keeps, it keeps.
+	/// The questions one after another, as frames of one run: what a technique caches, it reuses.
 	virtual DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) = 0;
 };

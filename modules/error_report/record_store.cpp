@@ -99,12 +99,12 @@ void RecordStore::remove(const std::string &p_name) {
 }
 
 void RecordStore::remove_others(const std::vector<std::string> &p_names) {
-	const std::set<std::string> kept(p_names.begin(), p_names.end());
+	const std::set<std::string> names(p_names.begin(), p_names.end());
 	for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
 		const fs::path path = entry.path();
 		const bool is_record = (path.extension() == ".json" || path.extension() == ".png") &&
 				is_record_name(path.stem().string());
-		if (is_record && kept.count(path.stem().string()) == 0) {
+		if (is_record && names.count(path.stem().string()) == 0) {
 			remove(path.stem().string());
 		}
 	}

@@ -23,10 +23,10 @@ namespace {
 const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
 
 /// The mask with the receivers that the list leaves out taken away.
-MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_kept) {
+MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_included) {
 	MaskImage restricted = p_mask;
 	for (size_t index = 0; index < restricted.receiver.size(); ++index) {
-		if (!p_is_kept[index]) {
+		if (!p_is_included[index]) {
 			restricted.receiver[index] = 0.0f;
 			restricted.visibility[index] = 0.0f;
 		}
@@ -52,7 +52,7 @@ template <typename Work> std::optional<std::string> find_failure(Work p_work) {
 		return std::nullopt;
 	} catch (const DeviceLost &error) {
 		// All that is left would fail too; it is not marked, so that a resume measures it.
-		throw DeviceLost(text(error.what(), " What was measured is kept: go on with --resume."));
+		throw DeviceLost(text(error.what(), " What was measured is saved: go on with --resume."));
 	} catch (const std::exception &error) {
 		return describe_failure(error);
 	}
@@ -99,14 +99,14 @@ private:
 		} else {
 			remove_own_records();
 		}
-		size_t kept_count = 0;
+		size_t present_count = 0;
 		for (const ReportCell &cell : report.cells) {
 			if (is_mine(cell.configuration_index)) {
-				(cell.status == ReportStatus::MISSING ? left_count : kept_count) += 1;
+				(cell.status == ReportStatus::MISSING ? left_count : present_count) += 1;
 			}
 		}
 		if (options.resumes) {
-			log_info("Resuming: ", kept_count, " cells are there, ", left_count, " are left.");
+			log_info("Resuming: ", present_count, " cells are there, ", left_count, " are left.");
 		}
 	}
 

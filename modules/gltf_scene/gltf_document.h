@@ -55,7 +55,7 @@ public:
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;
 	/// Keep those alive.
-	std::vector<std::shared_ptr<const Skin>> kept_skins;
+	std::vector<std::shared_ptr<const Skin>> retained_skins;
 	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
 	std::map<const Material *, size_t> material_indices;
 	/// Which primitive of its mesh in the file each is.
@@ -63,7 +63,7 @@ public:
 	/// Whether nodes that the scene does not have may show the file's materials too.
 	bool shares_materials = false;
 	/// Keep the meshes alive whose pointers stand above.
-	std::vector<std::vector<MeshInstance3D::Surface>> kept_surfaces;
+	std::vector<std::vector<MeshInstance3D::Surface>> retained_surfaces;
 
 	static SurfaceKey make_key(const std::vector<MeshInstance3D::Surface> &p_surfaces) {
 		SurfaceKey key;

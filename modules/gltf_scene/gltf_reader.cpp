@@ -194,7 +194,7 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index, const GltfTre
 	if (!instance->surfaces.empty()) {
 		const auto key = GltfDocument::make_key(instance->surfaces);
 		if (document.mesh_indices.emplace(key, mesh_index).second) {
-			document.kept_surfaces.push_back(instance->surfaces);
+			document.retained_surfaces.push_back(instance->surfaces);
 		}
 	}
 	read_motion(node, path, p_tree, *instance);
@@ -231,7 +231,7 @@ void GltfReader::read_motion(const tinygltf::Node &p_node, const std::string &p_
 		const size_t index = static_cast<size_t>(p_node.skin);
 		skin = read_skin(model, index, p_tree, accessors, messages);
 		document.skin_indices[skin.get()] = index;
-		document.kept_skins.push_back(skin);
+		document.retained_skins.push_back(skin);
 	}
 	if (joint_count > skin->joints.size()) {
 		messages.fail(p_path + ".skin",

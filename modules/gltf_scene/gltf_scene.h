@@ -16,7 +16,7 @@ struct GltfLoadOptions {
 	/// Files outside of it are refused, whatever a URI or a link says. Empty = the scene's folder.
 	std::filesystem::path project_folder;
 	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
-	/// that are found are checked and converted; others are kept as they stand. May be empty.
+	/// that are found are checked and converted; others are preserved as they stand. May be empty.
 	std::function<const PropertyInfo *(std::string_view)> find_technique_property;
 };
 

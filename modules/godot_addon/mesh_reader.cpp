@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t KEPT_FRAMES = 600;
+const uint64_t MAX_UNUSED_FRAMES = 600;
 
 /// How a surface joins its vertices. ArrayMesh and PrimitiveMesh tell without a copy from the GPU.
 int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
@@ -154,7 +154,7 @@ bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
 void MeshReader::forget_unused() {
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
-		return !p_entry.second.watched->is_alive() || frame - p_entry.second.last_use > KEPT_FRAMES;
+		return !p_entry.second.watched->is_alive() || frame - p_entry.second.last_use > MAX_UNUSED_FRAMES;
 	});
 	std::erase_if(cut, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();

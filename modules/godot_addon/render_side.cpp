@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-const uint64_t KEPT_FRAMES = 120; // of views that are drawn no more
+const uint64_t MAX_UNUSED_FRAMES = 120; // of views that are drawn no more
 
 } // namespace
 
@@ -86,7 +86,7 @@ void RenderSide::note_failure(const std::exception &p_failure) {
 
 void RenderSide::forget_unused(uint64_t p_frame) {
 	std::erase_if(views, [&](const auto &p_entry) {
-		return p_frame - p_entry.second->last_use > KEPT_FRAMES ||
+		return p_frame - p_entry.second->last_use > MAX_UNUSED_FRAMES ||
 				godot::get_instance(p_entry.first) == nullptr;
 	});
 }

@@ -85,7 +85,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	std::printf("%-40s %8.3f ms GPU, %.3f ms wall\n", "frame", result.gpu_ms, result.wall_ms);
 	if (!options.time.empty()) {
 		request.wants_image = false;
-		request.may_keep = options.is_still;
+		request.may_reuse = options.is_still;
 		save_file_atomically(options.time,
 				RunPartRegistry::find(MASKS_PART)
 						->measure_time(renderer, request, WARM_UP_COUNT, MEASURED_COUNT,
@@ -160,7 +160,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 							   "Writes the times of 20 frames after 5 to warm up as JSON")
 						->needs(headless);
 		command->add_flag("--still", options.is_still,
-					   "--time measures frames in which nothing moves, so that what is kept is "
+					   "--time measures frames in which nothing moves, so that what is cached is "
 					   "used")
 				->needs(time);
 	}

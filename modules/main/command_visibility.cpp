@@ -122,7 +122,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 		}
 	}
 	if (!p_options.time.empty()) {
-		request.may_keep = p_options.is_still;
+		request.may_reuse = p_options.is_still;
 		// The reference takes seconds a frame and nobody draws with it: one frame tells what it costs.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
@@ -164,7 +164,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 				   "program")
 			->check(CLI::Range(1u, 100000u));
 	command->add_flag("--still", options.is_still,
-				   "--time measures frames in which nothing moves, so that what is kept is used")
+				   "--time measures frames in which nothing moves, so that what is cached is used")
 			->needs(time);
 	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
 	command->add_option("--surfaces", options.surfaces,

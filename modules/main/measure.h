@@ -22,7 +22,7 @@ struct MeasureLimits {
 
 /// What the masks of a light cost (of all lights where the request names none), pass by pass. The
 /// G-buffer and the lighting are not counted. p_request: its mode and outputs are replaced; with
-/// may_keep = false every frame is as if the light had moved. p_progress gets 0..1; may be empty.
+/// may_reuse = false every frame is as if the light had moved. p_progress gets 0..1; may be empty.
 MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress);
 

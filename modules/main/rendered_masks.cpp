@@ -110,7 +110,7 @@ MeasuredMask RenderedMasks::measure(
 	MeasureLimits limits = CELL_LIMITS;
 	limits.warm_up_count = request.wants_mask ? 0 : 1;
 	limits.median_error = median_error;
-	request.may_keep = false;
+	request.may_reuse = false;
 	measured.time = measure_mask_timing(renderer, request, limits, {});
 	measured.bytes = device.get_memory_use().used_bytes;
 	return measured;

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// Answers the error report's questions with the renderer. Each answer has a renderer of its own,
-/// so that none inherits what another one kept.
+/// so that none inherits what another one cached.
 class RenderedMasks : public MaskSource {
 public:
 	/// p_median_error: a measurement may end before its 20 frames or 3 s once the standard error of

@@ -54,7 +54,7 @@ void drop_unused_topologies() {
 	erase_expired();
 }
 
-size_t get_kept_topology_count() {
+size_t get_cached_topology_count() {
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	return cache.size();
 }

@@ -57,7 +57,7 @@ PassBuilder &PassBuilder::without_targets(glm::uvec2 p_size_px) {
 }
 
 PassBuilder &PassBuilder::keep() {
-	graph.passes[pass_index].is_kept = true;
+	graph.passes[pass_index].is_retained = true;
 	return *this;
 }
 

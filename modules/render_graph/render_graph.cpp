@@ -117,7 +117,7 @@ void RenderGraph::cull() {
 		is_needed[index] = resources[index].is_imported;
 	}
 	for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
-		pass->is_culled = !pass->is_kept &&
+		pass->is_culled = !pass->is_retained &&
 				std::none_of(pass->uses.begin(), pass->uses.end(), [&](const Use &p_use) {
 					return p_use.is_written && is_needed[p_use.resource];
 				});

@@ -66,7 +66,7 @@ public:
 	/// Shader reads, vertex and index buffers, indirect arguments, uniforms, copies.
 	PassBuilder &reads(RGResource p_resource, Access p_access);
 	/// Storage images and buffers, copies. FRESH: the pass writes every texel that is read later,
-	/// and earlier content is discarded. UPDATE: earlier content is kept.
+	/// and earlier content is discarded. UPDATE: earlier content is preserved.
 	enum class Content { FRESH, UPDATE };
 	PassBuilder &writes(RGResource p_resource, Access p_access, Content p_content = Content::FRESH);
 	/// Attachments: the graph begins and ends the rendering around the pass's function.
@@ -95,7 +95,7 @@ private:
 /// writes; the graph leaves out passes whose results nobody uses, gives transient textures memory
 /// that they share when they do not live at the same time, and puts the barriers between passes.
 ///
-/// Made anew each frame; what can be reused (memory) is kept in the TransientPool.
+/// Made anew each frame; what can be reused (memory) is cached in the TransientPool.
 class RenderGraph {
 public:
 	RenderGraph(RenderingDevice &p_device, TransientPool &p_pool);

@@ -40,7 +40,7 @@ struct RenderGraph::Pass {
 	std::vector<std::pair<RGTexture, ColorTarget>> colors;
 	std::optional<std::pair<RGTexture, DepthTarget>> depth;
 	std::optional<glm::uvec2> size_without_targets_px;
-	bool is_kept = false;
+	bool is_retained = false;
 	bool is_culled = false;
 	std::function<void(PassContext &)> record;
 	std::function<void(HostContext &)> run_on_host;

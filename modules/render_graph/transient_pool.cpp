@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 // A frame shape per debug view and per set of left-out passes; more would only hold memory.
-constexpr size_t MAX_KEPT_ENTRIES = 3;
+constexpr size_t MAX_CACHED_ENTRIES = 3;
 
 bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {
 	return p_left.first_pass <= p_right.last_pass && p_right.first_pass <= p_left.last_pass;
@@ -104,7 +104,7 @@ std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_req
 const TransientPlacement &TransientPool::place(const std::vector<TransientRequest> &p_requests) {
 	++use_count;
 	std::erase_if(entries, [&](const std::unique_ptr<Entry> &p_entry) {
-		return use_count - p_entry->last_use > KEPT_FRAMES;
+		return use_count - p_entry->last_use > MAX_UNUSED_FRAMES;
 	});
 	for (const std::unique_ptr<Entry> &entry : entries) {
 		if (entry->requests == p_requests) {
@@ -112,7 +112,7 @@ const TransientPlacement &TransientPool::place(const std::vector<TransientReques
 			return entry->placement;
 		}
 	}
-	if (entries.size() >= MAX_KEPT_ENTRIES) {
+	if (entries.size() >= MAX_CACHED_ENTRIES) {
 		entries.erase(std::min_element(
 				entries.begin(), entries.end(), [](const auto &p_left, const auto &p_right) {
 					return p_left->last_use < p_right->last_use;

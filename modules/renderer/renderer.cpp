@@ -64,7 +64,7 @@ struct Renderer::Frame {
 			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
 			shadows(r_renderer.shadows, graph, result.plan, request.scene,
 					request.size_px * get_drawn_factor(request),
-					{ request.technique_override, request.may_leave_out, request.may_keep }),
+					{ request.technique_override, request.may_leave_out, request.may_reuse }),
 			image{ graph, r_renderer.device, {}, shadows.get_constants(),
 				request.size_px * get_drawn_factor(request), get_drawn_factor(request),
 				compute_exposure(*request.scene) } {}

@@ -57,8 +57,8 @@ struct RenderRequest {
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
 	/// False: runs everything, also what the image does not need (for the test that compares both).
 	bool may_leave_out = true;
-	/// False: techniques use nothing that they kept of earlier frames, as if everything had moved.
-	bool may_keep = true;
+	/// False: techniques use nothing that they cached of earlier frames, as if everything had moved.
+	bool may_reuse = true;
 	/// True: shadows make geometric normals from the depth, as for a host that draws none.
 	bool has_depth_alone = false;
 };
@@ -93,7 +93,7 @@ public:
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
 	/// Techniques start anew, as after shaders were replaced.
-	void forget_kept() { shadows.forget_kept(); }
+	void forget_cached() { shadows.forget_cached(); }
 	RenderingDevice &get_device() { return device; }
 
 private:

@@ -375,7 +375,7 @@ void GodotDevice::forget(godot::RID p_resource) {
 void GodotDevice::prune(Cache &r_cache, bool (*p_is_valid)(const RD &, godot::RID)) {
 	std::erase_if(r_cache, [&](const auto &p_entry) {
 		const Cached &cached = p_entry.second;
-		const bool is_old = submission - cached.last_use > KEPT_FRAMES;
+		const bool is_old = submission - cached.last_use > MAX_UNUSED_FRAMES;
 		if (is_old && p_is_valid(rd, cached.rid)) {
 			rd.free_rid(cached.rid);
 		}
@@ -386,7 +386,7 @@ void GodotDevice::prune(Cache &r_cache, bool (*p_is_valid)(const RD &, godot::RI
 void GodotDevice::prune_spare_uploads() {
 	for (auto &[key, spares] : spare_uploads) {
 		std::erase_if(spares, [&](const Cached &p_spare) {
-			const bool is_old = submission - p_spare.last_use > KEPT_FRAMES;
+			const bool is_old = submission - p_spare.last_use > MAX_UNUSED_FRAMES;
 			if (is_old) {
 				forget(p_spare.rid);
 				rd.free_rid(p_spare.rid);

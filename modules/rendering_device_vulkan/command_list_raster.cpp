@@ -78,7 +78,7 @@ void VulkanCommandList::begin_rendering_of_size(
 		const VkImageLayout read_only = get_layout(VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL, format);
 		is_target_depth_read_only = texture.recorded_layout == read_only;
 		GNOMON_ASSERT(!is_target_depth_read_only || p_depth->load == LoadOp::KEEP, "target '",
-				texture.desc.name, "' has Access::DEPTH_READ and must be kept");
+				texture.desc.name, "' has Access::DEPTH_READ and must be LoadOp::KEEP");
 		depth.imageView = device->get_view(texture, ViewUse::ATTACHMENT, p_depth->layer, false);
 		depth.imageLayout = is_target_depth_read_only
 				? read_only

@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-// Of one pool; a submission that needs more gets further pools, which are kept for later ones.
+// Of one pool; a submission that needs more gets further pools, which are reused for later ones.
 constexpr uint32_t SETS_PER_POOL = 256;
 constexpr VkDescriptorPoolSize POOL_SIZES[] = {
 	{ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * SETS_PER_POOL },

@@ -64,7 +64,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 			(uint64_t(casters.edge_count) * view_count > settings.budget ||
 					!p_inputs.may_leave_out);
 	// Only the filter reads beyond the view of a receiver.
-	views.begin(p_inputs, may_filter ? KeptViews::Reads::ACROSS_VIEWS : KeptViews::Reads::OWN_VIEW);
+	views.begin(p_inputs, may_filter ? CachedViews::Reads::ACROSS_VIEWS : CachedViews::Reads::OWN_VIEW);
 	has_casters = casters.face_count > 0;
 	if (views.is_all_empty() || !has_casters) {
 		if (views.may_forget() || !has_casters) {
@@ -81,7 +81,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, capacities) &&
 			drawn.disc_radius == settings.disc_radius && drawn.casters.has_layout_of(casters) &&
 			(!may_filter || drawn.has_depth_map);
-	if (has_content && p_inputs.may_leave_out && p_inputs.may_keep &&
+	if (has_content && p_inputs.may_leave_out && p_inputs.may_reuse &&
 			drawn.first_view == p_inputs.views[0]) {
 		compare_casters(drawn.casters, casters);
 	}
@@ -110,7 +110,7 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	}
 	if (reused_count > 0) {
 		r_plan.leave_out(text("find edges, casters: ", reused_count),
-				"kept: neither the light nor the caster moved");
+				"cached: neither the light nor the caster moved");
 	}
 	if (drawn.casters.flat_instance_count > 0) {
 		r_plan.leave_out(text("edges of instances: ", drawn.casters.flat_instance_count),

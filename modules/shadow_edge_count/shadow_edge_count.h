@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/shadow_edge_count/block_passes.h"
-#include "modules/shadows/kept_views.h"
+#include "modules/shadows/cached_views.h"
 
 #include <vector>
 
@@ -47,7 +47,7 @@ private:
 	std::vector<LightView> build_depth_views(const Inputs &p_inputs) const;
 
 	CountBuffers buffers;
-	KeptViews views;
+	CachedViews views;
 	Drawn drawn;
 	OwnedBuffer masks;
 	uint32_t mask_turn_count = 0;

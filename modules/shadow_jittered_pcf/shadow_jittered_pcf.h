@@ -11,7 +11,7 @@ class ShadowJitteredPcf : public DepthMapTechnique {
 public:
 	ShadowJitteredPcf() :
 			DepthMapTechnique("shadow_jittered_pcf/resolve.comp", "jittered_pcf_map_size",
-					KeptViews::Reads::ACROSS_VIEWS) {}
+					CachedViews::Reads::ACROSS_VIEWS) {}
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;

@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// The textures of one light, kept from frame to frame: depth layers and penumbra maps, one texture
+/// The textures of one light, cached from frame to frame: depth layers and penumbra maps, one texture
 /// layer per light view.
 class FinsMaps {
 public:

@@ -71,7 +71,7 @@ void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 }
 
 void ShadowPenumbraFins::plan_views(const Inputs &p_inputs, TechniquePlan &r_plan) {
-	views.begin(p_inputs, KeptViews::Reads::OWN_VIEW);
+	views.begin(p_inputs, CachedViews::Reads::OWN_VIEW);
 	bool has_content = !views.may_forget();
 	if (views.is_all_empty()) {
 		if (views.may_forget()) {

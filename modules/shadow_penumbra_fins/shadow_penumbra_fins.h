@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/shadow_penumbra_fins/fins_maps.h"
-#include "modules/shadows/kept_views.h"
+#include "modules/shadows/cached_views.h"
 
 namespace gnomon {
 
@@ -51,7 +51,7 @@ private:
 	FinsMaps maps;
 	OwnedSampler sampler; // linear
 	FinsSettings drawn_settings;
-	KeptViews views;
+	CachedViews views;
 
 	// This frame.
 	FinsSettings settings;

@@ -30,20 +30,20 @@ RTCRay make_ray(const glm::vec3 &p_origin, const glm::vec3 &p_direction, float p
 std::vector<uint32_t> keep_finite(
 		std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices) {
 	GNOMON_ASSERT(p_triangle_indices.size() % 3 == 0, p_triangle_indices.size(), " indices");
-	std::vector<uint32_t> kept;
-	kept.reserve(p_triangle_indices.size());
+	std::vector<uint32_t> finite_indices;
+	finite_indices.reserve(p_triangle_indices.size());
 	for (size_t i = 0; i < p_triangle_indices.size(); i += 3) {
-		bool is_kept = true;
+		bool are_finite = true;
 		for (size_t k = i; k < i + 3; ++k) {
 			const uint32_t index = p_triangle_indices[k];
 			GNOMON_ASSERT(index < p_positions.size(), "index ", index, " of ", p_positions.size());
-			is_kept = is_kept && is_finite(p_positions[index]);
+			are_finite = are_finite && is_finite(p_positions[index]);
 		}
-		if (is_kept) {
-			kept.insert(kept.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
+		if (are_finite) {
+			finite_indices.insert(finite_indices.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
 		}
 	}
-	return kept;
+	return finite_indices;
 }
 
 /// A geometry's filter: hits in the holes do not count.
@@ -164,18 +164,18 @@ bool EmbreeScene::is_occluded(
 void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 		std::span<const uint32_t> p_triangle_indices, Hits p_hits,
 		const CutOutTriangles *p_cut_out) {
-	const std::vector<uint32_t> kept = keep_finite(p_positions, p_triangle_indices);
+	const std::vector<uint32_t> finite_indices = keep_finite(p_positions, p_triangle_indices);
 	RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-	if (!kept.empty()) {
+	if (!finite_indices.empty()) {
 		// Buffers of Embree's own, because it reads 16 bytes beyond the last vertex of a shared
 		// one.
 		void *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
 				RTC_FORMAT_FLOAT3, sizeof(glm::vec3), p_positions.size());
 		void *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), kept.size() / 3);
+				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), finite_indices.size() / 3);
 		if (vertices != nullptr && indices != nullptr) {
 			std::copy(p_positions.begin(), p_positions.end(), static_cast<glm::vec3 *>(vertices));
-			std::copy(kept.begin(), kept.end(), static_cast<uint32_t *>(indices));
+			std::copy(finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
 		}
 	}
 	if (p_hits == Hits::ARE_TOLD) {

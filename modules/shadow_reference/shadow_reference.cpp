@@ -45,7 +45,7 @@ struct ShadowReference::Job {
 	RGBuffer receivers;
 	RGBuffer mask;
 	std::string light_name;
-	bool may_keep = true;
+	bool may_reuse = true;
 
 	uint64_t compute_key(std::span<const ReceiverPoint> p_points) const {
 		uint64_t key = add_to_hash(triangles.opaque, REFERENCE_VERSION);
@@ -121,8 +121,8 @@ void ShadowReference::run(const Job &p_job, HostContext &p_context) {
 							p_job.material ? p_context.get_mapped(p_job.material) : nullptr }),
 			p_job.spread.get(), [&](size_t p_pixel) { return receivers[p_pixel] != 0; });
 	const uint64_t key = p_job.compute_key(points);
-	if (!p_job.may_keep || key != last_key || last_reference.visibility.size() != pixel_count) {
-		const std::optional<ReferenceVisibility> stored = p_job.may_keep
+	if (!p_job.may_reuse || key != last_key || last_reference.visibility.size() != pixel_count) {
+		const std::optional<ReferenceVisibility> stored = p_job.may_reuse
 				? load_reference(key, pixel_count, !p_job.triangles.translucent.empty())
 				: std::nullopt;
 		if (stored) {
@@ -153,7 +153,7 @@ RGTexture ShadowReference::resolve(RenderGraph &r_graph, const Inputs &p_inputs)
 	job->size_px = p_inputs.size_px;
 	job->frame = compute_frame_constants(p_inputs.scene, p_inputs.size_px);
 	job->light_name = p_inputs.light.name;
-	job->may_keep = p_inputs.may_keep;
+	job->may_reuse = p_inputs.may_reuse;
 	job->light = make_area_light(p_inputs.scene, p_inputs.light);
 	job->options.scene_size_m = static_cast<float>(p_inputs.scene.scene_size_m);
 	job->options.sample_count =

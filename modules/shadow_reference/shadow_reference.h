@@ -7,7 +7,7 @@
 namespace gnomon {
 
 /// The reference as a technique: reads back the camera's depth and normals, traces on the CPU, and
-/// hands the mask to the GPU in float32. Kept on disk by the content of everything it depends on.
+/// hands the mask to the GPU in float32. Cached on disk by the content of everything it depends on.
 class ShadowReference : public ShadowTechnique {
 public:
 	ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const override {

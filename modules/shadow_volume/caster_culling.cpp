@@ -76,7 +76,7 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	}
 	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
 	const bool has_same_casters =
-			p_inputs.may_keep && known && known->is_hidden.size() == p_instances.size();
+			p_inputs.may_reuse && known && known->is_hidden.size() == p_instances.size();
 	if (!p_inputs.wants_debug_views && has_same_casters && known->key == key) {
 		return leave_out_hidden(p_instances, r_plan);
 	}

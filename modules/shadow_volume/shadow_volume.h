@@ -1,7 +1,7 @@
 #pragma once
 
 #include "modules/shadow_volume/caster_culling.h"
-#include "modules/shadow_volume/kept_edges.h"
+#include "modules/shadow_volume/cached_edges.h"
 #include "modules/shadow_volume/volume_casters.h"
 
 namespace gnomon {
@@ -34,7 +34,7 @@ private:
 	const std::string id;
 
 	CasterCulling culling;
-	KeptEdges edges;
+	CachedEdges edges;
 
 	// This frame.
 	VolumeSettings settings;

@@ -227,7 +227,7 @@ VolumeTargets add_volume_receivers_pass(
 
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
-		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, KeptEdges &r_edges) {
+		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, CachedEdges &r_edges) {
 	const SilhouetteCasters listed = list_compute_casters(p_inputs, p_casters);
 	SilhouetteLists lists;
 	if (!listed.casters.empty()) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "modules/shadow_volume/kept_edges.h"
+#include "modules/shadow_volume/cached_edges.h"
 #include "modules/shadow_volume/volume_casters.h"
 
 namespace gnomon {
@@ -23,6 +23,6 @@ SilhouetteCasters list_compute_casters(
 /// where the count is not 0. p_casters must stay until the frame has run.
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
-		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, KeptEdges &r_edges);
+		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, CachedEdges &r_edges);
 
 } // namespace gnomon

@@ -308,8 +308,8 @@ void MeshStore::prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p
 }
 
 uint32_t MeshStore::add_deform_pass(
-		RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_keep) {
-	if (!p_may_keep) {
+		RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_reuse) {
+	if (!p_may_reuse) {
 		for (auto &[id, mesh] : meshes) {
 			mesh.pose_hash = 0;
 		}

@@ -2,7 +2,7 @@
 
 #include "modules/render_graph/compute_pass.h"
 #include "modules/rendering_device/rendering_device.h"
-#include "modules/shadows/kept_views.h"
+#include "modules/shadows/cached_views.h"
 
 namespace gnomon {
 
@@ -24,7 +24,7 @@ public:
 
 protected:
 	/// p_size_property: of the light, see add_size_property. p_reads: how far the filter reads.
-	DepthMapTechnique(std::string p_shader, std::string p_size_property, KeptViews::Reads p_reads) :
+	DepthMapTechnique(std::string p_shader, std::string p_size_property, CachedViews::Reads p_reads) :
 			shader(std::move(p_shader)), size_property(std::move(p_size_property)), reads(p_reads) {
 	}
 
@@ -45,10 +45,10 @@ private:
 	RGTexture import(RenderGraph &r_graph);
 
 	std::string size_property;
-	KeptViews::Reads reads;
+	CachedViews::Reads reads;
 	OwnedTexture map;
 	TextureDesc map_desc;
-	KeptViews views;
+	CachedViews views;
 	bool has_content = false; // of the map, before this frame
 	RGTexture frame_map;	  // this frame's handle; empty where no view is read
 };

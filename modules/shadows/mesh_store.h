@@ -42,7 +42,7 @@ public:
 	/// recorded.
 	const GpuTopology &get_topology(
 			const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts);
-	/// What a technique of its own derives from a mesh, shared by all lights and kept as long as
+	/// What a technique of its own derives from a mesh, shared by all lights and cached as long as
 	/// the mesh lives; p_make makes a T the first time. One T per mesh and type; meshes that poses
 	/// deform have those of their mesh at rest.
 	template <typename T, typename Make>
@@ -56,10 +56,10 @@ public:
 	}
 	/// Before all passes that read vertices: brings those of meshes that poses deform up to the
 	/// scene's poses, also of buffers that are requested later in the frame. Those whose pose is
-	/// the same as before stay as they are, where p_may_keep. Returns how many instances' vertices
+	/// the same as before stay as they are, where p_may_reuse. Returns how many instances' vertices
 	/// the pass moves now.
 	uint32_t add_deform_pass(
-			RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_keep = true);
+			RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_reuse = true);
 	RenderingDevice &get_device() { return device; }
 	/// Frees what belongs to meshes that are gone. Once a frame.
 	void collect_garbage();

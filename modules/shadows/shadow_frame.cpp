@@ -98,7 +98,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		ShadowRegistry::get(options.technique_override);
 	}
 	system.begin_frame(*scene);
-	const uint32_t moved_count = system.meshes->add_deform_pass(graph, *scene, options.may_keep);
+	const uint32_t moved_count = system.meshes->add_deform_pass(graph, *scene, options.may_reuse);
 	const auto posed_count = std::count_if(scene->instances.begin(), scene->instances.end(),
 			[](const InstanceSnapshot &p_instance) { return p_instance.pose != nullptr; });
 	if (moved_count > 0) {
@@ -124,7 +124,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 
 ShadowFrame::~ShadowFrame() {
 	if (!has_ended) {
-		system.forget_kept();
+		system.forget_cached();
 	}
 }
 
@@ -264,7 +264,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.frame = constants,
 		.light_constants = p_work.shadow.light_constants,
 		.may_leave_out = options.may_leave_out,
-		.may_keep = options.may_keep,
+		.may_reuse = options.may_reuse,
 		.wants_debug_views = p_wants_debug_views,
 		.lit_receivers = p_work.lit_receivers.list,
 	};

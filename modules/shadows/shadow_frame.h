@@ -40,8 +40,8 @@ struct ShadowFrameOptions {
 	std::string technique_override = {};
 	/// False: runs everything, also what the masks do not need.
 	bool may_leave_out = true;
-	/// False: techniques use nothing that they kept of earlier frames.
-	bool may_keep = true;
+	/// False: techniques use nothing that they cached of earlier frames.
+	bool may_reuse = true;
 };
 
 /// Makes the masks of one frame: records their passes in the host's graph, one light after the
@@ -57,7 +57,7 @@ public:
 	ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan &r_plan,
 			std::shared_ptr<const SceneSnapshot> p_scene, glm::uvec2 p_size_px,
 			ShadowFrameOptions p_options = {});
-	/// Without end(): techniques forget what they kept, as they may count on passes that never ran.
+	/// Without end(): techniques forget what they cached, as they may count on passes that never ran.
 	~ShadowFrame();
 	ShadowFrame(const ShadowFrame &) = delete;
 	ShadowFrame &operator=(const ShadowFrame &) = delete;

@@ -42,7 +42,7 @@ void ShadowSystem::begin_frame(const SceneSnapshot &p_scene) {
 	warn_once("scene_size", describe_unfit_size(p_scene));
 	++frame;
 	std::erase_if(slots, [&](const auto &p_slot) {
-		return frame - p_slot.second.last_frame > KEPT_FRAMES ||
+		return frame - p_slot.second.last_frame > MAX_UNUSED_FRAMES ||
 				p_scene.find_light(p_slot.first.first) == nullptr;
 	});
 }

@@ -19,7 +19,7 @@ namespace gnomon {
 
 class ShadowFrame;
 
-/// What one host keeps from frame to frame: the techniques of its lights with their maps, and the
+/// What one host caches from frame to frame: the techniques of its lights with their maps, and the
 /// meshes' buffers. One for each camera that is drawn in turn, so that each finds its maps again;
 /// they may share the meshes.
 class ShadowSystem {
@@ -32,7 +32,7 @@ public:
 	/// Of the light's mask of the last frame; see ShadowTechnique.
 	float get_standard_error(const std::string &p_light_name) const;
 	/// Techniques start again, as after shaders were replaced.
-	void forget_kept() { slots.clear(); }
+	void forget_cached() { slots.clear(); }
 
 private:
 	friend class ShadowFrame;

@@ -91,8 +91,8 @@ public:
 		RGBuffer light_constants; // LightConstants
 		/// False: nothing may be left out (for the test that compares both bit for bit).
 		bool may_leave_out = true;
-		/// False: what was kept of earlier frames must not be used, as if everything had moved.
-		bool may_keep = true;
+		/// False: what was cached of earlier frames must not be used, as if everything had moved.
+		bool may_reuse = true;
 		/// True while one of the technique's debug views is shown.
 		bool wants_debug_views = false;
 		/// What the camera sees of the instances that the light may reach: all receivers are there.

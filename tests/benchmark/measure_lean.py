@@ -44,12 +44,12 @@ RULES = (
     Rule("filter where blocks have few edges", lambda folder: lean_scenes.make_lights(0, folder), "edges: left out, all casters together", "edge_count",
          ("edge_count_budget=65536",)),
     Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: left out, z-pass is safe", "shadow_volume"),
-    Rule("maps at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved", "shadow_map", (), True),
-    Rule("depth layers and fins at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved",
+    Rule("maps at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved", "shadow_map", (), True),
+    Rule("depth layers and fins at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved",
          "penumbra_fins", (), True),
-    Rule("edges and layers at rest", lean_scenes.make_knots, "left out, kept: neither the light nor a caster moved", "edge_count",
+    Rule("edges and layers at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved", "edge_count",
          (), True),
-    Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: left out, kept", "shadow_volume",
+    Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: left out, cached", "shadow_volume",
          ("technique.shadow_volume.extrusion=compute",), True),
 )  # fmt: skip
 
@@ -58,7 +58,7 @@ def measure(scene, folder, size_px, technique=None, settings=(), words=()):
     """The frame's plan, and what --time says."""
     times = os.path.join(folder, "time.json")
     command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan", "--antialiasing", "1"]
-    # What is kept is in the plan of a later frame, what is drawn in the first one's.
+    # What is cached is in the plan of a later frame, what is drawn in the first one's.
     command += ["--time", times, "--frames", "4" if "--still" in words else "1", *words]
     if technique:
         command += ["--technique", technique]

@@ -129,10 +129,10 @@ def measure_static():
         with tempfile.TemporaryDirectory() as folder:
             output = run([PROGRAM, "visibility", os.path.join(SCENES, scene + ".gltf"), "--technique", "shadow_map", "--size", "256x256",
                           "--frames", "2", "--plan", "--out", os.path.join(folder, "mask.exr")])  # fmt: skip
-        kept = re.findall(r"(?m)^.*light view \d+.*kept.*$", output)
+        cached = re.findall(r"(?m)^.*light view \d+.*cached.*$", output)
         drawn = re.findall(r"(?m)^.*depth view.*$", output)
-        rows.append((scene, len(drawn), len(kept), answer(not drawn and bool(kept))))
-    return format_table(("scene", "depth passes in frame 2", "views kept", "nothing is drawn anew"), rows)
+        rows.append((scene, len(drawn), len(cached), answer(not drawn and bool(cached))))
+    return format_table(("scene", "depth passes in frame 2", "views cached", "nothing is drawn anew"), rows)
 
 
 def measure_clean_build(jobs):

@@ -32,7 +32,7 @@ LEAST_SHARE = 1 / 32  # of R: where a width goes on from 0
 FACTORS = (2.0, 1.4, 1.2)
 BETAS_M = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6)
 MAX_EVALUATIONS = 40  # of one target
-KEPT_EVALUATIONS = 6  # for the widths after beta
+RESERVED_EVALUATIONS = 6  # for the widths after beta
 SCENE_SIZE_M = 4  # of the demo scenes: a sun's derived width is the tangent of half its angle times this
 SUN_ANGLES_DEG = (1.0, 6.0, 20.0)
 LEAST_GAIN = 0.0002  # of the error, or a point is no better: a tenth of the reference's noise
@@ -124,7 +124,7 @@ class Search:
             self.pool.submit(self.target.render, self.reference, [], reference_path).result()
             self.evaluate([self.derived, (start, start, DERIVED)], reference_path, MAX_EVALUATIONS)
             for factor in FACTORS:
-                self.improve_widths(factor, reference_path, MAX_EVALUATIONS - len(BETAS_M) - KEPT_EVALUATIONS)
+                self.improve_widths(factor, reference_path, MAX_EVALUATIONS - len(BETAS_M) - RESERVED_EVALUATIONS)
             if self.best[INNER] > 0:  # beta is of the inner fins
                 self.evaluate([move(self.best, BETA, beta_m) for beta_m in BETAS_M], reference_path, MAX_EVALUATIONS)
             self.improve_widths(FACTORS[-1], reference_path, MAX_EVALUATIONS)

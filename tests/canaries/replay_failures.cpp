@@ -13,12 +13,12 @@ using namespace gnomon;
 
 namespace {
 
-const uint8_t *volatile kept = nullptr; // volatile: the compiler must not see the errors
+const uint8_t *volatile held = nullptr; // volatile: the compiler must not see the errors
 
 void cause_failure(std::string_view p_word, const uint8_t *p_data, size_t p_size) {
 	if (p_word == "overflow") {
-		kept = p_data + p_size;
-		kept = p_data + *kept; // reads the byte after the input
+		held = p_data + p_size;
+		held = p_data + *held; // reads the byte after the input
 	} else if (p_word == "undefined") {
 		volatile int value = std::numeric_limits<int>::max();
 		value = value + 1;
@@ -27,13 +27,13 @@ void cause_failure(std::string_view p_word, const uint8_t *p_data, size_t p_size
 	} else if (p_word == "assertion") {
 		GNOMON_ASSERT(p_size == 0, "asserted");
 	} else if (p_word == "leak") {
-		kept = new uint8_t[1000];
-		kept = nullptr;
+		held = new uint8_t[1000];
+		held = nullptr;
 	} else if (p_word == "slow") {
 		std::this_thread::sleep_for(std::chrono::hours(1));
 	} else if (p_word == "large") {
 		const volatile size_t size = size_t(3) << 30;
-		kept = std::make_unique<uint8_t[]>(size).get();
+		held = std::make_unique<uint8_t[]>(size).get();
 	} else {
 		fail("Word \"", p_word, "\" is unknown, as documented.");
 	}

@@ -141,15 +141,15 @@ class FailingEditor(EditorCase):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
-    def test_changes_are_kept_aside_when_the_device_is_lost(self):
+    def test_changes_are_saved_aside_when_the_device_is_lost(self):
         self.fail_with("device_lost", "The device was lost", "Restart the program")
 
     @at_length
-    def test_changes_are_kept_aside_when_the_device_hangs(self):
+    def test_changes_are_saved_aside_when_the_device_hangs(self):
         self.fail_with("hang", "no progress for 15 s", **HANG)
 
     @at_length
-    def test_changes_are_kept_aside_when_memory_is_out(self):
+    def test_changes_are_saved_aside_when_memory_is_out(self):
         self.fail_with("out_of_memory", "Out of memory", "smaller scene or image")
 
     def test_a_shadow_that_does_not_fit_into_the_device_is_told_and_undone(self):

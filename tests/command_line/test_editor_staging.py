@@ -37,7 +37,7 @@ class EditorStaging(EditorCase):
         self.press("key", "ctrl+s")
         return self.wait_for(lambda state: not state["is_changed"] and state["status"].startswith("Saved"))["status"]
 
-    def test_staged_nodes_are_kept_or_not(self):
+    def test_staged_nodes_are_saved_or_not(self):
         self.open_editor(project=self.scene)
         self.wait_for(lambda state: LINE in state["status"] and {"node " + name for name in ADDED} <= set(state["items"]))
         self.click("node Stage light")

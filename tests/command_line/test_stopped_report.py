@@ -44,7 +44,7 @@ class StoppedReports(ReportCase):
         whole = self.load_done("whole", self.small("whole"))
         half_count = len(whole["cells"]) // 2
         self.stop_half_way("report", whole["cells"][half_count - 1]["record"])
-        kept = {name: data for name, data in self.load_records("report").items() if not name.endswith(".tmp")}
+        before = {name: data for name, data in self.load_records("report").items() if not name.endswith(".tmp")}
         self.assertFalse(os.path.exists(self.path("report/index.html")))
         result = self.small("report", "--resume")
         self.assertIn("Resuming: %d cells are there, %d are left" % (half_count, len(whole["cells"]) - half_count), result.stderr)
@@ -52,7 +52,7 @@ class StoppedReports(ReportCase):
         self.assertEqual(drop_times(resumed)["configurations"], drop_times(whole)["configurations"])
         self.assertEqual(drop_times(resumed)["cells"], drop_times(whole)["cells"])
         after = self.load_records("report")
-        for name, data in kept.items():
+        for name, data in before.items():
             if name in after:
                 self.assertEqual(after[name], data, "measured again: " + name)
         again = self.small("report", "--resume")

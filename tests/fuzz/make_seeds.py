@@ -22,8 +22,8 @@ import seed_images
 COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 INDEX_FORMATS = {5121: "B", 5123: "<H", 5125: "<I"}
 TYPE_COUNTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-KEPT_VERTICES = 4
-KEPT_INDICES = 6
+MOST_VERTICES = 4
+MOST_INDICES = 6
 
 
 def read_scene(path):
@@ -69,12 +69,12 @@ def shrink(document, buffers):
         element_bytes = component_bytes * TYPE_COUNTS[accessor["type"]]
         stride = view.get("byteStride", element_bytes)
         first = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        count = min(accessor["count"], KEPT_INDICES if number in indices else KEPT_VERTICES)
+        count = min(accessor["count"], MOST_INDICES if number in indices else MOST_VERTICES)
         source = buffers[view["buffer"]]
         elements = [source[first + i * stride :][:element_bytes] for i in range(count)]
         if number in indices:
             letter = INDEX_FORMATS[accessor["componentType"]]
-            elements = [struct.pack(letter, struct.unpack(letter, e)[0] % KEPT_VERTICES) for e in elements]
+            elements = [struct.pack(letter, struct.unpack(letter, e)[0] % MOST_VERTICES) for e in elements]
         views.append({"buffer": 0, "byteOffset": len(packed), "byteLength": count * element_bytes})
         packed += b"".join(elements)
         packed += bytes(-len(packed) % 4)

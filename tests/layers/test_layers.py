@@ -64,11 +64,11 @@ class Tree:
             relative = os.path.relpath(folder, self.root)
             prefix = "" if relative == "." else relative.replace(os.sep, "/") + "/"
 
-            def is_kept(name):
+            def is_tracked(name):
                 return not any(fnmatch.fnmatch(prefix + name, p) or fnmatch.fnmatch(name, p) for p in ignored)
 
-            folders[:] = [name for name in folders if is_kept(name)]
-            found.update(prefix + name for name in names if is_kept(name))
+            folders[:] = [name for name in folders if is_tracked(name)]
+            found.update(prefix + name for name in names if is_tracked(name))
         return found
 
     def _load_config(self, name):

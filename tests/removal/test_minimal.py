@@ -62,9 +62,9 @@ def find_default_technique():
 
 def list_options(technique):
     """scons options that leave out all but the engine and one technique."""
-    kept = ENGINE + (technique,)
+    enabled = ENGINE + (technique,)
     names = [module.name for module in modules_builders.find_modules(os.path.join(ROOT, "modules"))]
-    return kept, ["module_%s_enabled=no" % name for name in names if name not in kept]
+    return enabled, ["module_%s_enabled=no" % name for name in names if name not in enabled]
 
 
 def run(command, folder):
@@ -88,7 +88,7 @@ class Results:
 def check_plan(results):
     """Which modules' files the program's dependency tree holds, headers included."""
     module, _ = find_default_technique()
-    kept, options = list_options(module)
+    enabled, options = list_options(module)
     command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
     planned = run(command + options, ROOT)
     results.check(planned.returncode == 0, "scons plans it", planned.stdout + planned.stderr)
@@ -97,10 +97,10 @@ def check_plan(results):
         return set(re.findall(r"(?<![\w/.])(?:build/\w+/)?modules/(\w+)/", text))
 
     used = find_modules(planned.stdout)
-    results.check(used == set(kept), "it is made of %s; of them not wanted: %s" % (sorted(used), sorted(used - set(kept))))
+    results.check(used == set(enabled), "it is made of %s; of them not wanted: %s" % (sorted(used), sorted(used - set(enabled))))
     # Canary: the whole program is made of more, and the same question sees it.
     whole = find_modules(run(command, ROOT).stdout)
-    results.check(whole > set(kept) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
+    results.check(whole > set(enabled) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))
 
 
 def check_partial_plans(results):
@@ -190,7 +190,7 @@ def write_sizes(rows):
 
 def check_build(results, jobs, writes_sizes):
     module, technique = find_default_technique()
-    kept, options = list_options(module)
+    enabled, options = list_options(module)
     with tempfile.TemporaryDirectory() as target:
         test_removal.copy_tree(target)
         if not writes_sizes:
@@ -205,7 +205,7 @@ def check_build(results, jobs, writes_sizes):
         if not writes_sizes:
             return
         program = os.path.join(target, PROGRAM)
-        rows = [("a game", len(kept), os.path.getsize(program), get_stripped_size(program, target))]
+        rows = [("a game", len(enabled), os.path.getsize(program), get_stripped_size(program, target))]
         rows[0] += (count_libraries(program, target),)
         whole = os.path.join(ROOT, PROGRAM)
         all_modules = modules_builders.find_modules(os.path.join(ROOT, "modules"))

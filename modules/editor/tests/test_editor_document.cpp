@@ -79,7 +79,7 @@ TEST_CASE("[EditorDocument] a change is saved, and nothing else of the file chan
 	CHECK(load_text_file(project.scene) == before);
 }
 
-TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
+TEST_CASE("[EditorDocument] what was not saved is put aside and comes back") {
 	const EditedProject project;
 	{
 		EditorDocument document(project.path);
@@ -106,7 +106,7 @@ TEST_CASE("[EditorDocument] what was not saved is kept aside and comes back") {
 	CHECK(get_size(*std::make_unique<EditorDocument>(project.path)) == 0.75);
 }
 
-TEST_CASE("[EditorDocument] killed at any step of saving, what was kept aside or saved is there") {
+TEST_CASE("[EditorDocument] killed at any step of saving, what was put aside or saved is there") {
 	const EditedProject project;
 	const std::string before = load_text_file(project.scene);
 	const size_t ASIDE_STEP_COUNT = 4; // made, written, synced, renamed
@@ -136,7 +136,7 @@ TEST_CASE("[EditorDocument] killed at any step of saving, what was kept aside or
 	CHECK(kill_count == 2 * ASIDE_STEP_COUNT);
 }
 
-TEST_CASE("[EditorDocument] what an earlier program kept aside stays until it is answered for") {
+TEST_CASE("[EditorDocument] what an earlier program put aside stays until it is answered for") {
 	const EditedProject project;
 	{
 		EditorDocument document(project.path);
@@ -301,7 +301,7 @@ TEST_CASE("[EditorDocument] a scene that is not there is an error") {
 	CHECK_THROWS_AS(EditorDocument(project.path / "none.gltf"), Error);
 }
 
-TEST_CASE("[EditorDocument] what lies aside and cannot be read is kept under another name") {
+TEST_CASE("[EditorDocument] what lies aside and cannot be read stays under another name") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	const fs::path aside = document.get_recovery_path();

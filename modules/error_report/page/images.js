@@ -6,7 +6,7 @@
 	const report = window.GnomonReport;
 	const make = report.make;
 	// A wipe shows two images; going back and forth between a few cells shall not decode again.
-	const KEPT_IMAGE_COUNT = 16;
+	const CACHED_IMAGE_COUNT = 16;
 	const SHOWN_PASS_COUNT = 6;
 	const images = new Map();
 
@@ -28,7 +28,7 @@
 				image.onerror = () => reject(new Error(`The image ${name} cannot be decoded.`));
 				image.src = url;
 			}));
-			if (images.size > KEPT_IMAGE_COUNT) {
+			if (images.size > CACHED_IMAGE_COUNT) {
 				images.delete(images.keys().next().value);
 			}
 		}

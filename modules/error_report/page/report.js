@@ -182,7 +182,7 @@
 		["Wrong", "The share of the pixels whose absolute error exceeds 0.2."],
 		["Umbra over-estimation", "Of the penumbra pixels that see more than 5 % of the light, the share that is shown with less than 1 %."],
 		["Whole light", "The same over receivers that have the whole light above their own horizon."],
-		["cost_ms", "Time of the light's own passes, each submitted alone, median over frames: GPU time, or wall time of passes on the CPU. Nothing is kept between frames."],
+		["cost_ms", "Time of the light's own passes, each submitted alone, median over frames: GPU time, or wall time of passes on the CPU. Nothing is cached between frames."],
 		["Baseline", "× baseline is cost_ms over that of the baseline technique in the same configuration and run."],
 		["Pareto front", "The settings that no other setting beats in both error and time."],
 	];

@@ -181,7 +181,7 @@ TEST_CASE("[ErrorReport] a lost device ends the run, and a resume measures all t
 	ScriptedMasks masks;
 	masks.lose_after_count = 5;
 	CHECK_THROWS_WITH_AS(run(plan, masks, folder.path),
-			"The device was lost. Restart it. What was measured is kept: go on with --resume.",
+			"The device was lost. Restart it. What was measured is saved: go on with --resume.",
 			DeviceLost);
 	ScriptedMasks rest;
 	CHECK(to_text(run(plan, rest, folder.path, { true, 0, 1 })) == whole);

@@ -212,7 +212,7 @@ TEST_CASE("[GltfLights] a light of unknown type is no light; a reference to none
 			std::string::npos);
 }
 
-TEST_CASE("[GltfLights] technique properties are checked when known and kept when not") {
+TEST_CASE("[GltfLights] technique properties are checked when known and preserved when not") {
 	static const PropertyInfo TAPS = { "later_taps", PropertyType::INT, int64_t(16), "1,64,1",
 		"Taps." };
 	GltfLoadOptions options;

@@ -19,9 +19,9 @@ Json make_waxes(const GltfTestFolder &p_folder) {
 			"KHR_materials_transmission": {"transmissionFactor": 0.75},
 			"KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 0.25,
 				"attenuationColor": [0.5, 1, 0.25]}},
-		"extras": {"scatter": 0.5, "mine": {"kept": true}}}, {"name": "Unused"}])");
+		"extras": {"scatter": 0.5, "mine": {"preserved": true}}}, {"name": "Unused"}])");
 	json["meshes"][0]["primitives"][0]["material"] = 0;
-	json["meshes"][0]["extras"] = { { "kept", 1 } };
+	json["meshes"][0]["extras"] = { { "preserved", 1 } };
 	json["nodes"].push_back({ { "mesh", 0 }, { "name", "Second" } });
 	json["scenes"][0]["nodes"].push_back(json["nodes"].size() - 1);
 	return json;

@@ -123,7 +123,7 @@ TEST_CASE("[GltfReader] nodes that share a mesh share its vertices") {
 	CHECK(instances[1]->name == "Triangle_2");
 }
 
-TEST_CASE("[GltfReader] transforms are kept in double, as matrix or in parts") {
+TEST_CASE("[GltfReader] transforms are stored in double, as matrix or in parts") {
 	GltfTestFolder folder;
 	Json json = make_header();
 	json["nodes"] = Json::parse(R"([

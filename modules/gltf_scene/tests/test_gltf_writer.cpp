@@ -19,7 +19,7 @@ Json make_desk(const GltfTestFolder &p_folder) {
 	json["extensions"]["ACME_dust"] = { { "density", 0.125 } };
 	Json &light = json["extensions"]["KHR_lights_punctual"]["lights"][0];
 	light["extras"] = Json::parse(
-			R"({"light_size": 0.2, "shadow_soft_size": 0.2, "note": "kept", "list": [1, [2]]})");
+			R"({"light_size": 0.2, "shadow_soft_size": 0.2, "note": "preserved", "list": [1, [2]]})");
 	light["extensions"] = { { "ACME_filter", { { "gel", 201 } } } };
 	json["nodes"].push_back(lamp["nodes"][0]);
 	json["nodes"][1]["translation"] = { 0, 3, 0 };
@@ -231,7 +231,7 @@ TEST_CASE("[GltfWriter] saved elsewhere, buffers and images come along and overw
 	CHECK(find_difference(*scene, *load_gltf(other.path / "copy.gltf")) == "");
 }
 
-TEST_CASE("[GltfWriter] binary and text form turn into each other, further chunks are kept") {
+TEST_CASE("[GltfWriter] binary and text form turn into each other, further chunks are preserved") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	const auto scene = folder.load(make_desk(folder));

@@ -284,5 +284,5 @@ TEST_CASE("[Topology] the cache builds a mesh once, for any number of threads, a
 	CHECK(get_topology(other)->get_face_count() == 12);
 	CHECK(watch.expired());
 	other->id = 0;
-	CHECK(get_topology(other) != get_topology(other)); // no id, not kept
+	CHECK(get_topology(other) != get_topology(other)); // no id, not cached
 }

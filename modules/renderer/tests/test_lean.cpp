@@ -149,7 +149,7 @@ TEST_CASE("[GPU][Lean] views without receivers never change a mask, while the ca
 	}
 }
 
-TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds the maps kept") {
+TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds the maps cached") {
 	for (const ShadowTechniqueInfo *info :
 			{ ShadowRegistry::find_fallback(), ShadowRegistry::find_default() }) {
 		CAPTURE(info->id);
@@ -174,13 +174,13 @@ TEST_CASE("[GPU][Lean] a camera that turns away from all shadows and back finds 
 			CHECK(get_reason() == "the camera sees no receiver in it");
 		}
 		scene.camera->parent_from_node = towards;
-		CHECK(get_reason().starts_with("kept"));
+		CHECK(get_reason().starts_with("cached"));
 		scene.camera->parent_from_node = look_at({ 2.5, 3, 2.5 }, { 2.6, 0, 2.6 });
 		for (int frame = 0; frame < 64; ++frame) {
 			get_reason();
 		}
 		scene.camera->parent_from_node = towards;
-		CHECK(get_reason() == "drawn"); // after long what was kept is given back
+		CHECK(get_reason() == "drawn"); // after long what was cached is given back
 	}
 }
 

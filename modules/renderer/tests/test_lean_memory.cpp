@@ -1,4 +1,4 @@
-// What a frame does not need is not compiled and not kept: asked of every technique that is
+// What a frame does not need is not compiled and not cached: asked of every technique that is
 // registered; none is named here.
 
 #include "modules/core/error.h"
@@ -105,13 +105,13 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 	RenderFixture fixture(DeviceChoice::NEW);
 	const Used without_frames = measure_use(*fixture.device);
-	const size_t topology_count = get_kept_topology_count();
+	const size_t topology_count = get_cached_topology_count();
 	SmallScene empty;
 	empty.scene.root->children.pop_back(); // the light
 	empty.ground->surfaces.clear();
 	empty.box->surfaces.clear();
 	const auto render_empty = [&] {
-		for (int frame = 0; frame < 64; ++frame) { // what is kept for a while goes too
+		for (int frame = 0; frame < 64; ++frame) { // what is cached for a while goes too
 			fixture.render_image(empty);
 		}
 		return measure_use(*fixture.device);
@@ -132,7 +132,7 @@ TEST_CASE("[GPU][Lean] a scene that is closed gives back all memory") {
 		Used after = render_empty();
 		CHECK(after.bytes == before.bytes);
 		CHECK(after.resources == before.resources);
-		CHECK(get_kept_topology_count() <= topology_count);
+		CHECK(get_cached_topology_count() <= topology_count);
 	}
 	fixture.renderer.reset();
 	const Used without_renderer = measure_use(*fixture.device);

@@ -66,9 +66,9 @@ struct StencilFixture : DeviceFixture {
 			}
 		}
 		commands.end_rendering();
-		const ColorTarget kept_color = { color.get(), LoadOp::CLEAR };
-		const DepthTarget kept_depth = { .texture = depth.get(), .load = LoadOp::KEEP };
-		commands.begin_rendering({ &kept_color, 1 }, &kept_depth);
+		const ColorTarget second_color = { color.get(), LoadOp::CLEAR };
+		const DepthTarget second_depth = { .texture = depth.get(), .load = LoadOp::KEEP };
+		commands.begin_rendering({ &second_color, 1 }, &second_depth);
 		draw_triangle(commands, draw_pipeline, vertices.get());
 		commands.end_rendering();
 		device->submit_commands(SubmitMode::WAIT);

@@ -111,7 +111,7 @@ TEST_CASE("[GPU][RenderingDevice] the layers notice a deliberate error") {
 	CHECK(get_validation_message_count() == count_before);
 }
 
-TEST_CASE("[GPU][RenderingDevice] pipelines are kept between runs") {
+TEST_CASE("[GPU][RenderingDevice] pipelines are cached between runs") {
 	TemporaryCache cache;
 	make_one_pipeline(cache);
 	const std::filesystem::path file = find_cache_file(cache.path);

@@ -29,7 +29,7 @@ TEST_CASE("[Mesh] missing normals are those of the faces, weighted by area") {
 	CHECK(two->normals_node[0].y == doctest::Approx(1 / std::sqrt(82.0)));
 }
 
-TEST_CASE("[Mesh] unusable normals are replaced, long ones made unit, good ones kept") {
+TEST_CASE("[Mesh] unusable normals are replaced, long ones made unit, good ones unchanged") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	const auto mesh =
 			make_mesh("a", TRIANGLE, { { nan, 0, 0 }, { 0, 5, 0 }, { 0, 0, 0 } }, { 0, 1, 2 });

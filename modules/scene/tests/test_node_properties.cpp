@@ -164,7 +164,7 @@ TEST_CASE("[NodeProperties] a copy has the whole state, and no children") {
 	light.name = "Lamp";
 	light.type = LightType::SPOT;
 	light.color = { 0.5f, 0.25f, 1.0f };
-	light.properties["unknown_to_all"] = std::string("kept");
+	light.properties["unknown_to_all"] = std::string("preserved");
 	light.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(1, 2, 0));
 	light.add_child(std::make_unique<Node3D>());
 	const std::unique_ptr<Node3D> copy = light.copy();

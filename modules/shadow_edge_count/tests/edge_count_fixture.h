@@ -19,7 +19,7 @@ namespace gnomon {
 struct FrameWishes {
 	glm::uvec2 size_px = glm::uvec2(96);
 	std::string technique = "edge_count";
-	bool may_keep = true;
+	bool may_reuse = true;
 	bool wants_surfaces = false;
 };
 
@@ -31,7 +31,7 @@ inline MaskResult render_frame(
 	request.technique_override = p_wishes.technique;
 	request.light = p_scene.light->name;
 	request.wants_surfaces = p_wishes.wants_surfaces;
-	request.may_keep = p_wishes.may_keep;
+	request.may_reuse = p_wishes.may_reuse;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;

@@ -97,7 +97,7 @@ TEST_CASE(
 		CHECK(difference.mean < 0.01);
 		CHECK(difference.penumbra_mean < 0.08);
 		CHECK(filtered.visibility == render_frame(fixture, scene, wishes).visibility); // reused
-		const FrameWishes anew = { .may_keep = false };
+		const FrameWishes anew = { .may_reuse = false };
 		CHECK(filtered.visibility == render_frame(fixture, scene, anew).visibility);
 
 		// Every block that has an edge.

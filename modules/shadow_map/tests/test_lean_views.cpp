@@ -62,7 +62,7 @@ TEST_CASE("[GPU][ShadowMap] a map that was drawn is still there when the camera 
 	const auto look = [&](double p_x) {
 		scene.camera->parent_from_node = look_at({ 0, 1.2, 0 }, { p_x, 1.1, 0 });
 		return count_left_out(fixture.render_mask(scene, "shadow_map"),
-				"kept: neither the light nor a caster moved");
+				"cached: neither the light nor a caster moved");
 	};
 	CHECK(look(1) == 0);
 	CHECK(look(-1) == 0); // another view

@@ -45,14 +45,14 @@ TEST_CASE("[GPU][ShadowMap] a camera that moves keeps the map, a caster or light
 	CHECK_FALSE(draws_light_view(fixture.render_mask(scene, "shadow_map")));
 }
 
-TEST_CASE("[GPU][ShadowMap] a moved caster's kept frame equals a fresh one bit for bit") {
+TEST_CASE("[GPU][ShadowMap] a moved caster's cached frame equals a fresh one bit for bit") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
 	fixture.render_mask(scene, "shadow_map");
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0.4, 1.2, 0.1));
-	const MaskResult kept = fixture.render_mask(scene, "shadow_map");
+	const MaskResult reused = fixture.render_mask(scene, "shadow_map");
 	MaskFixture fresh;
-	CHECK(kept.visibility == fresh.render_mask(scene, "shadow_map").visibility);
+	CHECK(reused.visibility == fresh.render_mask(scene, "shadow_map").visibility);
 }
 
 TEST_CASE("[GPU][ShadowMap] a hard mask holds only 0 and 1, wider filters more shades") {

@@ -8,7 +8,7 @@ using namespace gnomon;
 
 namespace {
 
-const char KEPT[] = "kept: neither the light nor a caster moved";
+const char CACHED[] = "cached: neither the light nor a caster moved";
 
 bool has_reason(const MaskResult &p_result, const std::string &p_reason) {
 	const auto &entries = p_result.plan.get_entries();
@@ -47,20 +47,20 @@ TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and no
 }
 
 TEST_CASE("[GPU][ShadowVolume] edges of lights and casters at rest are found once, with one mask") {
-	MaskFixture keeping;
+	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene;
 	const auto render = [&](bool p_is_known) {
-		const MaskResult result = render_volumes(keeping, scene, COMPUTE);
+		const MaskResult result = render_volumes(caching, scene, COMPUTE);
 		const MaskResult all =
 				render_volumes(fresh, scene, COMPUTE, "shadow_volume", glm::uvec2(128), false);
 		CHECK(result.visibility == all.visibility);
 		CHECK(finds_edges(all));
 		CHECK(finds_edges(result) != p_is_known);
-		CHECK(has_reason(result, KEPT) == p_is_known);
+		CHECK(has_reason(result, CACHED) == p_is_known);
 	};
 	render(false);
-	render(false); // it is at rest: from here on they are kept
+	render(false); // it is at rest: from here on they are cached
 	render(true);
 	render(true);
 	scene.camera->parent_from_node[3].x += 0.2; // the camera may move

@@ -44,7 +44,7 @@ public:
 private:
 	std::vector<uint32_t> instances;
 	VolumeCasters casters;
-	KeptEdges edges;
+	CachedEdges edges;
 };
 
 } // namespace

@@ -99,7 +99,7 @@ struct MaskRequest {
 	std::string debug_view;
 	bool wants_surfaces = false;
 	bool may_leave_out = true;
-	bool may_keep = true;
+	bool may_reuse = true;
 	/// What the host does not give.
 	bool has_normals = true;
 	bool has_materials = true;
@@ -135,7 +135,7 @@ struct MaskFixture {
 		const CommandCounts before = device->get_command_counts();
 		RenderGraph graph(*device, *transients);
 		ShadowFrame frame(*shadows, graph, result.plan, p_request.scene, p_request.size_px,
-				{ p_request.technique_override, p_request.may_leave_out, p_request.may_keep });
+				{ p_request.technique_override, p_request.may_leave_out, p_request.may_reuse });
 		const HostSurfaces drawn = add_surface_pass(graph, *shadows, *p_request.scene,
 				p_request.size_px, frame.get_constants(), p_request.has_normals);
 		frame.set_surfaces({ drawn.depth, drawn.geometric_normal,

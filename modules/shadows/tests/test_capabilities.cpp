@@ -7,7 +7,7 @@ using namespace gnomon;
 namespace {
 
 /// Three lights at once, so that transient textures have memory to share, and two frames, so that
-/// what is kept between frames is used. Two of them draw from 1 view, one from 6.
+/// what is cached between frames is used. Two of them draw from 1 view, one from 6.
 std::map<std::string, MaskValues> render_lights(
 		MaskFixture &r_fixture, const std::string &p_technique) {
 	SmallScene scene(LightType::SPOT);

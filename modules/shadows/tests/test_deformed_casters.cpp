@@ -215,7 +215,7 @@ TEST_CASE("deformed casters: a pose that rests is cached, and the mask stays the
 			CHECK(first.visibility == second.visibility);
 		}
 		MaskRequest request = make_request(scene.snap(), p_info.id);
-		request.may_keep = false;
+		request.may_reuse = false;
 		const MaskResult all = fixture.render(request);
 		CHECK(all.plan.to_text().find("deform, meshes: 1") != std::string::npos);
 		if (!p_info.is_reference) {

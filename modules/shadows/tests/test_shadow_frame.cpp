@@ -185,7 +185,7 @@ TEST_CASE("[GPU][Shadows] a host without materials gets masks in which nothing s
 	}
 }
 
-TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is kept") {
+TEST_CASE("[GPU][Shadows] a frame that did not end leaves nothing that is cached") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const std::vector<float> expected = fixture.render(make_request(scene)).visibility;

@@ -218,7 +218,7 @@ TEST_CASE("[Stability] values that are no visibility, and validation messages, f
 	CHECK(report.cells.front().message == "3 validation messages.");
 }
 
-TEST_CASE("[Stability] a technique that refuses is no failure, and its message is kept") {
+TEST_CASE("[Stability] a technique that refuses is no failure, and its message is preserved") {
 	ScriptedMasks masks;
 	masks.failing_technique = "soft";
 	const Report report = run(make_options({ "scale" }), masks);

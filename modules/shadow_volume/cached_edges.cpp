@@ -1,4 +1,4 @@
-#include "modules/shadow_volume/kept_edges.h"
+#include "modules/shadow_volume/cached_edges.h"
 
 #include "modules/core/files.h"
 #include "modules/core/text.h"
@@ -22,36 +22,36 @@ uint64_t compute_key(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCa
 
 } // namespace
 
-void KeptEdges::plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
+void CachedEdges::plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
 		bool p_are_all_drawn, TechniquePlan &r_plan) {
 	last_key = key;
 	key = 0;
-	is_kept = is_still = false;
+	is_cached = is_still = false;
 	if (p_casters.casters.empty()) {
 		return reset();
 	}
-	if (p_inputs.may_leave_out && p_inputs.may_keep && p_are_all_drawn) {
+	if (p_inputs.may_leave_out && p_inputs.may_reuse && p_are_all_drawn) {
 		key = compute_key(p_inputs, p_casters);
-		is_kept = key == kept_key;
+		is_cached = key == cached_key;
 		is_still = key == last_key;
 	}
 	const std::string pass = text("find edges, casters: ", p_casters.casters.size());
-	if (is_kept) {
-		r_plan.leave_out(pass, "kept: neither the light nor a caster moved");
+	if (is_cached) {
+		r_plan.leave_out(pass, "cached: neither the light nor a caster moved");
 	} else {
 		r_plan.run(pass);
 	}
 }
 
-void KeptEdges::reset() {
+void CachedEdges::reset() {
 	list.reset();
 	draws.reset();
-	kept_key = 0;
+	cached_key = 0;
 }
 
-SilhouetteLists KeptEdges::add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
+SilhouetteLists CachedEdges::add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates) {
-	if (is_kept) {
+	if (is_cached) {
 		return { r_graph.import_buffer(list.get()), r_graph.import_buffer(draws.get()) };
 	}
 	reset();
@@ -66,7 +66,7 @@ SilhouetteLists KeptEdges::add_passes(RenderGraph &r_graph, const ShadowTechniqu
 			p_inputs.device.create_buffer({ "silhouette draws" + light,
 					p_casters.casters.size() * sizeof(shader::SilhouetteDraw),
 					BufferUsage::STORAGE | BufferUsage::INDIRECT }));
-	kept_key = key;
+	cached_key = key;
 	const SilhouetteLists lists = { r_graph.import_buffer(list.get()),
 		r_graph.import_buffer(draws.get()) };
 	return add_silhouette_passes(r_graph, p_inputs.device, p_casters, p_predicates, lists);

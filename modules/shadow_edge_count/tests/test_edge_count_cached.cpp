@@ -1,4 +1,4 @@
-// What is kept from frame to frame, what makes it new, and that every frame is the same bit for
+// What is cached from frame to frame, what makes it new, and that every frame is the same bit for
 // bit.
 
 #include "modules/core/files.h"
@@ -12,11 +12,11 @@ using namespace gnomon;
 
 namespace {
 
-MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep = true) {
-	return render_frame(r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_keep = p_may_keep });
+MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_reuse = true) {
+	return render_frame(r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_reuse = p_may_reuse });
 }
 
-/// Casters whose edges the frame found, or kept.
+/// Casters whose edges the frame found, or reused.
 int count_casters(const MaskResult &p_result, bool p_is_found) {
 	const std::string begin = "find edges, casters: ";
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
@@ -37,7 +37,7 @@ size_t count_passes(const MaskResult &p_result, const std::string &p_name) {
 
 /// Changes one thing after another; each frame must be the one that a fresh renderer draws.
 void check_changes(LightType p_type) {
-	MaskFixture keeping;
+	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene(p_type);
 	MeshInstance3D &globe = add_globe(scene);
@@ -84,9 +84,9 @@ void check_changes(LightType p_type) {
 	for (const Step &step : steps) {
 		CAPTURE(std::string(step.what));
 		step.change();
-		const MaskResult kept = render(keeping, scene);
-		CHECK((count_casters(kept, true) > 0) == step.finds);
-		CHECK(kept.visibility == render(fresh, scene, false).visibility);
+		const MaskResult reused = render(caching, scene);
+		CHECK((count_casters(reused, true) > 0) == step.finds);
+		CHECK(reused.visibility == render(fresh, scene, false).visibility);
 	}
 }
 
@@ -109,26 +109,26 @@ TEST_CASE("[GPU][EdgeCount] of a scene at rest nothing is found or drawn again")
 			CHECK(count_passes(first, pass) > 0);
 			CHECK(count_passes(second, pass) == 0);
 		}
-		size_t kept_count = 0;
+		size_t cached_count = 0;
 		for (const FramePlanEntry &entry : second.plan.get_entries()) {
-			kept_count += !entry.runs && entry.pass.starts_with("light view") ? 1 : 0;
+			cached_count += !entry.runs && entry.pass.starts_with("light view") ? 1 : 0;
 		}
-		CHECK(kept_count == (type == LightType::OMNI ? 6 : 1));
+		CHECK(cached_count == (type == LightType::OMNI ? 6 : 1));
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are kept, and the mask is that of a new "
+TEST_CASE("[GPU][EdgeCount] of a caster at rest edges are cached, and the mask is that of a new "
 		  "frame") {
-	MaskFixture keeping;
+	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene;
 	MeshInstance3D &globe = add_globe(scene);
-	const auto check = [&](int p_found_count, int p_kept_count) {
-		const MaskResult kept = render(keeping, scene);
-		CHECK(count_casters(kept, true) == p_found_count);
-		CHECK(count_casters(kept, false) == p_kept_count);
-		CHECK(kept.visibility == render(fresh, scene, false).visibility);
-		CHECK(kept.visibility == render(keeping, scene).visibility);
+	const auto check = [&](int p_found_count, int p_cached_count) {
+		const MaskResult reused = render(caching, scene);
+		CHECK(count_casters(reused, true) == p_found_count);
+		CHECK(count_casters(reused, false) == p_cached_count);
+		CHECK(reused.visibility == render(fresh, scene, false).visibility);
+		CHECK(reused.visibility == render(caching, scene).visibility);
 	};
 	check(3, 0);
 	for (int step = 0; step < 3; ++step) {

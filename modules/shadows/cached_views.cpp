@@ -1,10 +1,10 @@
-#include "modules/shadows/kept_views.h"
+#include "modules/shadows/cached_views.h"
 
 #include "modules/core/error.h"
 
 namespace gnomon {
 
-void KeptViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) {
+void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) {
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	GNOMON_ASSERT(view_count > 0 && view_count <= 32, view_count, " light views");
 	empty_views = 0;
@@ -21,7 +21,7 @@ void KeptViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) {
 	is_empty = empty_views == ~0u >> (32 - view_count);
 }
 
-void KeptViews::plan(
+void CachedViews::plan(
 		const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan, bool p_has_content) {
 	const uint32_t view_count = static_cast<uint32_t>(p_inputs.views.size());
 	if (!p_has_content || drawn_hashes.size() != view_count) {
@@ -29,7 +29,7 @@ void KeptViews::plan(
 	}
 	wanted_views.clear();
 	unseen_frame_count = is_empty && unseen_views != 0 ? unseen_frame_count + 1 : 0;
-	const bool may_keep = p_inputs.may_leave_out && p_inputs.may_keep;
+	const bool may_reuse = p_inputs.may_leave_out && p_inputs.may_reuse;
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if ((unseen_views & (1u << index)) != 0) {
 			// What was drawn stays right for when the camera turns back.
@@ -37,8 +37,8 @@ void KeptViews::plan(
 		} else if ((empty_views & (1u << index)) != 0) {
 			drawn_hashes[index] = 0;
 			r_plan.leave_out_light_view(index, "no casters");
-		} else if (may_keep && drawn_hashes[index] == p_inputs.casters[index].content_hash) {
-			r_plan.leave_out_light_view(index, "kept: neither the light nor a caster moved");
+		} else if (may_reuse && drawn_hashes[index] == p_inputs.casters[index].content_hash) {
+			r_plan.leave_out_light_view(index, "cached: neither the light nor a caster moved");
 		} else {
 			drawn_hashes[index] = 0; // until it is drawn
 			wanted_views.push_back(index);
@@ -46,7 +46,7 @@ void KeptViews::plan(
 	}
 }
 
-void KeptViews::set_drawn(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
+void CachedViews::set_drawn(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
 	drawn_hashes[p_view_index] = p_inputs.casters[p_view_index].content_hash;
 }
 

@@ -1,4 +1,4 @@
-// What the fins keep from frame to frame, and what makes them draw anew.
+// What the fins cache from frame to frame, and what makes them draw anew.
 
 #include "modules/core/error.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
@@ -14,14 +14,14 @@ using namespace gnomon;
 
 namespace {
 
-MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_keep,
+MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_reuse,
 		const std::string &p_technique = "penumbra_fins") {
 	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = glm::uvec2(64);
 	request.technique_override = p_technique;
 	request.light = p_scene.light->name;
-	request.may_keep = p_may_keep;
+	request.may_reuse = p_may_reuse;
 	return r_fixture.render(request);
 }
 
@@ -34,8 +34,8 @@ size_t count_drawn_views(const MaskResult &p_result) {
 
 } // namespace
 
-TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fresh ones give") {
-	MaskFixture keeping;
+TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that fresh ones give") {
+	MaskFixture caching;
 	MaskFixture fresh;
 	SmallScene scene(LightType::OMNI);
 	scene.light->properties["penumbra_outer_width"] = 0.2;
@@ -82,16 +82,16 @@ TEST_CASE("[GPU][PenumbraFins] after any change kept maps give the mask that fre
 	for (const Step &step : steps) {
 		CAPTURE(step.what);
 		step.change();
-		const MaskResult kept = render(keeping, scene, true);
+		const MaskResult reused = render(caching, scene, true);
 		const MaskResult anew = render(fresh, scene, false);
-		CHECK(kept.visibility == anew.visibility);
-		full_count = std::max(full_count, count_drawn_views(kept));
-		CHECK((count_drawn_views(kept) > 0) == step.draws_all);
-		CHECK(kept.visibility == render(keeping, scene, true).visibility);
+		CHECK(reused.visibility == anew.visibility);
+		full_count = std::max(full_count, count_drawn_views(reused));
+		CHECK((count_drawn_views(reused) > 0) == step.draws_all);
+		CHECK(reused.visibility == render(caching, scene, true).visibility);
 	}
 	// A caster that moves within two views draws these two alone.
 	scene.box->parent_from_node[3].x += 0.05;
-	const MaskResult moved = render(keeping, scene, true);
+	const MaskResult moved = render(caching, scene, true);
 	CHECK(moved.visibility == render(fresh, scene, false).visibility);
 	CHECK(count_drawn_views(moved) > 0);
 	CHECK(count_drawn_views(moved) < full_count);
@@ -107,7 +107,7 @@ TEST_CASE("[GPU][PenumbraFins] another technique and back draws the maps anew") 
 	CHECK(count_drawn_views(again) == 1);
 }
 
-TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing that is kept") {
+TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing that is cached") {
 	MaskFixture fixture;
 	const SmallScene scene;
 	MaskRequest request;
