@@ -58,7 +58,7 @@ class PropertyList {
 public:
 	/// A name that is present already, or a default that its own range refuses, is a programming error.
 	void add(PropertyInfo p_info);
-	/// Declares a property anew, at its place. A name that the list lacks is a programming error.
+	/// Declares a property again, at its place. A name that the list lacks is a programming error.
 	void replace(PropertyInfo p_info);
 	void add_removed(RemovedProperty p_removed) { removed.push_back(std::move(p_removed)); }
 	const PropertyInfo *find(std::string_view p_name) const;

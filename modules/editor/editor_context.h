@@ -35,7 +35,7 @@ struct ViewportState {
 	bool needs_redraw = true;			// something has changed since the last one
 	/// Of the light in question, other than the image itself: "mask", "error", the technique's own.
 	std::vector<std::string> debug_views;
-	bool wants_debug_views = false; // that list anew
+	bool wants_debug_views = false; // that list again
 	/// A technique's id: right of the line the light in question has that one. Empty: no line.
 	std::string compared_technique;
 	float compared_from = 0.5f; // where the line is, a share of the width

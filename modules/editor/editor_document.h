@@ -39,7 +39,7 @@ public:
 	Timeline &get_timeline() { return timeline; }
 	const Timeline &get_timeline() const { return timeline; }
 	/// Why there is nothing of the file: what is wrong with it. Empty: it was read. Such a document
-	/// is not saved, for the file would be lost; it is read anew once it has changed.
+	/// is not saved, for the file would be lost; it is read again once it has changed.
 	const std::string &get_failure() const { return failure; }
 	StageMode get_stage() const { return stage; }
 	/// What was added to the file's scene, in one line; empty: nothing.
@@ -98,7 +98,7 @@ public:
 	bool is_file_newer() const;
 	/// The file's newer state is not wanted: the next save writes over it.
 	void keep_over_file() { note_file_time(); }
-	/// Reads the file anew. Changes and history are lost; what has the selected node's name is
+	/// Reads the file again. Changes and history are lost; what has the selected node's name is
 	/// selected. An Error leaves everything as it is.
 	void reload();
 

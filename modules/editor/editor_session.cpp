@@ -95,7 +95,7 @@ void EditorSession::follow_file(Clock::time_point p_now) {
 		if (!was_read) {
 			look_as_scene();
 		}
-		context.say("The file has changed and was read anew.");
+		context.say("The file has changed and was read again.");
 	});
 }
 
@@ -220,7 +220,7 @@ void EditorSession::draw_questions() {
 				"The editor ended without saving. What was changed was saved aside.", "Recover",
 				"Discard", [&] { recover(); }, [&] { document.discard_recovery(); } });
 	} else if (asks_to_reload) {
-		asks_to_reload = !draw_question({ "Read the file anew?",
+		asks_to_reload = !draw_question({ "Read the file again?",
 				"Another program has written the file, and there are changes here.",
 				"Read it, drop the changes", "Keep the changes",
 				[&] { context.attempt([&] { document.reload(); }); },

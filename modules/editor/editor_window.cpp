@@ -289,7 +289,7 @@ private:
 	const Node3D *last_selected = nullptr; // compared only
 	uint64_t seen_serial = 0;			   // of the history
 	std::vector<double> answers_ms;		   // see EditorProgress
-	uint32_t quiet_count = 0;			   // frames without anything to draw anew
+	uint32_t quiet_count = 0;			   // frames without anything to redraw
 };
 
 } // namespace

@@ -15,7 +15,7 @@ struct EditorOptions {
 	bool validation = false;
 	StageMode stage = StageMode::AUTO;
 	std::filesystem::path program; // this program's file: bin/gnomon beside doc and shaders
-	/// Where the shaders' sources are, to be compiled anew when they change; may not be there.
+	/// Where the shaders' sources are, to be recompiled when they change; may not be there.
 	std::filesystem::path shaders;
 	/// Where widgets are, written as JSON each frame; empty: nowhere. For tests.
 	std::filesystem::path items;

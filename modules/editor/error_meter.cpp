@@ -63,7 +63,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 			background_reference.start(std::exchange(asked_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
-		// Begun anew, it has to become better first than what is known.
+		// Restarted, it has to become better first than what is known.
 		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
 			state.reference = std::make_shared<const ReferenceMask>(

@@ -16,7 +16,7 @@ public:
 	/// Once a frame, after the viewport is drawn. p_image_count: sharp ones drawn so far, see ViewportRenderer.
 	void update(EditorContext &r_context, uint32_t p_image_count);
 
-	/// Measures it anew: the shaders are others.
+	/// Measures it again: the shaders are others.
 	void forget_cost();
 
 	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.

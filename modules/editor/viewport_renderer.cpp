@@ -124,7 +124,7 @@ void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_r
 	draw_into(compared_image, std::move(p_request), *compared_renderer);
 }
 
-/// r_image is made anew where its size is another, and stays as it is on an Error.
+/// r_image is recreated where its size is another, and stays as it is on an Error.
 RenderResult ViewportRenderer::draw_into(
 		OwnedTexture &r_image, RenderRequest p_request, Renderer &r_renderer) {
 	OwnedTexture made;

@@ -76,7 +76,7 @@ std::optional<Json> RecordStore::load(const std::string &p_name) const {
 	} catch (const Error &error) {
 		damage = error.what();
 	}
-	log_warning("Record ", path, " is damaged (", damage, ") and is measured anew.");
+	log_warning("Record ", path, " is damaged (", damage, ") and is measured again.");
 	return std::nullopt;
 }
 

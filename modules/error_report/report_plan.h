@@ -32,7 +32,7 @@ ReportView find_report_view(const ReportScene &p_scene);
 
 struct ReportOptions {
 	std::string project;
-	std::string program;		 // version and hash of this program: others measure anew
+	std::string program;		 // version and hash of this program: others measure again
 	std::vector<double> sizes_m; // R; empty: 0.02, 0.1 and 0.3 S of each scene
 	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
 	/// that cast shadows, as they are.

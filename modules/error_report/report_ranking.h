@@ -14,7 +14,7 @@ namespace gnomon {
 /// means, times medians.
 struct RankingRow {
 	std::string technique;
-	std::string setting; // "best in each" where it is chosen anew in each configuration
+	std::string setting; // "best in each" where it is chosen separately in each configuration
 	size_t configuration_count = 0;
 	double penumbra_mae = 0;
 	double penumbra_rmse = 0;
@@ -31,7 +31,7 @@ struct RankingRow {
 
 /// Settings by rising mean error over the configurations of the matrix.
 std::vector<RankingRow> rank_settings(const Report &p_report);
-/// Techniques likewise, each with its setting of least error chosen anew in each configuration.
+/// Techniques likewise, each with its setting of least error chosen separately in each configuration.
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
 /// Cells of a configuration by rising cost, of which no other cell is both cheaper and closer to

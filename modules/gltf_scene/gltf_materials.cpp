@@ -95,7 +95,7 @@ void read_extras(const GltfObject &p_extras, Material &r_material) {
 	}
 }
 
-/// Writes a number where it differs from what the file has. A default is not written anew.
+/// Writes a number where it differs from what the file has. A default is not rewritten.
 void write_number(float p_value, float p_before, const char *p_key, Value::Object &r_object) {
 	if (p_value != p_before) {
 		r_object[p_key] = to_value(p_value);

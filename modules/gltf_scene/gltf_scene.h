@@ -33,7 +33,7 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 
 /// Writes the scene, binary when the name ends in .glb. A scene that came from a file keeps
-/// everything of it that the program does not understand; only what changed is written anew. The
+/// everything of it that the program does not understand; only what changed is rewritten. The
 /// file itself is replaced atomically, after the files it refers to.
 ///
 /// Saved in another folder, buffers and images beside the old file are copied beside the new one

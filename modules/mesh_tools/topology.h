@@ -120,7 +120,7 @@ MeshTopology build_topology(const Mesh &p_mesh);
 
 /// As build_topology, cached as long as the mesh lives; of a mesh that poses deform, that of its mesh
 /// at rest. A mesh with id 0 (not from make_mesh) is
-/// built anew each time. Callable from any thread; one mesh is built only once.
+/// rebuilt each time. Callable from any thread; one mesh is built only once.
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
 /// Frees what get_topology caches of meshes that are gone. From any thread.
 void drop_unused_topologies();

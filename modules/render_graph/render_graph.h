@@ -95,7 +95,7 @@ private:
 /// writes; the graph leaves out passes whose results nobody uses, gives transient textures memory
 /// that they share when they do not live at the same time, and puts the barriers between passes.
 ///
-/// Made anew each frame; what can be reused (memory) is cached in the TransientPool.
+/// Recreated each frame; what can be reused (memory) is cached in the TransientPool.
 class RenderGraph {
 public:
 	RenderGraph(RenderingDevice &p_device, TransientPool &p_pool);

@@ -92,7 +92,7 @@ public:
 
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
-	/// Techniques start anew, as after shaders were replaced.
+	/// Techniques start from scratch, as after shaders were replaced.
 	void forget_cached() { shadows.forget_cached(); }
 	RenderingDevice &get_device() { return device; }
 

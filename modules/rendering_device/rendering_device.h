@@ -124,7 +124,7 @@ public:
 	/// device.
 	virtual PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) = 0;
 	virtual PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) = 0;
-	/// Other SPIR-V for these entry points from now on: makes all pipelines anew that use one of
+	/// Other SPIR-V for these entry points from now on: recreates all pipelines that use one of
 	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
 	/// wants other bindings or push constants than this build's, are an Error that leaves
 	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is a

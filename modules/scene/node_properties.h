@@ -21,7 +21,7 @@ struct NodeField {
 	bool (*applies)(const Node3D &p_node) = nullptr;
 };
 
-/// Adds what other modules keep in a node's stored properties, or declares one that is there anew.
+/// Adds what other modules keep in a node's stored properties, or declares again one that is there.
 using NodePropertySource = void (*)(const Node3D &p_node, PropertyList &r_list);
 void add_node_property_source(NodePropertySource p_source);
 void remove_node_property_source(NodePropertySource p_source);

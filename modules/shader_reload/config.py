@@ -7,7 +7,7 @@ def get_layer():
 
 
 def get_description():
-    return "Shaders compiled anew from their sources while the program runs"
+    return "Shaders recompiled from their sources while the program runs"
 
 
 def get_hosts():

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Points that cover the unit disc evenly, scrambled anew for every pixel.
+/// Points that cover the unit disc evenly, scrambled separately for every pixel.
 ///
 /// The first n points of an Owen-scrambled Sobol (0,2)-sequence (Owen 1995; hash by Laine and
 /// Karras 2011 as in Burley 2020): stratified for every n, exactly so in all dyadic boxes when n is

@@ -73,7 +73,7 @@ std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference
 }
 
 /// The reference is traced in float32. Where that is not enough for the question, it is traced
-/// anew in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
+/// again in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
 enum class DoubleReference { WHERE_NEEDED, ALWAYS };
 void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
 	MaskImage &mask = r_reference.mask;

@@ -132,7 +132,7 @@ def measure_static():
         cached = re.findall(r"(?m)^.*light view \d+.*cached.*$", output)
         drawn = re.findall(r"(?m)^.*depth view.*$", output)
         rows.append((scene, len(drawn), len(cached), answer(not drawn and bool(cached))))
-    return format_table(("scene", "depth passes in frame 2", "views cached", "nothing is drawn anew"), rows)
+    return format_table(("scene", "depth passes in frame 2", "views cached", "nothing is redrawn"), rows)
 
 
 def measure_clean_build(jobs):

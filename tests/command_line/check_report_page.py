@@ -153,7 +153,7 @@ class Browser:
             mobile=is_phone,
         )
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
-        # Another fragment alone would not load the page anew.
+        # Another fragment alone would not reload the page.
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=url)
         end = time.monotonic() + TIMEOUT_S

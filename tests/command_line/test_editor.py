@@ -1,4 +1,4 @@
-"""The editor changes, undoes, saves and reads a scene anew."""
+"""The editor changes, undoes, saves and reads a scene again."""
 
 import os
 import sys
@@ -14,7 +14,7 @@ class EditorTest(EditorCase):
     def test_the_story_from_opening_to_the_game(self):
         editor_story.tell(self, lambda name: None)
 
-    def test_a_light_is_changed_undone_saved_and_read_anew(self):
+    def test_a_light_is_changed_undone_saved_and_read_again(self):
         before = load(self.scene)
         size = self.find_light(before)["extras"]["light_size"]
         self.open_editor()
@@ -47,7 +47,7 @@ class EditorTest(EditorCase):
         self.assertEqual(after, before)
 
         self.save(before)
-        self.wait_for(lambda state: "read anew" in state["status"])
+        self.wait_for(lambda state: "read again" in state["status"])
         self.assertLess(self.count_different(first, self.photograph()), 0.001)
         self.finish()
 

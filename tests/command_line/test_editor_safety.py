@@ -55,7 +55,7 @@ class EditorSafetyTest(EditorCase):
         self.wait_for(lambda state: "nothing to save" in state["status"])
         self.assertEqual(self.read_scene(), "{ broken")
         self.write_scene(whole)
-        self.wait_for(lambda state: "read anew" in state["status"] and "node Spot" in state["items"])
+        self.wait_for(lambda state: "read again" in state["status"] and "node Spot" in state["items"])
         self.finish()
 
     def test_a_full_disk_is_told_and_nothing_is_lost(self):

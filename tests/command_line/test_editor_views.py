@@ -111,7 +111,7 @@ class EditorViewsTest(EditorCase):
             self.wait_for(lambda state: is_seen(state, before))
 
         def is_reloaded(state, before):
-            return state["pictures"] > before and "compiled anew" in state["status"]
+            return state["pictures"] > before and "recompiled" in state["status"]
 
         def is_refused(state, _):
             return "does not compile" in state["status"]

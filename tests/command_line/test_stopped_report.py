@@ -59,7 +59,7 @@ class StoppedReports(ReportCase):
         self.assertIn("0 are left", again.stderr)
         self.assertEqual(self.load_done("report", again), resumed)
 
-    def test_a_damaged_record_is_measured_anew(self):
+    def test_a_damaged_record_is_measured_again(self):
         whole = self.load_done("report", self.small("report"))
         victim = next(cell["record"] for cell in whole["cells"][3:])
         path = self.path("report/cells/%s.json" % victim)
@@ -72,7 +72,7 @@ class StoppedReports(ReportCase):
         self.assertIn("1 are left", result.stderr)
         self.assertEqual(drop_times(self.load_done("report", result)["cells"]), drop_times(whole["cells"]))
 
-    def test_a_damaged_reference_in_the_cache_is_traced_anew(self):
+    def test_a_damaged_reference_in_the_cache_is_traced_again(self):
         cache = self.path("cache")
         arguments = ("--scenes", "sphere", "--sizes", "0.4", "--techniques", self.get_fallback())
         whole = self.load_done("report", self.report("report", *arguments, GNOMON_CACHE_DIR=cache))
@@ -86,7 +86,7 @@ class StoppedReports(ReportCase):
         self.assertIn("damaged", result.stderr)
         self.assertEqual(drop_times(self.load_done("again", result)["cells"]), drop_times(whole["cells"]))
         with open(entry, "rb") as file:
-            self.assertNotEqual(file.read(), bytes(data), "the entry was not written anew")
+            self.assertNotEqual(file.read(), bytes(data), "the entry was not rewritten")
 
     def test_a_scene_that_cannot_be_loaded_is_reported_and_the_rest_goes_on(self):
         project = self.path("project")

@@ -82,7 +82,7 @@ TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
 	CHECK(get_range(info).minimum == -2);
 }
 
-TEST_CASE("[Property] a property that is declared anew stays at its place") {
+TEST_CASE("[Property] a property that is declared again stays at its place") {
 	PropertyList list;
 	list.add({ "first", PropertyType::STRING, "", "", "One of several." });
 	list.add({ "second", PropertyType::BOOL, true, "", "Another one." });

@@ -207,7 +207,7 @@
 	}
 	window.addEventListener("scroll", () => showTip(null), { passive: true });
 
-	/* Pressed: shown. Hiding is a rule of style, so that no plot is drawn anew. */
+	/* Pressed: shown. Hiding is a rule of style, so that no plot is redrawn. */
 	report.fillLegend = function (host) {
 		const rules = make("style");
 		document.head.append(rules);

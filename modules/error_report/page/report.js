@@ -195,7 +195,7 @@
 		make("p", { class: "soft" }, `Gnomon ${data.program || ""}, project ${data.project || ""}`));
 	}
 
-	/* A plot has the width of its box, so it is drawn anew when that changes. */
+	/* A plot has the width of its box, so it is redrawn when that changes. */
 	const sized = [];
 	function drawOnEverySize(host, draw) {
 		sized.push([host, draw]);

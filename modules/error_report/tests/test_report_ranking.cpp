@@ -120,7 +120,7 @@ TEST_CASE("[ErrorReport] where one cell has no `wrong`, its setting's mean has n
 	CHECK(rows[0].receiver_wrong == doctest::Approx(0.05));
 }
 
-TEST_CASE("[ErrorReport] the best setting is chosen anew in each configuration") {
+TEST_CASE("[ErrorReport] the best setting is chosen separately in each configuration") {
 	Report report = make_report(2);
 	add_cell(report, 0, "soft", 1, 0.3, "few");
 	add_cell(report, 0, "soft", 9, 0.1, "many");

@@ -94,7 +94,7 @@ TEST_CASE("[ErrorReport] a finished run that is resumed asks for nothing") {
 	CHECK(none.measure_count == 0);
 }
 
-TEST_CASE("[ErrorReport] without resume everything is measured anew") {
+TEST_CASE("[ErrorReport] without resume everything is measured from scratch") {
 	TemporaryFolder folder;
 	const ReportPlan plan = make_scripted_plan(1);
 	ScriptedMasks masks;
@@ -104,7 +104,7 @@ TEST_CASE("[ErrorReport] without resume everything is measured anew") {
 	CHECK(again.measure_count == plan.report.cells.size());
 }
 
-TEST_CASE("[ErrorReport] a damaged record is measured anew, and only that one") {
+TEST_CASE("[ErrorReport] a damaged record is measured again, and only that one") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(2);
@@ -124,7 +124,7 @@ TEST_CASE("[ErrorReport] a damaged record is measured anew, and only that one") 
 	CHECK(rest.measure_count == 2);
 }
 
-TEST_CASE("[ErrorReport] a damaged record of a reference is traced anew") {
+TEST_CASE("[ErrorReport] a damaged record of a reference is traced again") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);
@@ -234,7 +234,7 @@ TEST_CASE("[ErrorReport] shards of different plans are not merged") {
 			doctest::Contains("plan.json"), Error);
 }
 
-TEST_CASE("[ErrorReport] what another machine measured is measured anew by a resume") {
+TEST_CASE("[ErrorReport] what another machine measured is measured again by a resume") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);

@@ -203,7 +203,7 @@ TEST_CASE("[NodeProperties] a mesh's material is changed for its node alone, and
 	CHECK(left.surfaces[0].material->file_index == 3);
 	CHECK(left.surfaces[1].material == left.surfaces[0].material); // what was shared stays so
 	CHECK(left.surfaces[2].material->scatter == 0.75f);
-	// The same value anew makes no other material.
+	// The same value again makes no other material.
 	const auto same = left.surfaces[0].material;
 	set_node_property(left, "scatter", 0.75);
 	CHECK(left.surfaces[0].material == same);

@@ -97,8 +97,8 @@ TEST_CASE(
 		CHECK(difference.mean < 0.01);
 		CHECK(difference.penumbra_mean < 0.08);
 		CHECK(filtered.visibility == render_frame(fixture, scene, wishes).visibility); // reused
-		const FrameWishes anew = { .may_reuse = false };
-		CHECK(filtered.visibility == render_frame(fixture, scene, anew).visibility);
+		const FrameWishes uncached = { .may_reuse = false };
+		CHECK(filtered.visibility == render_frame(fixture, scene, uncached).visibility);
 
 		// Every block that has an edge.
 		scene.light->properties["edge_count_budget"] = int64_t(0);

@@ -1,4 +1,4 @@
-// What the fins cache from frame to frame, and what makes them draw anew.
+// What the fins cache from frame to frame, and what makes them redraw.
 
 #include "modules/core/error.h"
 #include "modules/shadow_penumbra_fins/tests/fins_fixture.h"
@@ -83,8 +83,8 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 		CAPTURE(step.what);
 		step.change();
 		const MaskResult reused = render(caching, scene, true);
-		const MaskResult anew = render(fresh, scene, false);
-		CHECK(reused.visibility == anew.visibility);
+		const MaskResult redrawn = render(fresh, scene, false);
+		CHECK(reused.visibility == redrawn.visibility);
 		full_count = std::max(full_count, count_drawn_views(reused));
 		CHECK((count_drawn_views(reused) > 0) == step.draws_all);
 		CHECK(reused.visibility == render(caching, scene, true).visibility);
@@ -97,7 +97,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 	CHECK(count_drawn_views(moved) < full_count);
 }
 
-TEST_CASE("[GPU][PenumbraFins] another technique and back draws the maps anew") {
+TEST_CASE("[GPU][PenumbraFins] another technique and back redraws the maps") {
 	MaskFixture fixture;
 	const SmallScene scene;
 	const MaskResult first = render(fixture, scene, true);
