@@ -114,7 +114,7 @@ std::vector<ShadowProperty> make_properties() {
 	show_mask.type = PropertyType::BOOL;
 	show_mask.default_value = false;
 	show_mask.tooltip = "Draws this light's mask over the image of every viewport that shows it: "
-						"white is lit, black is in shadow or turned away from the light.";
+						"white is lit, black is in shadow or facing away from the light.";
 	show_mask.group = "Debug";
 	properties.push_back({ show_mask, "" });
 	return properties;

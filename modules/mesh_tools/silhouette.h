@@ -12,7 +12,7 @@ namespace gnomon {
 /// An edge between what faces the light and what does not.
 struct SilhouetteEdge {
 	uint32_t edge_index = 0; // into MeshTopology::edges
-	/// Welded vertices, in the direction in which the surface winds where it is turned to the
+	/// Welded vertices, in the direction in which the surface winds where it faces the
 	/// light.
 	uint32_t from = 0;
 	uint32_t to = 0;

@@ -43,7 +43,7 @@ struct MeshEdge {
 };
 
 /// dot(normal, p) + offset_m = 0 in node space; above 0 in front of the face. All zero for a face
-/// without area: such a face counts as turned away from every viewpoint.
+/// without area: such a face counts as back-facing from every viewpoint.
 struct FacePlane {
 	glm::vec3 normal = glm::vec3(0.0f);
 	float offset_m = 0.0f;

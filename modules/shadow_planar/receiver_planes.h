@@ -24,7 +24,7 @@ struct ReceiverPlanes {
 	uint32_t left_out_count = 0;	   // planes beyond the most that are drawn
 };
 
-/// The planes of the instances whose `shadow_planar_receiver` is set, as far as they are turned to
+/// The planes of the instances whose `shadow_planar_receiver` is set, as far as they face
 /// the light: faces in one plane that together have at least a twentieth of the instance's lit
 /// area. At most 16 planes in all.
 ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSnapshot &p_light);

@@ -19,7 +19,7 @@ struct VolumeBuilder {
 		add_corner(p_b, p_is_far);
 		add_corner(p_c, p_is_far);
 	}
-	/// From the edge to infinity; the surface that is turned to the light winds p_from -> p_to.
+	/// From the edge to infinity; the light-facing surface winds p_from -> p_to.
 	void add_side(uint32_t p_from, uint32_t p_to) {
 		add_corner(p_from, false);
 		add_corner(p_from, true);

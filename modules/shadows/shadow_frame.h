@@ -79,7 +79,7 @@ public:
 	/// Copies a light's mask into a layer of an array that outlives the frame: R16_SFLOAT (of a
 	/// coloured mask its luminance) or RGBA16_SFLOAT, STORAGE, at least of the frame's size, made
 	/// with TextureDesc::is_array. p_elsewhere: its value where there is no receiver, because
-	/// nothing is there, the light does not reach it, or the surface is turned away.
+	/// nothing is there, the light does not reach it, or the surface faces away from it.
 	void hold(const LightShadow &p_shadow, RGTexture p_array, uint32_t p_layer,
 			float p_elsewhere = 0.0f);
 

@@ -8,7 +8,7 @@
 
 /// True when the light is strictly in front of the triangle. Node space. p_light.xyz / w is a point;
 /// w = 0: the direction towards a light at infinity. p_ids: the corners' vertex indices.
-bool is_turned_to_light(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
+bool is_light_facing(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
 	// The corner of the least index first: the same order for the face and for each neighbour.
 	vec3 p = p_a;
 	vec3 q = p_b;
@@ -32,14 +32,14 @@ bool is_turned_to_light(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c)
 	return side > 0.0;
 }
 
-/// Is the edge a -> b between two faces a silhouette, whose first face, which winds a -> b, is turned
-/// to the light or not? The second face is b a c; where it is inconsistent a b c, with its other side
+/// Is the edge a -> b between two faces a silhouette, whose first face, which winds a -> b, faces
+/// the light or not? The second face is b a c; where it is inconsistent a b c, with its other side
 /// for its own. p_ids: of a, b, c.
-bool is_edge_silhouette(vec4 p_light, bool p_is_first_turned, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c,
+bool is_edge_silhouette(vec4 p_light, bool p_is_first_facing, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c,
 		bool p_is_inconsistent) {
 	return p_is_inconsistent
-			? p_is_first_turned == is_turned_to_light(p_light, p_ids, p_a, p_b, p_c)
-			: p_is_first_turned != is_turned_to_light(p_light, p_ids.yxz, p_b, p_a, p_c);
+			? p_is_first_facing == is_light_facing(p_light, p_ids, p_a, p_b, p_c)
+			: p_is_first_facing != is_light_facing(p_light, p_ids.yxz, p_b, p_a, p_c);
 }
 
 /// The vertex of the edge's second face; of a boundary no vertex, to be asked for first.
@@ -50,10 +50,10 @@ uint get_second_opposite(TopologyEdge p_edge) {
 /// Is an edge with two faces a silhouette? The positions of its a, b, opposite0 and second opposite.
 bool is_edge_record_silhouette(
 		vec4 p_light, TopologyEdge p_edge, vec3 p_a, vec3 p_b, vec3 p_first, vec3 p_second) {
-	const bool is_first_turned = is_turned_to_light(
+	const bool is_first_facing = is_light_facing(
 			p_light, uvec3(p_edge.a, p_edge.b, p_edge.opposite0), p_a, p_b, p_first);
 	const uint second = get_second_opposite(p_edge);
-	return is_edge_silhouette(p_light, is_first_turned, uvec3(p_edge.a, p_edge.b, second), p_a, p_b, p_second,
+	return is_edge_silhouette(p_light, is_first_facing, uvec3(p_edge.a, p_edge.b, second), p_a, p_b, p_second,
 			(p_edge.opposite1 & TOPOLOGY_EDGE_INCONSISTENT) != 0u);
 }
 
@@ -64,7 +64,7 @@ uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_posi
 	if ((p_flags & 7u) == 0u) {
 		return 0u;
 	}
-	const bool is_face_turned = is_turned_to_light(p_light, uvec3(p_ids[0], p_ids[2], p_ids[4]),
+	const bool is_facing = is_light_facing(p_light, uvec3(p_ids[0], p_ids[2], p_ids[4]),
 			p_positions[0], p_positions[2], p_positions[4]);
 	uint found = 0u;
 	for (uint edge = 0u; edge < 3u; ++edge) {
@@ -73,7 +73,7 @@ uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_posi
 		bool is_silhouette = (p_flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) != 0u;
 		if (!is_silhouette) {
 			const uint c = a + 1u;
-			is_silhouette = is_edge_silhouette(p_light, is_face_turned,
+			is_silhouette = is_edge_silhouette(p_light, is_facing,
 					uvec3(p_ids[a], p_ids[b], p_ids[c]), p_positions[a], p_positions[b], p_positions[c],
 					(p_flags & (TOPOLOGY_FACE_HAS_INCONSISTENT << edge)) != 0u);
 		}

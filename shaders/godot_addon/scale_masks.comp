@@ -17,7 +17,7 @@ layout(push_constant) uniform Push {
 const float SAME_SURFACE = 1e-3;
 
 // The masks' four pixels around this one, bilinear, each by how near it is to this pixel's surface. A mask below 0, where the
-// surface is turned away, is no number to mix: it is taken where it has the largest weight.
+// surface faces away from the light, is no number to mix: it is taken where it has the largest weight.
 void main() {
 	const ivec3 item = ivec3(gl_GlobalInvocationID);
 	const ivec2 size = textureSize(full_depth_texture, 0);

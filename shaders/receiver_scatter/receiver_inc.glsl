@@ -30,7 +30,7 @@ float get_depth(uvec4 p_packed) {
 	return uintBitsToFloat(p_packed.x);
 }
 
-/// The light that arrives: the mask, 0 where the surface is turned from the light or outside of it.
+/// The light that arrives: the mask, 0 where the surface faces away from the light or is outside of it.
 vec3 get_light(uvec4 p_packed) {
 	return vec3(unpackHalf2x16(p_packed.w), unpackHalf2x16(p_packed.z).x);
 }
@@ -97,7 +97,7 @@ bool refuses_others(Receiver p_receiver) {
 			(push.refusal == SCATTER_REFUSAL_AUTO && is_metric(p_receiver));
 }
 
-/// Is a pixel of the receiver's material that the light reaches, turned towards the same side and no
+/// Is a pixel of the receiver's material that the light reaches, facing the same side and no
 /// farther from p_expected than p_tolerance_m?
 bool is_same_surface(
 		Receiver p_receiver, ivec2 p_pixel, uvec4 p_packed, vec3 p_expected, float p_tolerance_m) {

@@ -19,8 +19,8 @@ vec4 load_count_plane(uint p_face);
 
 /// What the segment from a receiver to the light's centre crosses.
 struct CountCrossings {
-	int away;	// faces of closed parts that are turned away from the light's centre
-	int toward; // and towards it
+	int away;	// back-facing faces of closed parts
+	int toward; // light-facing ones
 	int both;	// faces of other parts
 };
 
@@ -39,7 +39,7 @@ void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_befo
 }
 
 /// Solids between a receiver and the light's centre. Where the receiver lies inside closed parts, more faces
-/// are turned towards the light, where the light does, more away from it: the larger number is that of
+/// are light-facing, where the light does, more are back-facing: the larger number is that of
 /// the parts that hide it.
 int sum_crossings(CountCrossings p_found) {
 	return p_found.both + max(p_found.away, p_found.toward);

@@ -21,13 +21,13 @@ void main() {
 	const uint index = uint(gl_VertexIndex);
 	const uint first = 3u * (index / per_face);
 	const uvec3 ids = uvec3(triangles[first], triangles[first + 1u], triangles[first + 2u]);
-	const bool is_turned = is_turned_to_light(push.light_node, ids, positions_node[ids.x].xyz,
+	const bool is_facing = is_light_facing(push.light_node, ids, positions_node[ids.x].xyz,
 			positions_node[ids.y].xyz, positions_node[ids.z].xyz);
 	const bool is_far = index % per_face >= 3u;
 	const bool is_solid = (face_flags[index / per_face] & TOPOLOGY_FACE_NOT_SOLID) == 0u;
-	const bool has_volume = is_turned || volume_includes(ROBUST_FACES, is_solid);
+	const bool has_volume = is_facing || volume_includes(ROBUST_FACES, is_solid);
 	uint corner = has_volume ? index % 3u : 0u;
-	if (is_far == is_turned) { // the far cap, and a face that is turned round, wind the other way
+	if (is_far == is_facing) { // the far cap and a back-facing face wind the other way
 		corner = (3u - corner) % 3u;
 	}
 	gl_Position = volume_position_clip(positions_node[ids[corner]].xyz, is_far);

@@ -26,7 +26,7 @@ vec4 volume_position_clip(vec3 p_position_node, bool p_is_far) {
 	return position;
 }
 
-// Corners of a side along an edge a -> b of the surface that is turned to the light: bit 0 b instead
+// Corners of a side along an edge a -> b of the light-facing surface: bit 0 b instead
 // of a, bit 1 at infinity. Seen from outside the volume they turn counter-clockwise, as the surface
 // does.
 const uint VOLUME_SIDE_CORNERS[VOLUMES_VERTICES_PER_SIDE] = uint[VOLUMES_VERTICES_PER_SIDE](0u, 2u, 1u, 1u, 2u, 3u);

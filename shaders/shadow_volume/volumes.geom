@@ -4,7 +4,7 @@
 #include "shadow_volume/volume_inc.glsl"
 
 // GPU Gems 3, chapter 11: the part of a caster's shadow volume that one triangle makes. Its caps where
-// it is turned to the light (robust: turned round where it is not), and a side for each silhouette
+// it is light-facing (robust: wound the other way where it is not), and a side for each silhouette
 // edge of its own (robust: two sides, where the edge has two faces).
 layout(triangles_adjacency) in;
 layout(triangle_strip, max_vertices = 42) out;
@@ -43,14 +43,14 @@ void main() {
 		ids[i] = in_vertex[i];
 		positions[i] = in_position_node[i];
 	}
-	const bool is_turned = is_turned_to_light(push.light_node, uvec3(ids[0], ids[2], ids[4]),
+	const bool is_facing = is_light_facing(push.light_node, uvec3(ids[0], ids[2], ids[4]),
 			positions[0], positions[2], positions[4]);
 	const uint flags = face_flags[gl_PrimitiveIDIn];
 	const bool is_solid = (flags & TOPOLOGY_FACE_NOT_SOLID) == 0u;
 	const bool is_robust = volume_includes(ROBUST_FACES, is_solid);
-	if (is_turned || is_robust) {
-		const uint b = is_turned ? 2u : 4u;
-		const uint c = is_turned ? 4u : 2u;
+	if (is_facing || is_robust) {
+		const uint b = is_facing ? 2u : 4u;
+		const uint c = is_facing ? 4u : 2u;
 		emit_triangle(0u, b, c, false);
 		if (HAS_FAR_CAP) {
 			emit_triangle(0u, c, b, true);
@@ -63,8 +63,8 @@ void main() {
 		}
 		const uint first = 2u * edge;
 		const uint second = (first + 2u) % 6u;
-		const uint a = is_turned ? first : second;
-		const uint b = is_turned ? second : first;
+		const uint a = is_facing ? first : second;
+		const uint b = is_facing ? second : first;
 		emit_side(a, b);
 		if (is_robust && (flags & (TOPOLOGY_FACE_HAS_BOUNDARY << edge)) == 0u) {
 			emit_side(a, b);

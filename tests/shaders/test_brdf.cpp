@@ -111,6 +111,6 @@ TEST_CASE("[GPU][Brdf] a translucent surface shines more evenly than an opaque o
 	const std::vector<double> wax = reflect(fixture, { 1.0f, 1.0f }, directions);
 	CHECK(wax[1] / wax[0] > 1.1 * opaque[1] / opaque[0]);
 	CHECK(half[0] == doctest::Approx(0.5 * (opaque[0] + wax[0])).epsilon(1e-3));
-	// No light reaches what is turned away.
+	// No light reaches what faces away from it.
 	CHECK(reflect(fixture, { 1.0f, 1.0f }, { { 1.6, 0.4, 1.0 } })[0] == 0);
 }

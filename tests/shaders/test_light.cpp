@@ -77,7 +77,7 @@ TEST_CASE("[GPU][Shaders] a receiver faces the light and lies in its cone and ra
 		const shader::LightConstants light = make_light(type);
 		const bool is_directional = type == LIGHT_TYPE_DIRECTIONAL;
 		CHECK(receives(fixture, light, below, up));
-		CHECK_FALSE(receives(fixture, light, below, -up));		   // turned away
+		CHECK_FALSE(receives(fixture, light, below, -up));		   // faces away
 		CHECK_FALSE(receives(fixture, light, below, { 1, 0, 0 })); // edge on
 		CHECK(receives(fixture, light, below, { 1, 1e-3f, 0 }));   // just not edge on
 		// Nearer to edge on rounding would decide, pixel by pixel.

@@ -6,8 +6,8 @@ namespace gnomon {
 
 namespace {
 
-/// is_turned_to_light in silhouette_inc.glsl: the same operations in the same order.
-bool is_turned_to_light(
+/// is_light_facing in silhouette_inc.glsl: the same operations in the same order.
+bool is_light_facing(
 		const MeshTopology &p_topology, const glm::vec4 &p_light, const glm::uvec3 &p_ids) {
 	const int first = p_ids.y < p_ids.x && p_ids.y < p_ids.z ? 1
 			: p_ids.z < p_ids.x && p_ids.z < p_ids.y		 ? 2
@@ -38,8 +38,8 @@ std::vector<uint32_t> find_silhouette_edges(
 			if (edge.is_inconsistent) {
 				std::swap(face1.x, face1.y);
 			}
-			is_silhouette = (is_turned_to_light(p_topology, p_light_node, face0) !=
-									is_turned_to_light(p_topology, p_light_node, face1)) !=
+			is_silhouette = (is_light_facing(p_topology, p_light_node, face0) !=
+									is_light_facing(p_topology, p_light_node, face1)) !=
 					edge.is_inconsistent;
 		}
 		if (is_silhouette) {

@@ -21,7 +21,7 @@ struct CountSpace {
 	double nearer_tolerance = 2e-5; // see CountLightConstants
 	double scene_size_m = 1;		// S
 
-	/// Above 0 where the face n.r + d = 0 is turned to the light's centre.
+	/// Above 0 where the face n.r + d = 0 is light-facing.
 	double get_light_side(const glm::dvec4 &p_plane) const {
 		return is_directional ? -p_plane.z : p_plane.w;
 	}

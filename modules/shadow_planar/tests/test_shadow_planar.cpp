@@ -120,7 +120,7 @@ TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
 	SmallScene scene(LightType::OMNI);
 	const auto snapshot = scene.snap();
 	const ReceiverPlanes found = find_receiver_planes(*snapshot, snapshot->lights[0]);
-	REQUIRE(found.planes.size() == 1); // of a floor's box only the top is turned to the light
+	REQUIRE(found.planes.size() == 1); // of a floor's box only the top is light-facing
 	CHECK(found.planes[0].area_m2 == doctest::Approx(36.0));
 	CHECK(found.planes[0].normal.y == doctest::Approx(1.0));
 	CHECK(found.planes[0].offset_m == doctest::Approx(snapshot->camera.position_world.y));
