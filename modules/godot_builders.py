@@ -67,7 +67,7 @@ def get_api_folder(env):
 
 ZIP_FOLDER = "addons/gnomon"
 ZIP_DATE = (2026, 1, 1, 0, 0, 0)  # the same files make the same archive
-LEFT_OUT = (".import", ".uid")  # what Godot makes itself
+SKIPPED = (".import", ".uid")  # what Godot makes itself
 
 
 def add_zip(env):
@@ -76,7 +76,7 @@ def add_zip(env):
     files = []
     for place, _folders, names in os.walk(folder):
         if place != os.path.join(folder, "bin"):
-            files += [os.path.join(place, name) for name in names if not name.endswith(LEFT_OUT)]
+            files += [os.path.join(place, name) for name in names if not name.endswith(SKIPPED)]
 
     def pack(target, source, env):
         with tempfile.TemporaryDirectory() as work, zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:

@@ -85,7 +85,7 @@ def select_modules(modules, env):
                 % (module.name, ", ".join(missing), module.name)
             )
         if not getattr(module.config, "can_build", lambda env: True)(env):
-            print("Module %s is left out: it cannot be built here." % module.name)
+            print("Module %s is disabled: it cannot be built here." % module.name)
             continue
         names.add(module.name)
         selected.append(module)

@@ -31,7 +31,7 @@ def count_tests(program, options):
 
 
 def split(count, parts):
-    """First and last test of each part, from 1; parts without tests are left out."""
+    """First and last test of each part, from 1; parts without tests are skipped."""
     bounds = [count * part // parts for part in range(parts + 1)]
     return [(low + 1, high) for low, high in zip(bounds, bounds[1:]) if high > low]
 

@@ -88,7 +88,7 @@ void check_resumable(const fs::path &p_folder, const Report &p_plan) {
 		fail("Report ", p_folder, " was planned by another program or with other options (",
 				earlier.cells.size(), " cells, program ", earlier.program, "; now ",
 				p_plan.cells.size(), ", ", p_plan.program,
-				"). Resume it with the same ones, choose another --out, or leave --resume out to ",
+				"). Resume it with the same ones, choose another --out, or omit --resume to ",
 				"replace it.");
 	}
 }

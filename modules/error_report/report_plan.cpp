@@ -21,7 +21,7 @@ const char *const SCALING_SCENE_NAME = "torus_knot, generated";
 
 using SceneCache = LastValue<ScalingScene, std::shared_ptr<const Scene>>;
 
-enum class ExpensiveSettings { MEASURED, LEFT_OUT };
+enum class ExpensiveSettings { MEASURED, SKIPPED };
 
 /// Letters, digits and underscores, for file names.
 std::string make_slug(const std::string &p_text) {
@@ -124,7 +124,7 @@ public:
 			info.part->plan(
 					options, [this](ReportConfiguration p_configuration, ReportPlan::Ask p_ask) {
 						add_configuration(std::move(p_configuration), std::move(p_ask),
-								ExpensiveSettings::LEFT_OUT);
+								ExpensiveSettings::SKIPPED);
 					});
 		}
 	}
@@ -190,7 +190,7 @@ private:
 							r_light.name, size_px, filter_hash };
 					},
 					index == p_sizes_m.size() / 2 ? ExpensiveSettings::MEASURED
-												  : ExpensiveSettings::LEFT_OUT);
+												  : ExpensiveSettings::SKIPPED);
 		}
 	}
 
@@ -225,7 +225,7 @@ private:
 												 *scene, *scene->find_nodes<Camera3D>().front()),
 						has_many ? "" : "Light 1", size_px };
 				},
-				ExpensiveSettings::LEFT_OUT);
+				ExpensiveSettings::SKIPPED);
 	}
 
 	/// Fills in what the scene says, and plans the cells.

@@ -22,7 +22,7 @@ namespace {
 
 const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
 
-/// The mask with the receivers that the list leaves out taken away.
+/// The mask with the receivers that the list omits taken away.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_included) {
 	MaskImage restricted = p_mask;
 	for (size_t index = 0; index < restricted.receiver.size(); ++index) {

@@ -14,7 +14,7 @@
 namespace gnomon {
 
 /// Reads meshes and their materials, each once. Triangles, strips and fans become triangles; points
-/// and lines have no shadow here and are left out with one warning.
+/// and lines have no shadow here and are skipped with one warning.
 class GltfMeshes {
 public:
 	/// All must outlive it.

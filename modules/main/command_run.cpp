@@ -67,7 +67,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	request.technique_override = options.technique;
 	request.debug_view = options.debug_view;
 	request.reference = options.reference;
-	request.may_leave_out = !options.leaves_out_nothing;
+	request.may_skip = !options.skips_nothing;
 	RenderResult result;
 	const uint32_t frame_count = std::max(options.frame_count, 1u);
 	for (uint32_t index = 0; index < frame_count; ++index) {
@@ -164,13 +164,13 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 					   "used")
 				->needs(time);
 	}
-	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
+	command->add_flag("--leave-out-nothing", options.skips_nothing,
 				   "Runs also what the image does not need (for comparison)")
 			->needs(headless);
 	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")
 			->take_all()
 			->allow_extra_args(false);
-	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
+	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");
 	command->add_option("--dot", options.dot, "Writes the frame's graph for Graphviz");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");

@@ -39,7 +39,7 @@ struct VisibilityOptions {
 	std::vector<double> motion;
 	std::string time;
 	bool prints_plan = false;
-	bool leaves_out_nothing = false;
+	bool skips_nothing = false;
 	bool has_depth_alone = false;
 	bool is_still = false;
 };
@@ -84,7 +84,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	request.technique_override = p_options.technique;
 	request.mask_light = light.name;
 	request.wants_mask = true;
-	request.may_leave_out = !p_options.leaves_out_nothing;
+	request.may_skip = !p_options.skips_nothing;
 	request.has_depth_alone = p_options.has_depth_alone;
 	request.wants_surfaces = !p_options.surfaces.empty();
 
@@ -166,13 +166,13 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_flag("--still", options.is_still,
 				   "--time measures frames in which nothing moves, so that what is cached is used")
 			->needs(time);
-	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was left out");
+	command->add_flag("--plan", options.prints_plan, "Prints what ran and what was skipped");
 	command->add_option("--surfaces", options.surfaces,
 			"A folder: also writes the inputs of shadows, depth.f32 and normal.u32 (see "
 			"doc/embedding.md)");
 	command->add_flag("--depth-alone", options.has_depth_alone,
 			"Makes geometric normals from the depth, as for a host that draws none");
-	command->add_flag("--leave-out-nothing", options.leaves_out_nothing,
+	command->add_flag("--leave-out-nothing", options.skips_nothing,
 			"Runs also what the image does not need (for comparison)");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");

@@ -27,7 +27,7 @@ struct RunOptions {
 	std::string dot;
 	std::string time; // headless: where to write what a frame takes
 	bool is_still = false;
-	bool leaves_out_nothing = false;
+	bool skips_nothing = false;
 };
 
 /// Shows the scene in a window until it is closed or frame_count is reached. Returns the last

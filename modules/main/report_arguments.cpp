@@ -147,7 +147,7 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 		selected.project = project.name.empty() ? fs::absolute(project.folder).filename().string()
 												: project.name;
 		for (const fs::path &missing : project.missing_scenes) {
-			log_warning("Scene ", missing, " does not exist and is left out.");
+			log_warning("Scene ", missing, " does not exist and is skipped.");
 		}
 		all = name_files(project.scenes, project.folder);
 		selected.stability_scenes = name_files(project.stability_scenes, project.folder);

@@ -147,7 +147,7 @@ private:
 		if (columns > 0 && channel_count > 0 && lines > values / columns / channel_count) {
 			fail("Mask ", name, ": blocks of ", lines, " lines of ", columns, " pixels with ",
 					channel_count, " channels are too large, must be at most ", MAX_BLOCK_BYTES,
-					" bytes. Leave out channels, or use smaller tiles.");
+					" bytes. Omit channels, or use smaller tiles.");
 		}
 		if (has_tiles && width > 0 && height > 0) {
 			const int64_t tile_columns = (width + tile_width - 1) / tile_width;

@@ -64,7 +64,7 @@ struct MeshPart {
 
 /// What was found in a mesh, for the validation at import and for the frame plan.
 struct TopologyCounts {
-	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; left out of the topology
+	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; not in the topology
 	uint32_t zero_area_triangle_count = 0;	// three vertices on a line; retained, they close gaps
 	uint32_t duplicate_triangle_count = 0;	// copies beyond the first, whatever their winding; retained
 	uint32_t boundary_edge_count = 0;

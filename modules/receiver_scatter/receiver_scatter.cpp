@@ -81,7 +81,7 @@ void ReceiverScatter::get_light_properties(PropertyList &r_list) const {
 			"noise, many cost time.",
 			"", GROUP });
 	r_list.add({ REFUSAL, PropertyType::ENUM, std::string("auto"), "auto,on,off",
-			"Whether samples on other surfaces are left out, so that light does not leak between "
+			"Whether samples on other surfaces are skipped, so that light does not leak between "
 			"them; auto = in metres only, as the paper's pixels take all.",
 			"", GROUP });
 }
@@ -110,25 +110,25 @@ bool ReceiverScatter::may_change(const SceneSnapshot &p_scene, glm::uvec2 p_size
 bool ReceiverScatter::plan(const ShadowTechnique::Inputs &p_inputs,
 		const PropertyValues &p_properties, TechniquePlan &r_plan) {
 	if (!std::get<bool>(p_properties.at(ENABLED))) {
-		r_plan.leave_out("scatter", text(ENABLED, " is false"));
+		r_plan.skip("scatter", text(ENABLED, " is false"));
 		return false;
 	}
 	if (!p_inputs.material) {
-		r_plan.leave_out("scatter", "the host draws no materials");
+		r_plan.skip("scatter", "the host draws no materials");
 		return false;
 	}
-	if (p_inputs.may_leave_out && !has_scatter(p_inputs, Scatter::ANY)) {
-		r_plan.leave_out("scatter", "it lights no visible surface that scatters");
+	if (p_inputs.may_skip && !has_scatter(p_inputs, Scatter::ANY)) {
+		r_plan.skip("scatter", "it lights no visible surface that scatters");
 		return false;
 	}
 	may_average =
 			std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_METRES] ||
-			!p_inputs.may_leave_out ||
+			!p_inputs.may_skip ||
 			(std::get<std::string>(p_properties.at(METHOD)) == METHODS[SCATTER_METHOD_AUTO] &&
 					has_scatter(p_inputs, Scatter::IN_METRES));
 	r_plan.run("scatter");
 	if (!may_average) {
-		r_plan.leave_out("scatter average", "it lights no visible surface that scatters in metres");
+		r_plan.skip("scatter average", "it lights no visible surface that scatters in metres");
 	}
 	return true;
 }

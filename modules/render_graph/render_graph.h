@@ -92,7 +92,7 @@ private:
 };
 
 /// The passes of one frame, in the order in which they were added. Passes declare reads and
-/// writes; the graph leaves out passes whose results nobody uses, gives transient textures memory
+/// writes; the graph culls passes whose results nobody uses, gives transient textures memory
 /// that they share when they do not live at the same time, and puts the barriers between passes.
 ///
 /// Recreated each frame; what can be reused (memory) is cached in the TransientPool.
@@ -124,7 +124,7 @@ public:
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
 	RGBuffer import_buffer(BufferRID p_buffer);
 	/// The window's next image, got from p_acquire when its first pass is recorded and shown when
-	/// that pass is submitted; one pass uses it. The pass is left out when p_acquire gives nothing.
+	/// that pass is submitted; one pass uses it. The pass is skipped when p_acquire gives nothing.
 	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
 
 	/// By value: a reference would end with the next resource that is made.
@@ -145,7 +145,7 @@ public:
 	const std::vector<PassTiming> &get_timings() const { return timings; }
 	/// Sum over the passes, and the wall time of execute() from the first to the last command.
 	double get_wall_ms() const { return wall_ms; }
-	/// Passes that were left out because nobody uses what they write.
+	/// Passes that were culled because nobody uses what they write.
 	std::vector<std::string> get_culled_passes() const;
 	/// Bytes of transient textures as if none shared memory, and as placed. After execute().
 	uint64_t get_unaliased_bytes() const { return unaliased_bytes; }

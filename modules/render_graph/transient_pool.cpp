@@ -9,7 +9,7 @@ namespace gnomon {
 
 namespace {
 
-// A frame shape per debug view and per set of left-out passes; more would only hold memory.
+// A frame shape per debug view and per set of skipped passes; more would only hold memory.
 constexpr size_t MAX_CACHED_ENTRIES = 3;
 
 bool lives_with(const PlacedBlock &p_left, const PlacedBlock &p_right) {

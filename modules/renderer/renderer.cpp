@@ -64,12 +64,12 @@ struct Renderer::Frame {
 			request(p_request), result(r_result), graph(r_renderer.device, r_renderer.transients),
 			shadows(r_renderer.shadows, graph, result.plan, request.scene,
 					request.size_px * get_drawn_factor(request),
-					{ request.technique_override, request.may_leave_out, request.may_reuse }),
+					{ request.technique_override, request.may_skip, request.may_reuse }),
 			image{ graph, r_renderer.device, {}, shadows.get_constants(),
 				request.size_px * get_drawn_factor(request), get_drawn_factor(request),
 				compute_exposure(*request.scene) } {}
 
-	/// The light whose intermediate images are shown: nothing of it is left out.
+	/// The light whose intermediate images are shown: nothing of it is skipped.
 	bool asks_for_debug_view(const LightSnapshot &p_light) const {
 		return !request.debug_view.empty() && !has_asked_for_debug_view && p_light.casts_shadow &&
 				(p_light.name == request.debug_light || !has_debug_light(request));
@@ -142,14 +142,14 @@ void Renderer::add_image(Frame &r_frame) {
 	plan.run("ambient");
 	for (const LightSnapshot &light : request.scene->lights) {
 		plan.set_light(light.name);
-		const bool may_leave_out = request.may_leave_out && !r_frame.asks_for_debug_view(light);
+		const bool may_skip = request.may_skip && !r_frame.asks_for_debug_view(light);
 		const std::string unlit = r_frame.shadows.describe_unlit(light);
-		if (may_leave_out && !unlit.empty()) {
-			plan.leave_out("light", unlit);
+		if (may_skip && !unlit.empty()) {
+			plan.skip("light", unlit);
 			continue;
 		}
-		if (may_leave_out && (light.intensity <= 0.0f || light.color == glm::vec3(0.0f))) {
-			plan.leave_out("light", "its intensity is 0");
+		if (may_skip && (light.intensity <= 0.0f || light.color == glm::vec3(0.0f))) {
+			plan.skip("light", "its intensity is 0");
 			continue;
 		}
 		add_lighting_pass(r_frame.image, add_light(r_frame, light), radiance);
@@ -235,7 +235,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 					frame.image.size_px, frame.image.frame, drawn_count);
 	result.plan.run("G-buffer");
 	if (drawn_count < scene.instances.size()) {
-		result.plan.leave_out(text(scene.instances.size() - drawn_count, " instances"),
+		result.plan.skip(text(scene.instances.size() - drawn_count, " instances"),
 				"outside the camera's view");
 	}
 	frame.shadows.set_surfaces({ gbuffer.depth,
@@ -250,7 +250,7 @@ RenderResult Renderer::render(const RenderRequest &p_request) {
 	materials.collect_garbage();
 	result.plan.set_light("");
 	for (const std::string &pass : frame.graph.get_culled_passes()) {
-		result.plan.leave_out(pass, "nothing uses its result");
+		result.plan.skip(pass, "nothing uses its result");
 	}
 	result.timings = frame.graph.get_timings();
 	for (const PassTiming &timing : result.timings) {

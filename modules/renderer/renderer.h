@@ -56,7 +56,7 @@ struct RenderRequest {
 	std::vector<OverlayVertex> overlay; // three per triangle
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
 	/// False: runs everything, also what the image does not need (for the test that compares both).
-	bool may_leave_out = true;
+	bool may_skip = true;
 	/// False: techniques use nothing that they cached of earlier frames, as if everything had moved.
 	bool may_reuse = true;
 	/// True: shadows make geometric normals from the depth, as for a host that draws none.

@@ -65,7 +65,7 @@ std::vector<NodeField> make_light_fields() {
 				&read_color, &write_color },
 		{ make_info("intensity", PropertyType::FLOAT, 1.0, "0,1000000,0.1",
 				  "Luminous intensity in candela; of a directional light illuminance in lux. 0 "
-				  "leaves the light out.",
+				  "skips the light.",
 				  "", "Light"),
 				&read_number<Light3D, &Light3D::intensity>,
 				&write_number<Light3D, &Light3D::intensity> },

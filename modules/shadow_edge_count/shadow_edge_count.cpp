@@ -62,7 +62,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	// A block may list an edge in each of its views.
 	may_filter = settings.has_budget() &&
 			(uint64_t(casters.edge_count) * view_count > settings.budget ||
-					!p_inputs.may_leave_out);
+					!p_inputs.may_skip);
 	// Only the filter reads beyond the view of a receiver.
 	views.begin(p_inputs, may_filter ? CachedViews::Reads::ACROSS_VIEWS : CachedViews::Reads::OWN_VIEW);
 	has_casters = casters.face_count > 0;
@@ -81,7 +81,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	const bool has_content = buffers.prepare(p_inputs.device, p_inputs.light.name, capacities) &&
 			drawn.disc_radius == settings.disc_radius && drawn.casters.has_layout_of(casters) &&
 			(!may_filter || drawn.has_depth_map);
-	if (has_content && p_inputs.may_leave_out && p_inputs.may_reuse &&
+	if (has_content && p_inputs.may_skip && p_inputs.may_reuse &&
 			drawn.first_view == p_inputs.views[0]) {
 		compare_casters(drawn.casters, casters);
 	}
@@ -109,20 +109,20 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 		r_plan.run(text("find edges, casters: ", moved_count));
 	}
 	if (reused_count > 0) {
-		r_plan.leave_out(text("find edges, casters: ", reused_count),
+		r_plan.skip(text("find edges, casters: ", reused_count),
 				"cached: neither the light nor the caster moved");
 	}
 	if (drawn.casters.flat_instance_count > 0) {
-		r_plan.leave_out(text("edges of instances: ", drawn.casters.flat_instance_count),
+		r_plan.skip(text("edges of instances: ", drawn.casters.flat_instance_count),
 				"a scale of theirs is 0");
 	}
 	if (settings.disc_radius <= 0) {
-		r_plan.leave_out("edges", "the light has no size");
+		r_plan.skip("edges", "the light has no size");
 	}
 	if (drawn.casters.may_cut_disc) {
 		r_plan.run("faces that cut the light's disc");
 	} else if (drawn.disc_radius > 0) {
-		r_plan.leave_out(
+		r_plan.skip(
 				"faces that cut the light's disc", "no caster comes so near to its centre");
 	}
 	if (!is_node_count_known()) {
@@ -132,14 +132,14 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 
 void ShadowEdgeCount::plan_blocks(TechniquePlan &r_plan) {
 	if (!settings.has_budget()) {
-		r_plan.leave_out("filter", "edge_count_budget is -1: no block has too many edges");
+		r_plan.skip("filter", "edge_count_budget is -1: no block has too many edges");
 		return;
 	}
 	const std::string pass = text("filter where a block has more than ", settings.budget, " edges");
 	if (may_filter) {
 		r_plan.run(pass);
 	} else {
-		r_plan.leave_out(pass, text("all casters together have ", drawn.casters.edge_count));
+		r_plan.skip(pass, text("all casters together have ", drawn.casters.edge_count));
 	}
 }
 
@@ -159,7 +159,7 @@ void ShadowEdgeCount::at_light_view(
 	}
 	const CountFindPasses passes = { drawn.casters, buffers.get_capacities(),
 		buffers.import(r_graph), constants, settings.disc_radius > 0,
-		!is_node_count_known() || !p_inputs.may_leave_out };
+		!is_node_count_known() || !p_inputs.may_skip };
 	if (!are_casters_found) {
 		add_find_passes(r_graph, p_inputs.device, passes);
 		are_casters_found = true;

@@ -53,12 +53,12 @@ void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	views_per_point = static_cast<uint32_t>(p_inputs.views.size()) / count;
 	is_empty.assign(p_inputs.views.size(), false);
 	for (uint32_t index = 0; index < p_inputs.views.size(); ++index) {
-		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
+		if (p_inputs.may_skip && p_inputs.casters[index].instances.empty()) {
 			is_empty[index] = true;
-			r_plan.leave_out_light_view(index, "no casters");
-		} else if (p_inputs.may_leave_out && !p_inputs.casters[index].has_receivers) {
+			r_plan.skip_light_view(index, "no casters");
+		} else if (p_inputs.may_skip && !p_inputs.casters[index].has_receivers) {
 			is_empty[index] = true;
-			r_plan.leave_out_light_view(index, "the camera sees no receiver in it");
+			r_plan.skip_light_view(index, "the camera sees no receiver in it");
 		}
 	}
 	is_all_empty = std::all_of(is_empty.begin(), is_empty.end(), [](bool p_is) { return p_is; });

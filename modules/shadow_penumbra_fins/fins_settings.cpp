@@ -46,7 +46,7 @@ void add_fins_properties(const std::string &p_id, bool p_has_inner_half, Propert
 				"scene's size.",
 				"m", group, "-1" });
 		r_list.add({ p_id + "_layers", PropertyType::INT, int64_t(3), "1,3,1",
-				"Depth layers peeled from the light. 2 leaves out the test of what lies behind the "
+				"Depth layers peeled from the light. 2 skips the test of what lies behind the "
 				"inner penumbra, 1 also that of hidden inner fins.",
 				"", group });
 	}

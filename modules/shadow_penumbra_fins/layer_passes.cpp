@@ -37,7 +37,7 @@ bool may_layer_2_be_empty(const ShadowTechnique::Inputs &p_inputs, const CasterL
 
 bool is_layer_3_conditional(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index) {
 	const DeviceFeatures &features = p_inputs.device.get_features();
-	return p_inputs.may_leave_out && features.conditional_rendering && features.fragment_stores &&
+	return p_inputs.may_skip && features.conditional_rendering && features.fragment_stores &&
 			may_layer_2_be_empty(p_inputs, p_inputs.casters[p_view_index]);
 }
 

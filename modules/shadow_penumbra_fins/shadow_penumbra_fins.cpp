@@ -58,12 +58,12 @@ void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const Lig
 
 void ShadowPenumbraFins::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	settings = read_fins_settings(id, has_inner_half, p_inputs);
-	if (p_inputs.may_leave_out && settings.inner_width_m == 0 && settings.layer_count > 1) {
-		r_plan.leave_out(settings.layer_count == 2 ? "layer 2" : "layers 2 and 3",
+	if (p_inputs.may_skip && settings.inner_width_m == 0 && settings.layer_count > 1) {
+		r_plan.skip(settings.layer_count == 2 ? "layer 2" : "layers 2 and 3",
 				"t is 0: only inner fins need them");
 		settings.layer_count = 1;
 	}
-	draws_fins = settings.has_fins() || !p_inputs.may_leave_out;
+	draws_fins = settings.has_fins() || !p_inputs.may_skip;
 	plan_views(p_inputs, r_plan);
 	if (!views.is_all_empty()) {
 		plan_fins(p_inputs, r_plan);
@@ -117,7 +117,7 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 		r_plan.run(text("layer 3 only if layer 2 holds anything, views: ", conditional_count));
 	}
 	if (!draws_fins) {
-		r_plan.leave_out("fins", "r and t are 0: a plain shadow map");
+		r_plan.skip("fins", "r and t are 0: a plain shadow map");
 		return;
 	}
 	fin_casters = build_silhouette_casters(
@@ -126,17 +126,17 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 	r_plan.run(settings.method == FinMethod::GEOMETRY_SHADER ? "fins by geometry shader"
 															 : "fins by compute");
 	if (settings.has_fins() && settings.outer_width_m == 0) {
-		r_plan.leave_out("outer fins", "r is 0");
+		r_plan.skip("outer fins", "r is 0");
 	}
 	if (has_inner_half && settings.has_fins() && settings.inner_width_m == 0) {
-		r_plan.leave_out("inner fins", "t is 0");
+		r_plan.skip("inner fins", "t is 0");
 	}
 	if (zero_normal_count > 0) {
-		r_plan.leave_out(text("fins at ", zero_normal_count, " vertices"),
+		r_plan.skip(text("fins at ", zero_normal_count, " vertices"),
 				"the normals of their faces cancel");
 	}
 	if (fin_casters.flat_instance_count > 0) {
-		r_plan.leave_out(text("fins of ", fin_casters.flat_instance_count, " instances"),
+		r_plan.skip(text("fins of ", fin_casters.flat_instance_count, " instances"),
 				"a scale of theirs is 0");
 	}
 }

@@ -109,7 +109,7 @@ ReceiverPlanes find_receiver_planes(const SceneSnapshot &p_scene, const LightSna
 				return p_left.area_m2 > p_right.area_m2;
 			});
 	if (result.planes.size() > MOST_PLANES) {
-		result.left_out_count = static_cast<uint32_t>(result.planes.size() - MOST_PLANES);
+		result.skipped_count = static_cast<uint32_t>(result.planes.size() - MOST_PLANES);
 		result.planes.resize(MOST_PLANES);
 	}
 	return result;

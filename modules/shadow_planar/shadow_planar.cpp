@@ -19,26 +19,26 @@ void ShadowPlanar::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	receivers = find_receiver_planes(p_inputs.scene, p_inputs.light);
 	const size_t other_count = p_inputs.scene.instances.size() - receivers.declared_count;
 	if (receivers.declared_count == 0) {
-		r_plan.leave_out("planar shadows", "no node has shadow_planar_receiver: set it on floors");
+		r_plan.skip("planar shadows", "no node has shadow_planar_receiver: set it on floors");
 	} else if (!receivers.planes.empty()) {
 		r_plan.run(text("planes: ", receivers.planes.size()));
 	}
 	if (other_count > 0) {
-		r_plan.leave_out(text("shadows on ", other_count, " other meshes"),
+		r_plan.skip(text("shadows on ", other_count, " other meshes"),
 				"planar shadows fall on declared planes alone");
 	}
 	if (receivers.unfit_count > 0) {
-		r_plan.leave_out(
+		r_plan.skip(
 				text("shadows on ", receivers.unfit_count, " declared meshes"), "they are curved");
 	}
-	if (receivers.left_out_count > 0) {
-		r_plan.leave_out(text("shadows on ", receivers.left_out_count, " small planes"),
+	if (receivers.skipped_count > 0) {
+		r_plan.skip(text("shadows on ", receivers.skipped_count, " small planes"),
 				"16 are drawn at most");
 	}
 }
 
 RGTexture ShadowPlanar::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
-	if ((casters.empty() || receivers.planes.empty()) && p_inputs.may_leave_out) {
+	if ((casters.empty() || receivers.planes.empty()) && p_inputs.may_skip) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
 	const PlanarTargets targets = add_lit_pass(r_graph, p_inputs);

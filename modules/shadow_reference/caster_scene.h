@@ -23,7 +23,7 @@ void set_ray(RTCRay8 &r_rays, uint32_t p_lane, const glm::vec3 &p_origin, const 
 class CasterScene {
 public:
 	/// Three indices per triangle. Positions relative to an origin near the camera, so that float32
-	/// suffices. Triangles with a position that is not finite are left out; an index out of range
+	/// suffices. Triangles with a position that is not finite are skipped; an index out of range
 	/// is a programming error. Embree failing is an Error.
 	/// p_translucent: each leaves its part of the rays that meet it; several multiply.
 	CasterScene(std::span<const glm::vec3> p_positions,

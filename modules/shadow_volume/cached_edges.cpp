@@ -30,14 +30,14 @@ void CachedEdges::plan(const ShadowTechnique::Inputs &p_inputs, const Silhouette
 	if (p_casters.casters.empty()) {
 		return reset();
 	}
-	if (p_inputs.may_leave_out && p_inputs.may_reuse && p_are_all_drawn) {
+	if (p_inputs.may_skip && p_inputs.may_reuse && p_are_all_drawn) {
 		key = compute_key(p_inputs, p_casters);
 		is_cached = key == cached_key;
 		is_still = key == last_key;
 	}
 	const std::string pass = text("find edges, casters: ", p_casters.casters.size());
 	if (is_cached) {
-		r_plan.leave_out(pass, "cached: neither the light nor a caster moved");
+		r_plan.skip(pass, "cached: neither the light nor a caster moved");
 	} else {
 		r_plan.run(pass);
 	}

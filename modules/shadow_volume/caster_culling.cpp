@@ -63,33 +63,33 @@ std::vector<uint32_t> CasterCulling::plan(const ShadowTechnique::Inputs &p_input
 	tested.reset();
 	map = {};
 	collect();
-	if (p_wish == Wish::OFF || !p_inputs.may_leave_out || p_inputs.views.empty() ||
+	if (p_wish == Wish::OFF || !p_inputs.may_skip || p_inputs.views.empty() ||
 			p_inputs.views.size() > CULLING_MAX_VIEWS) {
 		return p_instances;
 	}
-	const auto leave_out = [&](const char *p_reason) {
-		r_plan.leave_out("occlusion culling", p_reason);
+	const auto skip = [&](const char *p_reason) {
+		r_plan.skip("occlusion culling", p_reason);
 		return p_instances;
 	};
 	if (p_wish == Wish::AUTO && p_instances.size() < LEAST_CASTERS) {
-		return leave_out("few casters");
+		return skip("few casters");
 	}
 	const uint64_t last_key = std::exchange(key, compute_key(p_inputs, p_instances));
 	const bool has_same_casters =
 			p_inputs.may_reuse && known && known->is_hidden.size() == p_instances.size();
 	if (!p_inputs.wants_debug_views && has_same_casters && known->key == key) {
-		return leave_out_hidden(p_instances, r_plan);
+		return cull_hidden(p_instances, r_plan);
 	}
 	if (p_wish == Wish::AUTO && frame < rests_until_frame) {
-		return leave_out("hardly a caster was hidden lately");
+		return skip("hardly a caster was hidden lately");
 	}
 	if (!p_inputs.device.get_features().conditional_rendering && key != last_key) {
-		return leave_out("what moves needs conditional rendering, which this device lacks");
+		return skip("what moves needs conditional rendering, which this device lacks");
 	}
 	occluders = choose_occluders(
 			p_inputs, p_instances, has_same_casters ? known->is_hidden : std::vector<bool>());
 	if (occluders.empty()) {
-		return leave_out("no caster is large enough to hide another");
+		return skip("no caster is large enough to hide another");
 	}
 	tested = std::make_shared<const std::vector<uint32_t>>(p_instances);
 	return p_instances;
@@ -102,7 +102,7 @@ void CasterCulling::report(TechniquePlan &r_plan) const {
 	}
 }
 
-std::vector<uint32_t> CasterCulling::leave_out_hidden(
+std::vector<uint32_t> CasterCulling::cull_hidden(
 		const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const {
 	std::vector<uint32_t> seen;
 	for (size_t i = 0; i < p_instances.size(); ++i) {
@@ -111,7 +111,7 @@ std::vector<uint32_t> CasterCulling::leave_out_hidden(
 		}
 	}
 	if (seen.size() < p_instances.size()) {
-		r_plan.leave_out(text("volumes of ", p_instances.size() - seen.size(), " casters"),
+		r_plan.skip(text("volumes of ", p_instances.size() - seen.size(), " casters"),
 				"others hide them from the light");
 	}
 	return seen;

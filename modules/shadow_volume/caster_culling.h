@@ -17,10 +17,10 @@ namespace gnomon {
 /// Where the chapter asks occlusion queries, a compute shader compares: a query sees only the
 /// centres of texels, so that a box between them counts as hidden, and the image would change.
 /// Here a texel counts only where all its rays are stopped, and a box only with every texel that it
-/// touches: what is left out is hidden with certainty.
+/// touches: what is culled is hidden with certainty.
 ///
 /// What was found comes back some frames later. While neither light nor casters have moved since,
-/// it holds, and hidden casters are left out without asking; otherwise it only leads the choice of
+/// it holds, and hidden casters are culled without asking; otherwise it only leads the choice of
 /// occluders, and this frame's words decide on the GPU.
 class CasterCulling {
 public:
@@ -54,7 +54,7 @@ private:
 	};
 
 	void collect();
-	std::vector<uint32_t> leave_out_hidden(
+	std::vector<uint32_t> cull_hidden(
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan) const;
 	void add_readback(RenderGraph &r_graph, RGBuffer p_words);
 

@@ -42,15 +42,15 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	edges.plan(p_inputs, list_compute_casters(p_inputs, casters), !culling.decides_draws(p_inputs),
 			r_plan);
 	if (casters.spared_caps_count > 0) {
-		r_plan.leave_out(text("far caps of ", casters.spared_caps_count, " casters"),
+		r_plan.skip(text("far caps of ", casters.spared_caps_count, " casters"),
 				"z-pass is safe: the camera's near plane is outside their volumes");
 	}
 	if (casters.unseen_count > 0) {
-		r_plan.leave_out(text("volumes of ", casters.unseen_count, " casters"),
+		r_plan.skip(text("volumes of ", casters.unseen_count, " casters"),
 				"their shadows lie outside the image");
 	}
 	if (casters.flat_count > 0) {
-		r_plan.leave_out(
+		r_plan.skip(
 				text("volumes of ", casters.flat_count, " casters"), "a scale of theirs is 0");
 	}
 	if (casters.group_count > 1) {
@@ -59,7 +59,7 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 }
 
 RGTexture ShadowVolume::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
-	if (casters.casters.empty() && p_inputs.may_leave_out) {
+	if (casters.casters.empty() && p_inputs.may_skip) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
 	}
 	const VolumeTargets targets = add_volume_receivers_pass(r_graph, p_inputs);

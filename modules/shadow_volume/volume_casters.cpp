@@ -126,7 +126,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		}
 		caster.area = compute_volume_area(
 				instance.bounds_world, p_inputs.light, camera, p_inputs.size_px);
-		if (p_inputs.may_leave_out && caster.area.is_empty()) {
+		if (p_inputs.may_skip && caster.area.is_empty()) {
 			++result.unseen_count;
 			continue;
 		}
@@ -141,7 +141,7 @@ VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 				p_settings.is_always_robust || is_light_within(instance, p_inputs.light)
 				? VolumeFaces::ALL
 				: solids.robust;
-		caster.count = p_settings.count.value_or(!p_inputs.may_leave_out ||
+		caster.count = p_settings.count.value_or(!p_inputs.may_skip ||
 								may_shade_near_plane(instance.bounds_world, p_inputs.light, camera)
 						? VolumeCount::Z_FAIL
 						: VolumeCount::Z_PASS);

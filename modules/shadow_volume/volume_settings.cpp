@@ -52,7 +52,7 @@ VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inp
 		settings.count = count == "z_pass" ? VolumeCount::Z_PASS : VolumeCount::Z_FAIL;
 	}
 	settings.is_always_robust = read_choice(values, "robust") == "always";
-	settings.has_scissor = std::get<bool>(values.at("scissor")) && p_inputs.may_leave_out;
+	settings.has_scissor = std::get<bool>(values.at("scissor")) && p_inputs.may_skip;
 	if (p_is_on_cpu) {
 		settings.maker = VolumeMaker::CPU;
 	} else {

@@ -10,9 +10,9 @@ void CachedViews::begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads) 
 	empty_views = 0;
 	unseen_views = 0;
 	for (uint32_t index = 0; index < view_count; ++index) {
-		if (p_inputs.may_leave_out && p_inputs.casters[index].instances.empty()) {
+		if (p_inputs.may_skip && p_inputs.casters[index].instances.empty()) {
 			empty_views |= 1u << index;
-		} else if (p_inputs.may_leave_out && p_reads == Reads::OWN_VIEW &&
+		} else if (p_inputs.may_skip && p_reads == Reads::OWN_VIEW &&
 				!p_inputs.casters[index].has_receivers) {
 			empty_views |= 1u << index;
 			unseen_views |= 1u << index;
@@ -29,16 +29,16 @@ void CachedViews::plan(
 	}
 	wanted_views.clear();
 	unseen_frame_count = is_empty && unseen_views != 0 ? unseen_frame_count + 1 : 0;
-	const bool may_reuse = p_inputs.may_leave_out && p_inputs.may_reuse;
+	const bool may_reuse = p_inputs.may_skip && p_inputs.may_reuse;
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if ((unseen_views & (1u << index)) != 0) {
 			// What was drawn stays right for when the camera turns back.
-			r_plan.leave_out_light_view(index, "the camera sees no receiver in it");
+			r_plan.skip_light_view(index, "the camera sees no receiver in it");
 		} else if ((empty_views & (1u << index)) != 0) {
 			drawn_hashes[index] = 0;
-			r_plan.leave_out_light_view(index, "no casters");
+			r_plan.skip_light_view(index, "no casters");
 		} else if (may_reuse && drawn_hashes[index] == p_inputs.casters[index].content_hash) {
-			r_plan.leave_out_light_view(index, "cached: neither the light nor a caster moved");
+			r_plan.skip_light_view(index, "cached: neither the light nor a caster moved");
 		} else {
 			drawn_hashes[index] = 0; // until it is drawn
 			wanted_views.push_back(index);

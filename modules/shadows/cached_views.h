@@ -14,7 +14,7 @@ namespace gnomon {
 class CachedViews {
 public:
 	/// How far the technique's filter reads: in the view that holds the receiver alone, or across
-	/// its sides in other views too. Views without receivers are left out only with OWN_VIEW.
+	/// its sides in other views too. Views without receivers are skipped only with OWN_VIEW.
 	enum class Reads { OWN_VIEW, ACROSS_VIEWS };
 	/// There must be at least one view, at most 32.
 	void begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads);
@@ -32,7 +32,7 @@ public:
 	bool may_forget() const {
 		return is_empty && (unseen_views == 0 || unseen_frame_count >= MAX_UNUSED_FRAMES);
 	}
-	/// Views that were not left out, ascending.
+	/// Views that were not skipped, ascending.
 	const std::vector<uint32_t> &get_wanted_views() const { return wanted_views; }
 
 private:

@@ -42,7 +42,7 @@ std::vector<uint32_t> collect_casters(
 
 /// Views for ShadowTechnique::get_light_views that only list casters.
 std::vector<LightView> build_listing_views(const LightSnapshot &p_light, const LightScene &p_scene);
-/// Leaves out all of the light's views, and returns their casters, ascending.
+/// Skips all of the light's views, and returns their casters, ascending.
 std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
 
 } // namespace gnomon

@@ -12,11 +12,11 @@ void FramePlan::run(const std::string &p_pass) {
 	entries.push_back({ light, p_pass, true, {} });
 }
 
-void FramePlan::leave_out(const std::string &p_pass, const std::string &p_reason) {
+void FramePlan::skip(const std::string &p_pass, const std::string &p_reason) {
 	entries.push_back({ light, p_pass, false, p_reason });
 }
 
-bool FramePlan::is_left_out(const std::string &p_light, const std::string &p_pass) const {
+bool FramePlan::is_skipped(const std::string &p_light, const std::string &p_pass) const {
 	return std::any_of(entries.begin(), entries.end(), [&](const FramePlanEntry &p_entry) {
 		return !p_entry.runs && p_entry.light == p_light && p_entry.pass == p_pass;
 	});
@@ -26,7 +26,7 @@ std::string FramePlan::to_text() const {
 	std::string lines;
 	for (const FramePlanEntry &entry : entries) {
 		lines += text(entry.light.empty() ? "frame" : entry.light, ": ", entry.pass, ": ",
-				entry.runs ? "runs" : "left out, " + entry.reason, "\n");
+				entry.runs ? "runs" : "skipped, " + entry.reason, "\n");
 	}
 	return lines;
 }

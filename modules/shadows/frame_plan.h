@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// One line of the plan: a pass that runs, or one that was left out and why.
+/// One line of the plan: a pass that runs, or one that was skipped and why.
 struct FramePlanEntry {
 	std::string light; // empty: of the whole frame
 	std::string pass;
@@ -16,18 +16,18 @@ struct FramePlanEntry {
 };
 
 /// What a frame does and does not do (DESIGN, one frame). Built before any pass is recorded.
-/// Everything that is left out leaves the image bit for bit as it was.
+/// Everything that is skipped leaves the image bit for bit as it was.
 class FramePlan {
 public:
 	/// Lines are added for this light until the next call; empty = the whole frame.
 	void set_light(const std::string &p_name) { light = p_name; }
 	void run(const std::string &p_pass);
-	void leave_out(const std::string &p_pass, const std::string &p_reason);
+	void skip(const std::string &p_pass, const std::string &p_reason);
 
 	const std::vector<FramePlanEntry> &get_entries() const { return entries; }
-	/// True when a line says that the pass of that light was left out.
-	bool is_left_out(const std::string &p_light, const std::string &p_pass) const;
-	/// One line per entry: "Lamp: light view 0: left out, no casters".
+	/// True when a line says that the pass of that light was skipped.
+	bool is_skipped(const std::string &p_light, const std::string &p_pass) const;
+	/// One line per entry: "Lamp: light view 0: skipped, no casters".
 	std::string to_text() const;
 	/// [{"light", "pass", "runs", "reason"}, ...]
 	std::string to_json() const;

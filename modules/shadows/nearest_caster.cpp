@@ -30,7 +30,7 @@ float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view
 	for (uint32_t caster : p_inputs.casters[p_view_index].instances) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[caster];
 		if (!view.may_see(instance)) {
-			continue; // listed only when nothing may be left out
+			continue; // listed only when nothing may be skipped
 		}
 		const double distance_m = std::max(
 				double(view.near_m), compute_nearest_distance_m(view, p_inputs.light, instance));

@@ -71,9 +71,9 @@ void check_surface(const RenderGraph &p_graph, RGTexture p_texture, const char *
 
 } // namespace
 
-void TechniquePlan::leave_out_light_view(uint32_t p_view_index, const std::string &p_reason) {
-	if (left_out_views.insert(p_view_index).second) {
-		leave_out(text("light view ", p_view_index), p_reason);
+void TechniquePlan::skip_light_view(uint32_t p_view_index, const std::string &p_reason) {
+	if (skipped_views.insert(p_view_index).second) {
+		skip(text("light view ", p_view_index), p_reason);
 	}
 }
 
@@ -105,7 +105,7 @@ ShadowFrame::ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan
 		plan.run(text("deform, meshes: ", moved_count));
 	}
 	if (posed_count > moved_count) {
-		plan.leave_out(text("deform, meshes: ", posed_count - moved_count),
+		plan.skip(text("deform, meshes: ", posed_count - moved_count),
 				"cached: their pose is the same");
 	}
 	constants = graph.upload_constants("frame constants", compute_frame_constants(*scene, size_px),
@@ -198,10 +198,10 @@ LightShadow ShadowFrame::add_light(const LightSnapshot &p_light, bool p_wants_de
 	plan.run("receivers");
 	const VisibleReceivers lit = find_lit_receivers(p_light, receivers);
 	if (!p_light.casts_shadow) {
-		plan.leave_out("shadow", "shadow_enabled is false");
+		plan.skip("shadow", "shadow_enabled is false");
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
-	} else if (options.may_leave_out && lit.list.empty() && !p_wants_debug_views) {
-		plan.leave_out("shadow", describe_unlit(p_light));
+	} else if (options.may_skip && lit.list.empty() && !p_wants_debug_views) {
+		plan.skip("shadow", describe_unlit(p_light));
 		shadow.mask = add_constant_mask(graph, size_px, 1.0f);
 	} else {
 		shadow.mask = add_shadow(p_light, lit, shadow, p_wants_debug_views);
@@ -263,7 +263,7 @@ ShadowTechnique::Inputs ShadowFrame::make_inputs(const Work &p_work,
 		.receivers = p_work.shadow.receivers,
 		.frame = constants,
 		.light_constants = p_work.shadow.light_constants,
-		.may_leave_out = options.may_leave_out,
+		.may_skip = options.may_skip,
 		.may_reuse = options.may_reuse,
 		.wants_debug_views = p_wants_debug_views,
 		.lit_receivers = p_work.lit_receivers.list,
@@ -300,7 +300,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 			fit_to_receivers(view, p_work.lit_receivers,
 					compute_fit_reach_m(view, p_work.light, p_work.scene));
 		}
-		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_leave_out));
+		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_skip));
 		// What is shown itself is seen, receivers or not.
 		casters.back().has_receivers =
 				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
@@ -308,7 +308,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 	const ShadowTechnique::Inputs inputs = make_inputs(p_work, views, casters, wants_debug_views);
 	r_technique.plan(inputs, technique_plan);
 	for (uint32_t index = 0; index < views.size(); ++index) {
-		if (technique_plan.is_light_view_left_out(index)) {
+		if (technique_plan.is_light_view_skipped(index)) {
 			continue;
 		}
 		technique_plan.run(text("light view ", index));
@@ -360,11 +360,11 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	const TechniqueChoice choice = choose_technique(p_light, options.technique_override);
 	system.warn_once(choice.warning);
 	if (!choice.info) {
-		plan.leave_out("shadow", "no technique is enabled");
+		plan.skip("shadow", "no technique is enabled");
 		return add_constant_mask(graph, size_px, 1.0f);
 	}
 	if (!choice.warning.empty()) {
-		plan.leave_out(p_light.technique_id, "not enabled; " + choice.info->id + " runs instead");
+		plan.skip(p_light.technique_id, "not enabled; " + choice.info->id + " runs instead");
 	}
 	const PropertyValues properties = resolve_light_properties(
 			p_light, ShadowRegistry::get_light_properties(choice.info->id));

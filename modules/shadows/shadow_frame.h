@@ -39,7 +39,7 @@ struct ShadowFrameOptions {
 	/// Replaces the technique of every light. Empty = each light's own. Must be registered.
 	std::string technique_override = {};
 	/// False: runs everything, also what the masks do not need.
-	bool may_leave_out = true;
+	bool may_skip = true;
 	/// False: techniques use nothing that they cached of earlier frames.
 	bool may_reuse = true;
 };

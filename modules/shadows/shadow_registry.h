@@ -29,7 +29,7 @@ struct ShadowTechniqueInfo {
 	/// Of a reference: the same mask without a device, for whoever cannot wait for a frame. Empty:
 	/// there is no such way.
 	std::function<std::unique_ptr<ReferenceSource>(ReferenceQuestion)> make_reference_source = {};
-	/// There to be copied, not to be measured: the error report leaves it out unless it is named.
+	/// There to be copied, not to be measured: the error report skips it unless it is named.
 	bool is_example = false;
 	/// Shadows fall on instances alone that their node declares planar; of no use to a host whose
 	/// nodes cannot (InstanceSnapshot::is_planar_receiver).

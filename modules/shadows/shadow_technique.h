@@ -36,19 +36,19 @@ public:
 			plan(p_plan), prefix(std::move(p_prefix)) {}
 
 	void run(const std::string &p_pass) { plan.run(prefix + p_pass); }
-	void leave_out(const std::string &p_pass, const std::string &p_reason) {
-		plan.leave_out(prefix + p_pass, p_reason);
+	void skip(const std::string &p_pass, const std::string &p_reason) {
+		plan.skip(prefix + p_pass, p_reason);
 	}
 	/// None of the view's three hooks is called then.
-	void leave_out_light_view(uint32_t p_view_index, const std::string &p_reason);
-	bool is_light_view_left_out(uint32_t p_view_index) const {
-		return left_out_views.count(p_view_index) != 0;
+	void skip_light_view(uint32_t p_view_index, const std::string &p_reason);
+	bool is_light_view_skipped(uint32_t p_view_index) const {
+		return skipped_views.count(p_view_index) != 0;
 	}
 
 private:
 	FramePlan &plan;
 	std::string prefix;
-	std::set<uint32_t> left_out_views;
+	std::set<uint32_t> skipped_views;
 };
 
 /// Where the answer stays sensible, measured by the stability sweeps (doc/stability.md). Beyond it
@@ -89,8 +89,8 @@ public:
 		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
 		RGBuffer frame;		 // FrameConstants
 		RGBuffer light_constants; // LightConstants
-		/// False: nothing may be left out (for the test that compares both bit for bit).
-		bool may_leave_out = true;
+		/// False: nothing may be skipped (for the test that compares both bit for bit).
+		bool may_skip = true;
 		/// False: what was cached of earlier frames must not be used, as if everything had moved.
 		bool may_reuse = true;
 		/// True while one of the technique's debug views is shown.
@@ -136,9 +136,9 @@ public:
 	/// True: directional views may be narrowed to what the camera sees and what lies a penumbra
 	/// beside it, since the technique asks its maps about receivers alone.
 	virtual bool asks_receivers_alone() const { return false; }
-	/// Called once a frame before any pass: what will run, what is left out and why.
+	/// Called once a frame before any pass: what will run, what is skipped and why.
 	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}
-	/// Around each light view that was not left out, in this order; record passes only.
+	/// Around each light view that was not skipped, in this order; record passes only.
 	virtual void before_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
 	virtual void at_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
 	virtual void after_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}

@@ -91,7 +91,7 @@ uint find_set(ivec2 p_pixel, int p_block_width) {
 	return first + place.x + uint(p_block_width) * place.y;
 }
 
-/// Are samples on other surfaces left out?
+/// Are samples on other surfaces skipped?
 bool refuses_others(Receiver p_receiver) {
 	return push.refusal == SCATTER_REFUSAL_ON ||
 			(push.refusal == SCATTER_REFUSAL_AUTO && is_metric(p_receiver));

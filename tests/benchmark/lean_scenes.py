@@ -1,4 +1,4 @@
-"""Scenes in which one rule of what is left out has its effect; measure_lean.py renders them."""
+"""Scenes in which one rule of what is skipped has its effect; measure_lean.py renders them."""
 
 import math
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what is left out when it is not needed, and writes the tables of doc/benchmarks.md.
+"""Measures what is skipped when it is not needed, and writes the tables of doc/benchmarks.md.
 
     measure_lean.py [--only lean|lean_lights] [--size N] [--repeats N] [--write]
 
@@ -32,24 +32,24 @@ class Rule:
 
 
 RULES = (
-    Rule("lights that light nothing in view", lambda folder: lean_scenes.make_lights(12, folder), "light: left out, the camera sees no"),
-    Rule("light views without casters", lean_scenes.make_tower, "left out, no casters", "shadow_map"),
-    Rule("light views without receivers", lean_scenes.make_room, "left out, the camera sees no receiver in it", "shadow_map"),
+    Rule("lights that light nothing in view", lambda folder: lean_scenes.make_lights(12, folder), "light: skipped, the camera sees no"),
+    Rule("light views without casters", lean_scenes.make_tower, "skipped, no casters", "shadow_map"),
+    Rule("light views without receivers", lean_scenes.make_room, "skipped, the camera sees no receiver in it", "shadow_map"),
     Rule("third layer behind an empty second", lean_scenes.make_quads, "layer 3 only if layer 2", "penumbra_fins",
          ("technique.penumbra_fins.peeling=passes",)),
-    Rule("fins and layers, r = t = 0", lean_scenes.make_balls, "fins: left out, r and t are 0", "penumbra_fins",
+    Rule("fins and layers, r = t = 0", lean_scenes.make_balls, "fins: skipped, r and t are 0", "penumbra_fins",
          ("penumbra_outer_width=0", "penumbra_inner_width=0")),
-    Rule("layers, t = 0", lean_scenes.make_balls, "layers 2 and 3: left out, t is 0", "penumbra_fins", ("penumbra_inner_width=0",)),
-    Rule("scatter without translucent surfaces", lean_scenes.make_balls, "scatter: left out"),
-    Rule("filter where blocks have few edges", lambda folder: lean_scenes.make_lights(0, folder), "edges: left out, all casters together", "edge_count",
+    Rule("layers, t = 0", lean_scenes.make_balls, "layers 2 and 3: skipped, t is 0", "penumbra_fins", ("penumbra_inner_width=0",)),
+    Rule("scatter without translucent surfaces", lean_scenes.make_balls, "scatter: skipped"),
+    Rule("filter where blocks have few edges", lambda folder: lean_scenes.make_lights(0, folder), "edges: skipped, all casters together", "edge_count",
          ("edge_count_budget=65536",)),
-    Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: left out, z-pass is safe", "shadow_volume"),
-    Rule("maps at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved", "shadow_map", (), True),
-    Rule("depth layers and fins at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved",
+    Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: skipped, z-pass is safe", "shadow_volume"),
+    Rule("maps at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "shadow_map", (), True),
+    Rule("depth layers and fins at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved",
          "penumbra_fins", (), True),
-    Rule("edges and layers at rest", lean_scenes.make_knots, "left out, cached: neither the light nor a caster moved", "edge_count",
+    Rule("edges and layers at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "edge_count",
          (), True),
-    Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: left out, cached", "shadow_volume",
+    Rule("silhouette edges at rest", lean_scenes.make_knots, "find edges, casters: 10: skipped, cached", "shadow_volume",
          ("technique.shadow_volume.extrusion=compute",), True),
 )  # fmt: skip
 
@@ -99,7 +99,7 @@ def measure_rules(options):
                  "%.1f / %.1f" % (with_rule, without), "%.2f" % (with_rule / without))  # fmt: skip
             )
             print(*rows[-1], flush=True)
-    header = ("what is left out", "technique", "passes, with the rules / without", "draws + dispatches", "MB", "ms", "ratio of ms")
+    header = ("what is skipped", "technique", "passes, with the rules / without", "draws + dispatches", "MB", "ms", "ratio of ms")
     return format_table(header, rows)
 
 
@@ -130,7 +130,7 @@ PARTS = {"lean": measure_rules, "lean_lights": measure_lights}
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Measures what is left out when it is not needed.")
+    parser = argparse.ArgumentParser(description="Measures what is skipped when it is not needed.")
     parser.add_argument("--only", choices=PARTS, help="this table")
     parser.add_argument("--size", type=int, default=512, help="pixels of each side")
     parser.add_argument("--repeats", type=int, default=5)

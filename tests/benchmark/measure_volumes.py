@@ -92,7 +92,7 @@ def count_hidden(scene, folder):
     words = [word for setting in POINT for word in ("--set", setting)]
     plan = run([GNOMON, "visibility", scene, "--technique", "shadow_volume", "--size", SIZE, "--frames", "2", "--plan",
                 "--out", os.path.join(folder, "mask.exr"), *words])  # fmt: skip
-    found = re.search(r"volumes of (\d+) casters: left out, others hide them", plan)
+    found = re.search(r"volumes of (\d+) casters: skipped, others hide them", plan)
     return int(found.group(1)) if found else 0
 
 

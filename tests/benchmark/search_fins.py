@@ -113,7 +113,7 @@ class Search:
             is_better_once = True
 
     def improve_widths(self, factor, reference_path, limit):
-        """Both in turn, until neither is better: a list, since any() alone would leave out t after r fell."""
+        """Both in turn, until neither is better: a list, since any() alone would skip t after r fell."""
         while any([self.improve_width(index, factor, reference_path, limit) for index in (OUTER, INNER)]):
             pass
 

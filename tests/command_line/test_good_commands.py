@@ -113,7 +113,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--time", result.stderr)
 
-    def test_whole_frames_are_timed_with_and_without_what_is_left_out(self):
+    def test_whole_frames_are_timed_with_and_without_what_is_skipped(self):
         found, images, plans = {}, {}, {}
         for name, words in (("lean", ()), ("whole", ("--leave-out-nothing",))):
             times, image = self.path(name + ".json"), self.path(name + ".png")
@@ -126,8 +126,8 @@ class GoodCommands(CommandLineTest):
             with open(image, "rb") as file:
                 images[name] = file.read()
         self.assertEqual(images["lean"], images["whole"])
-        self.assertIn("left out, no casters", plans["lean"])
-        self.assertNotIn("left out, no casters", plans["whole"])
+        self.assertIn("skipped, no casters", plans["lean"])
+        self.assertNotIn("skipped, no casters", plans["whole"])
         for name in ("pass_count", "draws", "dispatches"):
             self.assertGreater(found["lean"][name], 0)
             self.assertGreaterEqual(found["whole"][name], found["lean"][name])

@@ -84,7 +84,7 @@ class ProjectFile(unittest.TestCase):
             with self.subTest(line=line), self.assertRaises(SystemExit):
                 self.load("[a]\n" + line + "\n")
 
-    def test_lights_whose_shadow_is_off_are_left_out(self):
+    def test_lights_whose_shadow_is_off_are_skipped(self):
         lights = [
             {"type": "spot", "extras": {"shadow_enabled": False}},
             {"type": "point", "name": "B"},

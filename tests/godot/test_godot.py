@@ -42,7 +42,7 @@ SKIPPED = (
     "*a scene with one layer has two empty ones*",
     "*casters across the light's near plane are clamped*",
     # Moving casters are culled with conditional rendering only.
-    "*casters behind a wall are left out*",
+    "*casters behind a wall are culled*",
     "*a caster that comes out from behind its wall*",
     "*random casters: culling never changes*",
     "*culling rests where hardly a caster*",

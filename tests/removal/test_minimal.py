@@ -6,7 +6,7 @@ report and window; and programs that lack the report or parts of it.
     test_minimal.py [--jobs N]       builds them in a copy of the tree and runs them
     test_minimal.py --write-sizes    builds it and writes the table of sizes in doc/getting_started.md
 
-What is missing is left out by module_<name>_enabled=no.
+What is missing is disabled by module_<name>_enabled=no.
 """
 
 import argparse
@@ -27,7 +27,7 @@ ABSENT_COMMANDS = {"edit": "editor", "visibility": "masks", "compare": "masks", 
 PROGRAM = "bin/gnomon"
 SCENE = os.path.join("demo_project", "scenes", "sphere.gltf")
 SMALL_REPORT = ("report", SCENE, "--size", "16x16", "--samples", "4", "--scaling", "none", "--out", "report")
-# Modules that are left out together; words that are refused then, and the module that the refusal names; words that work.
+# Modules that are disabled together; words that are refused then, and the module that the refusal names; words that work.
 PARTIAL_BUILDS = (
     (("stability_report",), (*SMALL_REPORT, "--stability", "quick"), "stability_report", SMALL_REPORT),
     (("stability_report",), (*SMALL_REPORT, "--sweeps", "scale"), "stability_report", SMALL_REPORT),
@@ -61,7 +61,7 @@ def find_default_technique():
 
 
 def list_options(technique):
-    """scons options that leave out all but the engine and one technique."""
+    """scons options that disable all but the engine and one technique."""
     enabled = ENGINE + (technique,)
     names = [module.name for module in modules_builders.find_modules(os.path.join(ROOT, "modules"))]
     return enabled, ["module_%s_enabled=no" % name for name in names if name not in enabled]
@@ -104,7 +104,7 @@ def check_plan(results):
 
 
 def check_partial_plans(results):
-    """Nothing of a module that is left out is compiled."""
+    """Nothing of a module that is disabled is compiled."""
     for modules in sorted({modules for modules, *_ in PARTIAL_BUILDS}):
         command = ["scons", "-n", "-Q", "compiledb=no", "tests=no", "--tree=all,prune", PROGRAM]
         planned = run(command + ["module_%s_enabled=no" % module for module in modules], ROOT)

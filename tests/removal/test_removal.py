@@ -80,7 +80,7 @@ def run(target, what, command):
 
 
 def find_blind_tests(tree):
-    """doctest's option that leaves out tests that no other technique can fail: those of techniques, and of modules below
+    """doctest's option that skips tests that no other technique can fail: those of techniques, and of modules below
     the registry.
     """
     blind = set(tree.find_techniques())

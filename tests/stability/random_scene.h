@@ -74,7 +74,7 @@ public:
 		request.scene = scene.snap();
 		request.size_px = { 8 + random.choose(41), 8 + random.choose(41) };
 		request.may_reuse = random.chance(0.8);
-		request.may_leave_out = random.chance(0.8);
+		request.may_skip = random.chance(0.8);
 		const std::vector<Light3D *> all = lights();
 		if (!all.empty() && random.chance(0.6)) {
 			request.mask_light = all[random.choose(all.size())]->name;

@@ -28,7 +28,7 @@ void draw_entries(const FramePlan &p_plan) {
 	}
 	ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthStretch, 0.5f);
 	ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-	ImGui::TableSetupColumn("left out", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+	ImGui::TableSetupColumn("skipped", ImGuiTableColumnFlags_WidthStretch, 1.5f);
 	ImGui::TableHeadersRow();
 	for (const FramePlanEntry &entry : p_plan.get_entries()) {
 		ImGui::TableNextRow();

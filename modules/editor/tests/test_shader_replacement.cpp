@@ -63,7 +63,7 @@ TEST_CASE("[GPU][RenderingDevice] a replaced shader is used at once, by handles 
 	// A pipeline that is made later has it too.
 	CHECK(fixture.run(fixture.device->get_compute_pipeline(
 				  { "scale", NAME, { { 0, 1 }, { 1, 4 } } })) == 120);
-	// A binding that is used no more is only left out, and may come back.
+	// A binding that is used no more is only omitted, and may come back.
 	fixture.device->replace_shaders(
 			{ { NAME, fixture.compile("source[index] * FACTOR", "FACTOR") } });
 	CHECK(fixture.run(pipeline) == 4);

@@ -10,7 +10,7 @@
 	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];
 	const NO_VALUE = "–";
 
-	/* An element; null and undefined attributes and children are left out. Strings become text, never markup. */
+	/* An element; null and undefined attributes and children are skipped. Strings become text, never markup. */
 	report.make = function (tag, attributes, ...children) {
 		const element = document.createElement(tag);
 		for (const [name, value] of Object.entries(attributes || {})) {

@@ -74,7 +74,7 @@
 		const x_ticks = plot.x_ticks ? plot.x_ticks.map(([x]) => x) : chooseTicks(plot.x_domain, width_px - MARGIN_PX.left - right_px, 38);
 		const x_names = new Map(plot.x_ticks || []);
 		const y_ticks = chooseTicks(plot.y_domain, plot.height_px - MARGIN_PX.top - MARGIN_PX.bottom, 22);
-		// The text of a logarithmic axis is given here: d3 would leave out that of some ticks.
+		// The text of a logarithmic axis is given here: d3 would omit that of some ticks.
 		const axes = [Plot.gridX(x_ticks), Plot.gridY(y_ticks), Plot.axisX(x_ticks, { text: (x) => x_names.get(x) || report.showTick(x), tickSize: 0, label: plot.x_label }),
 			Plot.axisY(y_ticks, { text: report.showTick, tickSize: 0, label: plot.y_label })];
 		const marks = groups.map(([id, points]) => Plot.line(d3.sort(points, (point) => point.x), {

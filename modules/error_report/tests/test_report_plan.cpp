@@ -135,7 +135,7 @@ TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their
 	std::vector<TechniqueSource> techniques = make_scripted_techniques();
 	techniques[1].info.id = "other";
 	techniques[1].get_settings = techniques[0].get_settings;
-	techniques.push_back(make_scripted_techniques()[1]); // with an expensive setting: left out
+	techniques.push_back(make_scripted_techniques()[1]); // with an expensive setting: skipped
 	const ReportPlan plan = make_report_plan(options, {}, techniques);
 	std::set<std::string> groups;
 	std::set<std::string> records;

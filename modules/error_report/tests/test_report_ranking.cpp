@@ -90,7 +90,7 @@ TEST_CASE("[ErrorReport] settings are ranked by their mean error, with medians o
 		add_cell(report, at, "soft", costs_ms[at] * (at + 2.0), 0.1 * double(at + 1));
 	}
 	add_cell(report, 1, "soft", 100, 0.05, "expensive").error->whole_light.penumbra.pixel_count = 0;
-	report.cells[1].error->whole_light.penumbra.pixel_count = 0; // left out of that mean alone
+	report.cells[1].error->whole_light.penumbra.pixel_count = 0; // skipped in that mean alone
 	const std::vector<RankingRow> rows = rank_settings(report);
 	REQUIRE(rows.size() == 3);
 	CHECK(rows[0].setting == "expensive");

@@ -115,7 +115,7 @@ TEST_CASE("[GltfLights] an area light without members does not shift those after
 	CHECK(folder.load(json)->find_nodes<Light3D>().at(0)->properties.empty());
 }
 
-TEST_CASE("[GltfLights] -1 is allowed for r and t; other bad values are reported and left out") {
+TEST_CASE("[GltfLights] -1 is allowed for r and t; other bad values are reported and ignored") {
 	GltfTestFolder folder;
 	Json json = make_lamp();
 	Json &extras = get_light(json)["extras"];

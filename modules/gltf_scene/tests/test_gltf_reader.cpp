@@ -63,7 +63,7 @@ TEST_CASE("[GltfReader] sparse accessors replace some elements, of a view or of 
 }
 
 TEST_CASE(
-		"[GltfReader] strips and fans become triangles of the same winding; points are left out") {
+		"[GltfReader] strips and fans become triangles of the same winding; points are skipped") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);
@@ -194,7 +194,7 @@ TEST_CASE("[GltfReader] materials have the format's values, ours in extras, and 
 	CHECK(GltfTestLog::contains(log.errors, "materials[0].extras.scatter_distance is -1"));
 }
 
-TEST_CASE("[GltfReader] cameras are read, orthographic ones left out, flags of meshes found") {
+TEST_CASE("[GltfReader] cameras are read, orthographic ones skipped, flags of meshes found") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);

@@ -185,7 +185,7 @@ TEST_CASE("[Topology] duplicate faces are counted and paired into two equal surf
 	}
 }
 
-TEST_CASE("[Topology] triangles with an edge of zero length are left out and counted") {
+TEST_CASE("[Topology] triangles with an edge of zero length are skipped and counted") {
 	Mesh mesh = make_cube();
 	mesh.positions_node.push_back(mesh.positions_node[0]); // same place, other index
 	mesh.indices.insert(mesh.indices.end(), { 0, 8, 3, 5, 5, 6, 7, 7, 7 });

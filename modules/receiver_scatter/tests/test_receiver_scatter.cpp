@@ -153,30 +153,30 @@ TEST_CASE("[GPU][ReceiverScatter] opaque receivers stay to the bit as they are")
 	MaskFixture fixture;
 	SmallScene scene;
 	const MaskResult before = fixture.render_mask(scene, find_technique());
-	CHECK(before.plan.is_left_out("Light", "scatter"));
+	CHECK(before.plan.is_skipped("Light", "scatter"));
 	const MaskResult whole = fixture.render_mask(scene, find_technique(), glm::uvec2(64), false);
-	CHECK_FALSE(whole.plan.is_left_out("Light", "scatter"));
+	CHECK_FALSE(whole.plan.is_skipped("Light", "scatter"));
 	CHECK(whole.visibility == before.visibility);
 	// Another surface that scatters changes nothing on the ground, unless it is seen there.
 	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);
 	const MaskResult wax = fixture.render_mask(scene, find_technique());
-	CHECK_FALSE(wax.plan.is_left_out("Light", "scatter"));
-	CHECK_FALSE(wax.plan.is_left_out("Light", "scatter average"));
+	CHECK_FALSE(wax.plan.is_skipped("Light", "scatter"));
+	CHECK_FALSE(wax.plan.is_skipped("Light", "scatter average"));
 	scene.box->surfaces[0].material = make_wax(0.5f, 0.0f); // in pixels, where nothing is averaged
 	const MaskResult in_pixels = fixture.render_mask(scene, find_technique());
-	CHECK(in_pixels.plan.is_left_out("Light", "scatter average"));
+	CHECK(in_pixels.plan.is_skipped("Light", "scatter average"));
 	CHECK(in_pixels.visibility ==
 			fixture.render_mask(scene, find_technique(), glm::uvec2(64), false).visibility);
 	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);
 	scene.light->properties["receiver_scatter_enabled"] = false;
 	const MaskResult disabled = fixture.render_mask(scene, find_technique());
-	CHECK(disabled.plan.is_left_out("Light", "scatter"));
+	CHECK(disabled.plan.is_skipped("Light", "scatter"));
 	CHECK(disabled.visibility == before.visibility);
-	// Out of sight it is left out, with the same image.
+	// Out of sight it is skipped, with the same image.
 	scene.light->properties.erase("receiver_scatter_enabled");
 	scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), glm::dvec3(0, 40, 0));
 	const MaskResult hidden = fixture.render_mask(scene, find_technique());
-	CHECK(hidden.plan.is_left_out("Light", "scatter"));
+	CHECK(hidden.plan.is_skipped("Light", "scatter"));
 	CHECK(hidden.visibility ==
 			fixture.render_mask(scene, find_technique(), glm::uvec2(64), false).visibility);
 }
@@ -271,28 +271,28 @@ TEST_CASE("[GPU][ReceiverScatter] the same frame twice is the same to the bit") 
 }
 
 TEST_CASE(
-		"[GPU][ReceiverScatter] a light that does not reach what scatters leaves the filter out") {
+		"[GPU][ReceiverScatter] a light that does not reach what scatters skips the filter") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);
 	Light3D &lamp = scene.add_light("Lamp", LightType::OMNI, { -1.2, 0.5, 0.6 }, { 0, 0, 0.1 });
 	lamp.range_m = 0.6f; // the ground below it, not the box
-	const auto render = [&](bool p_may_leave_out) {
+	const auto render = [&](bool p_may_skip) {
 		MaskRequest request;
 		request.scene = scene.snap();
 		request.size_px = glm::uvec2(64);
 		request.technique_override = find_technique();
-		request.may_leave_out = p_may_leave_out;
+		request.may_skip = p_may_skip;
 		return fixture.render(request);
 	};
 	const MaskResult lean = render(true);
-	CHECK(lean.plan.is_left_out("Lamp", "scatter"));
-	CHECK_FALSE(lean.plan.is_left_out("Light", "scatter"));
-	CHECK_FALSE(lean.plan.is_left_out("Lamp", "shadow"));
+	CHECK(lean.plan.is_skipped("Lamp", "scatter"));
+	CHECK_FALSE(lean.plan.is_skipped("Light", "scatter"));
+	CHECK_FALSE(lean.plan.is_skipped("Lamp", "shadow"));
 	const MaskResult whole = render(false);
 	for (const char *light : { "Light", "Lamp" }) {
 		CHECK(lean.masks.at(light).visibility == whole.masks.at(light).visibility);
 	}
 	lamp.range_m = 2.0f;
-	CHECK_FALSE(render(true).plan.is_left_out("Lamp", "scatter"));
+	CHECK_FALSE(render(true).plan.is_skipped("Lamp", "scatter"));
 }

@@ -21,24 +21,24 @@ struct RenderFixture {
 	explicit RenderFixture(DeviceChoice p_choice) : RenderFixture("", {}, p_choice) {}
 
 	RenderResult render_mask(const SmallScene &p_scene, const std::string &p_technique,
-			glm::uvec2 p_size_px = glm::uvec2(64), bool p_may_leave_out = true) {
+			glm::uvec2 p_size_px = glm::uvec2(64), bool p_may_skip = true) {
 		RenderRequest request;
 		request.scene = p_scene.snap();
 		request.size_px = p_size_px;
 		request.technique_override = p_technique;
 		request.mask_light = p_scene.light->name;
 		request.wants_mask = true;
-		request.may_leave_out = p_may_leave_out;
+		request.may_skip = p_may_skip;
 		return renderer->render(request);
 	}
 	RenderResult render_image(const SmallScene &p_scene, const std::string &p_technique = "",
-			bool p_may_leave_out = true) {
+			bool p_may_skip = true) {
 		RenderRequest request;
 		request.scene = p_scene.snap();
 		request.size_px = glm::uvec2(64);
 		request.technique_override = p_technique;
 		request.wants_image = true;
-		request.may_leave_out = p_may_leave_out;
+		request.may_skip = p_may_skip;
 		return renderer->render(request);
 	}
 };

@@ -22,12 +22,12 @@ RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 
 } // namespace
 
-TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the image is the "
+TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the image is the "
 		  "same") {
 	RenderFixture fixture;
 	struct Case {
 		const char *what;
-		const char *reason; // empty: the light must not be left out
+		const char *reason; // empty: the light must not be skipped
 		void (*change)(TwoLights &r_lights);
 	};
 	const char *NOT_IN_CONE = "the camera sees no surface in its cone and range";
@@ -75,7 +75,7 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is left out, the 
 		const RenderResult lean = render_both(fixture, lights.scene);
 		CHECK(find_reason(lean, "Second") == one.reason);
 		const bool has_wall = std::string(one.what).find("a wall outside") != std::string::npos;
-		CHECK((lean.plan.is_left_out("", "1 instances") || !has_wall));
+		CHECK((lean.plan.is_skipped("", "1 instances") || !has_wall));
 	}
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("[GPU][Lean] the mask of a light that lights nothing in view runs no t
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		CAPTURE(info.id);
 		const RenderResult lean = fixture.render_mask(scene, info.id);
-		CHECK(lean.plan.is_left_out("Light", "shadow"));
+		CHECK(lean.plan.is_skipped("Light", "shadow"));
 		CHECK(count_receivers(lean) == 0);
 		if (!info.is_reference) {
 			const RenderResult whole = fixture.render_mask(scene, info.id, glm::uvec2(64), false);

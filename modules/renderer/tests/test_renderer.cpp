@@ -40,8 +40,8 @@ TEST_CASE("[GPU][Renderer] a light makes the image brighter, and its shadow dark
 	scene.light->properties["shadow_enabled"] = true;
 	const RenderResult with_shadow = fixture.render_image(scene, any);
 	CHECK(compute_mean(with_shadow) < compute_mean(without_shadow));
-	CHECK(without_shadow.plan.is_left_out("Light", "shadow"));
-	CHECK_FALSE(with_shadow.plan.is_left_out("Light", "shadow"));
+	CHECK(without_shadow.plan.is_skipped("Light", "shadow"));
+	CHECK_FALSE(with_shadow.plan.is_skipped("Light", "shadow"));
 }
 
 TEST_CASE(
@@ -105,15 +105,15 @@ TEST_CASE(
 			fixture.renderer->render(request), doctest::Contains("with antialiasing 4"), Error);
 }
 
-TEST_CASE("[GPU][Renderer] a light whose range ends before the view is left out, unseen") {
+TEST_CASE("[GPU][Renderer] a light whose range ends before the view is skipped, unseen") {
 	RenderFixture fixture;
 	SmallScene scene;
 	Light3D &far_light = scene.add_light("Far", LightType::OMNI, { 0, 2, 500 }, { 0, 0, 500 });
 	far_light.range_m = 5.0f;
 	const RenderResult lean = fixture.render_image(scene);
 	const RenderResult whole = fixture.render_image(scene, "", false);
-	CHECK(lean.plan.is_left_out("Far", "light"));
-	CHECK_FALSE(whole.plan.is_left_out("Far", "light"));
+	CHECK(lean.plan.is_skipped("Far", "light"));
+	CHECK_FALSE(whole.plan.is_skipped("Far", "light"));
 	CHECK(lean.image == whole.image);
 	CHECK(lean.timings.size() < whole.timings.size());
 }
@@ -166,7 +166,7 @@ TEST_CASE(
 	fixture.render_image(scene);
 	REQUIRE(log.lines.size() == 1);
 	CHECK(log.lines[0].find("from_another_build") != std::string::npos);
-	CHECK(result.plan.is_left_out("Light", fallback ? "from_another_build" : "shadow"));
+	CHECK(result.plan.is_skipped("Light", fallback ? "from_another_build" : "shadow"));
 	CHECK(scene.light->properties.count("from_another_build_quality") == 1);
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("[GPU][Renderer] technique modules can be switched off and on while fr
 	}
 	CHECK(ShadowRegistry::get_all().empty());
 	const RenderResult none = fixture.render_image(scene);
-	CHECK(none.plan.is_left_out("Light", "shadow"));
+	CHECK(none.plan.is_skipped("Light", "shadow"));
 	for (const std::string &name : names) {
 		ModuleRegistry::set_enabled(name, true);
 	}

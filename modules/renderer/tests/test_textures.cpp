@@ -379,7 +379,7 @@ TEST_CASE("[Textures] each level of detail has the mean light of what it covers"
 	levels = make_mip_levels(*board, false, level_count);
 	CHECK(std::abs(levels.back() - 255) == 0);
 	CHECK(std::abs(levels[64 * 4] - 128) <= 1);
-	// Odd sizes: nothing is left out, nothing counts twice.
+	// Odd sizes: nothing is skipped, nothing counts twice.
 	const auto odd = make_noise({ 7, 5 });
 	levels = make_mip_levels(*odd, false, level_count);
 	CHECK(level_count == 3);

@@ -130,7 +130,7 @@ TEST_CASE("[GPU][RenderingDevice] what fails the depth test has an operation of 
 	CHECK(fixture.count_drawn(failing, 1) != 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] depth bounds leave out what lies elsewhere, or are refused") {
+TEST_CASE("[GPU][RenderingDevice] depth bounds cull what lies elsewhere, or are refused") {
 	StencilFixture fixture;
 	RasterPipelineDesc bounded = fixture.make_desc(
 			"bounded", make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP));

@@ -71,7 +71,7 @@ TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster 
 	MaskFixture fixture;
 	const MaskResult result = fixture.render_mask(scene, "edge_count");
 	CHECK(is_valid_mask(result));
-	CHECK(result.plan.is_left_out("Light", "edges of instances: 1"));
+	CHECK(result.plan.is_skipped("Light", "edges of instances: 1"));
 	scene.ground->casts_shadow = false; // now no caster has a face
 	const MaskResult lit = fixture.render_mask(scene, "edge_count");
 	CHECK(is_valid_mask(lit));
@@ -115,7 +115,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 		}
 		CHECK(between_count == 0);
 		CHECK(dark_count > 120);
-		CHECK(frame.plan.is_left_out("Light", "edges"));
+		CHECK(frame.plan.is_skipped("Light", "edges"));
 		// The reference asks with one ray.
 		const MaskDifference difference = compare_with_reference(fixture, scene);
 		CHECK(difference.apart_count <= 2);
@@ -167,7 +167,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 			SmallScene scene(type);
 			scene.light->properties["light_size"] = 0.1;
 			const MaskResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
-			CHECK(without.plan.is_left_out("Light", "faces that cut the light's disc"));
+			CHECK(without.plan.is_skipped("Light", "faces that cut the light's disc"));
 			add_mesh(scene.scene, "Beside", mesh, { 1.05, 3.8, 0.62 });
 			const MaskResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(compute_mask_difference(with, without) > 0.02);
@@ -200,7 +200,7 @@ TEST_CASE(
 						glm::rotate(cutter.parent_from_node, 0.4, glm::dvec3(1.0, 0.2, 0.7)),
 						glm::dvec3(side, 1.0, 1.0));
 				const FramePlan plan = render_frame(fixture, scene).plan;
-				CHECK_FALSE(plan.is_left_out("Light", "faces that cut the light's disc"));
+				CHECK_FALSE(plan.is_skipped("Light", "faces that cut the light's disc"));
 				const MaskDifference difference = compare_with_reference(fixture, scene);
 				CHECK(difference.penumbra_count > 1000);
 				CHECK(difference.mean < 0.006); // that of 1024 rays is about 0.004

@@ -1,4 +1,4 @@
-// Which views the maps of this module leave out, and which other maps may not.
+// Which views the maps of this module skip, and which other maps may not.
 
 #include "modules/shadows/tests/mask_fixture.h"
 
@@ -27,7 +27,7 @@ SmallScene make_room() {
 	return scene;
 }
 
-size_t count_left_out(const MaskResult &p_result, const std::string &p_reason) {
+size_t count_skipped(const MaskResult &p_result, const std::string &p_reason) {
 	const auto &entries = p_result.plan.get_entries();
 	return static_cast<size_t>(
 			std::count_if(entries.begin(), entries.end(), [&](const FramePlanEntry &p_entry) {
@@ -37,7 +37,7 @@ size_t count_left_out(const MaskResult &p_result, const std::string &p_reason) {
 
 } // namespace
 
-TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are left out") {
+TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are skipped") {
 	for (const std::string id : { "shadow_map", "views" }) {
 		CAPTURE(id);
 		MaskFixture fixture;
@@ -45,14 +45,14 @@ TEST_CASE("[GPU][ShadowMap] views in which the camera sees no receiver are left 
 		scene.light->properties["light_size"] = 0.0; // one point
 		const MaskResult lean = fixture.render_mask(scene, id);
 		// Only the wall towards +x is seen: every other of the six views is not needed.
-		CHECK(count_left_out(lean, NO_RECEIVERS) == 5);
-		CHECK(count_left_out(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
+		CHECK(count_skipped(lean, NO_RECEIVERS) == 5);
+		CHECK(count_skipped(fixture.render_mask(scene, id, glm::uvec2(64), false), NO_RECEIVERS) ==
 				0);
 		// From above and outside all walls and the ground are seen, but nothing above the light.
 		scene.camera->parent_from_node = look_at({ 0.5, 12, 0.5 }, { 0, 0, 0 });
 		scene.camera->vertical_fov_rad = 1.0f;
 		const MaskResult wide = fixture.render_mask(scene, id);
-		CHECK(count_left_out(wide, NO_RECEIVERS) + count_left_out(wide, "no casters") <= 1);
+		CHECK(count_skipped(wide, NO_RECEIVERS) + count_skipped(wide, "no casters") <= 1);
 	}
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("[GPU][ShadowMap] a map that was drawn is still there when the camera 
 	SmallScene scene = make_room();
 	const auto look = [&](double p_x) {
 		scene.camera->parent_from_node = look_at({ 0, 1.2, 0 }, { p_x, 1.1, 0 });
-		return count_left_out(fixture.render_mask(scene, "shadow_map"),
+		return count_skipped(fixture.render_mask(scene, "shadow_map"),
 				"cached: neither the light nor a caster moved");
 	};
 	CHECK(look(1) == 0);

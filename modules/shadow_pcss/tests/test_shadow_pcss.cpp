@@ -75,8 +75,8 @@ TEST_CASE("[GPU][Pcss] a static scene's second frame draws no map, another tap c
 	const MaskResult first = fixture.render_mask(scene, "pcss");
 	scene.light->properties["pcss_taps"] = int64_t(16);
 	const MaskResult second = fixture.render_mask(scene, "pcss");
-	CHECK_FALSE(first.plan.is_left_out("Light", "light view 0"));
-	CHECK(second.plan.is_left_out("Light", "light view 0"));
+	CHECK_FALSE(first.plan.is_skipped("Light", "light view 0"));
+	CHECK(second.plan.is_skipped("Light", "light view 0"));
 	CHECK(first.visibility != second.visibility);
 }
 

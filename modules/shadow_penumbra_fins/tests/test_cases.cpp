@@ -173,8 +173,8 @@ TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins a
 			for (float value : lean.visibility) {
 				CHECK((value == 0.0f || value == 1.0f));
 			}
-			CHECK(lean.plan.is_left_out("Light", "fins"));
-			CHECK(lean.plan.is_left_out("Light", "layers 2 and 3") == (id == "penumbra_fins"));
+			CHECK(lean.plan.is_skipped("Light", "fins"));
+			CHECK(lean.plan.is_skipped("Light", "layers 2 and 3") == (id == "penumbra_fins"));
 			for (const PassTiming &timing : lean.timings) {
 				CHECK(timing.name.find("fins view") == std::string::npos);
 				CHECK(timing.name.find("layer 2") == std::string::npos);
@@ -183,7 +183,7 @@ TEST_CASE("[GPU][PenumbraFins] r = t = 0 is the plain shadow map, without fins a
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] one width of 0 leaves out its half alone, with the same mask") {
+TEST_CASE("[GPU][PenumbraFins] one width of 0 skips its half alone, with the same mask") {
 	MaskFixture fixture;
 	for (const char *width : { "penumbra_outer_width", "penumbra_inner_width" }) {
 		CAPTURE(width);
@@ -193,8 +193,8 @@ TEST_CASE("[GPU][PenumbraFins] one width of 0 leaves out its half alone, with th
 		const MaskResult all = fixture.render_mask(scene, "penumbra_fins", glm::uvec2(64), false);
 		CHECK(lean.visibility == all.visibility);
 		const bool is_inner = std::string(width) == "penumbra_inner_width";
-		CHECK(lean.plan.is_left_out("Light", is_inner ? "inner fins" : "outer fins"));
-		CHECK(lean.plan.is_left_out("Light", "layers 2 and 3") == is_inner);
+		CHECK(lean.plan.is_skipped("Light", is_inner ? "inner fins" : "outer fins"));
+		CHECK(lean.plan.is_skipped("Light", "layers 2 and 3") == is_inner);
 	}
 }
 
@@ -237,5 +237,5 @@ TEST_CASE("[GPU][PenumbraFins] an instance scaled to a line gets no fins, and th
 			glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(1, 1.5, 0)), glm::dvec3(1, 0, 0));
 	const MaskResult result = fixture.render_mask(scene, "penumbra_fins");
 	CHECK(is_valid_mask(result));
-	CHECK(result.plan.is_left_out("Light", "fins of 1 instances"));
+	CHECK(result.plan.is_skipped("Light", "fins of 1 instances"));
 }

@@ -10,14 +10,14 @@ namespace {
 const LightType ALL_TYPES[] = { LightType::SPOT, LightType::DIRECTIONAL, LightType::OMNI };
 
 MaskResult render_planar(
-		MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_leave_out = true) {
+		MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_skip = true) {
 	MaskRequest request;
 	request.scene = p_scene.snap();
 	request.size_px = glm::uvec2(128);
 	request.technique_override = "planar";
 	request.light = p_scene.light->name;
 	request.wants_surfaces = true;
-	request.may_leave_out = p_may_leave_out;
+	request.may_skip = p_may_skip;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;

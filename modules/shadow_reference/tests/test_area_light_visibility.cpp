@@ -197,7 +197,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 	CHECK(visibility == std::vector<float>{ 0, 0, 0, 0, 1, 1, 1, 1 });
 }
 
-TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are left out") {
+TEST_CASE("[Reference] degenerate triangles are harmless, those not finite are skipped") {
 	const float nan = std::numeric_limits<float>::quiet_NaN();
 	TriangleBuilder triangles = make_scene();
 	triangles.add_quad({ nan, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { INFINITY, 1, 1 });

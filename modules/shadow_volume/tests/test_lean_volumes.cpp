@@ -1,4 +1,4 @@
-// What shadow volumes leave out: caps that z-pass spares, and edges that are known already.
+// What shadow volumes skip: caps that z-pass spares, and edges that are known already.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"
 
@@ -35,8 +35,8 @@ TEST_CASE("[GPU][ShadowVolume] far caps are skipped where z-pass is safe, and no
 		const MaskResult lean = render_volumes(fixture, scene, {}, "shadow_volume", size_px);
 		const MaskResult all = render_volumes(fixture, scene, {}, "shadow_volume", size_px, false);
 		CHECK(lean.visibility == all.visibility);
-		CHECK(lean.plan.is_left_out("Light", "far caps of 1 casters"));
-		CHECK_FALSE(all.plan.is_left_out("Light", "far caps of 1 casters"));
+		CHECK(lean.plan.is_skipped("Light", "far caps of 1 casters"));
+		CHECK_FALSE(all.plan.is_skipped("Light", "far caps of 1 casters"));
 		// In the box's shadow the near plane is hidden: caps are needed.
 		scene.camera->parent_from_node = look_at({ -0.05, 0.5, -0.05 }, { -0.6, 0.1, -0.5 });
 		const MaskResult within = render_volumes(fixture, scene, {}, "shadow_volume", size_px);

@@ -17,7 +17,7 @@ using VolumeWishes = std::map<std::string, PropertyValue>;
 
 inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 		const VolumeWishes &p_wishes = {}, const std::string &p_id = "shadow_volume",
-		glm::uvec2 p_size_px = glm::uvec2(128), bool p_may_leave_out = true) {
+		glm::uvec2 p_size_px = glm::uvec2(128), bool p_may_skip = true) {
 	std::vector<std::unique_ptr<SettingScope>> scopes;
 	for (const auto &[name, value] : p_wishes) {
 		scopes.push_back(std::make_unique<SettingScope>(p_id, name, format_property(value)));
@@ -28,7 +28,7 @@ inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 	request.technique_override = p_id;
 	request.light = r_scene.light->name;
 	request.wants_surfaces = true;
-	request.may_leave_out = p_may_leave_out;
+	request.may_skip = p_may_skip;
 	MaskResult result = r_fixture.render(request);
 	CHECK(is_valid_mask(result));
 	return result;

@@ -98,7 +98,7 @@ struct MaskRequest {
 	/// Of that light's technique, of R16_SFLOAT; absent: an Error.
 	std::string debug_view;
 	bool wants_surfaces = false;
-	bool may_leave_out = true;
+	bool may_skip = true;
 	bool may_reuse = true;
 	/// What the host does not give.
 	bool has_normals = true;
@@ -135,7 +135,7 @@ struct MaskFixture {
 		const CommandCounts before = device->get_command_counts();
 		RenderGraph graph(*device, *transients);
 		ShadowFrame frame(*shadows, graph, result.plan, p_request.scene, p_request.size_px,
-				{ p_request.technique_override, p_request.may_leave_out, p_request.may_reuse });
+				{ p_request.technique_override, p_request.may_skip, p_request.may_reuse });
 		const HostSurfaces drawn = add_surface_pass(graph, *shadows, *p_request.scene,
 				p_request.size_px, frame.get_constants(), p_request.has_normals);
 		frame.set_surfaces({ drawn.depth, drawn.geometric_normal,
@@ -181,13 +181,13 @@ struct MaskFixture {
 	}
 
 	MaskResult render_mask(const SmallScene &p_scene, const std::string &p_technique,
-			glm::uvec2 p_size_px = glm::uvec2(64), bool p_may_leave_out = true) {
+			glm::uvec2 p_size_px = glm::uvec2(64), bool p_may_skip = true) {
 		MaskRequest request;
 		request.scene = p_scene.snap();
 		request.size_px = p_size_px;
 		request.technique_override = p_technique;
 		request.light = p_scene.light->name;
-		request.may_leave_out = p_may_leave_out;
+		request.may_skip = p_may_skip;
 		return render(request);
 	}
 

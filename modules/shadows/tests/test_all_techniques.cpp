@@ -63,7 +63,7 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 	});
 }
 
-TEST_CASE("[GPU][Techniques] what is left out does not change one bit of the mask") {
+TEST_CASE("[GPU][Techniques] what is skipped does not change one bit of the mask") {
 	MaskFixture fixture;
 	for_each_technique_and_type([&](const ShadowTechniqueInfo &p_info, LightType p_type) {
 		SmallScene scene(p_type);

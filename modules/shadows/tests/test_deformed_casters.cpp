@@ -238,9 +238,9 @@ TEST_CASE("deformed casters: a pose reaches into views that the mesh at rest is 
 		double share = 0;
 		compute_difference(without, posed, share);
 		CHECK(share > 0.005);
-		for (const bool may_leave_out : { true, false }) {
+		for (const bool may_skip : { true, false }) {
 			MaskRequest request = make_request(scene.snap(), p_info.id);
-			request.may_leave_out = may_leave_out;
+			request.may_skip = may_skip;
 			const MaskResult all = fixture.render(request);
 			compute_difference(all, posed, share);
 			CHECK(share < 0.001);

@@ -24,7 +24,7 @@ public:
 	bool plan(const ShadowTechnique::Inputs & /*p_inputs*/, const PropertyValues & /*p_values*/,
 			TechniquePlan &r_plan) override {
 		if (!is_needed) {
-			r_plan.leave_out("quarter filter", "not needed");
+			r_plan.skip("quarter filter", "not needed");
 		}
 		return is_needed;
 	}
@@ -59,9 +59,9 @@ TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the pl
 	CHECK(find_added_light_property("quarter_share") != nullptr);
 	CHECK(list_node_properties(*scene.light).find("quarter_share") != nullptr);
 	QuarterFilter::is_needed = false;
-	const MaskResult left_out = fixture.render_mask(scene, any);
-	CHECK(left_out.visibility == before.visibility);
-	CHECK(left_out.plan.is_left_out("Light", "quarter filter"));
+	const MaskResult skipped = fixture.render_mask(scene, any);
+	CHECK(skipped.visibility == before.visibility);
+	CHECK(skipped.plan.is_skipped("Light", "quarter filter"));
 	MaskFilterRegistry::remove("quarter");
 	CHECK(find_added_light_property("quarter_share") == nullptr);
 	CHECK(fixture.render_mask(scene, any).visibility == before.visibility);

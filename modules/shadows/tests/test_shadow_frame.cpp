@@ -75,7 +75,7 @@ TEST_CASE("[GPU][Shadows] normals made from depth are those of the faces, but fo
 		const MaskResult drawn = fixture.render(request);
 		request.has_normals = false;
 		const MaskResult made = fixture.render(request);
-		CHECK_FALSE(made.plan.is_left_out("", "normals from depth"));
+		CHECK_FALSE(made.plan.is_skipped("", "normals from depth"));
 		CHECK(is_valid_mask(made));
 		size_t count = 0;
 		size_t other_normal_count = 0;

@@ -190,7 +190,7 @@ TEST_CASE("[GPU][TranslucentCasters] light through two panes gets both colours, 
 		CHECK(count > 30);
 	}
 	CHECK(differing_count < 20); // of thousands: at the edges
-	CHECK_FALSE(result.plan.is_left_out("Light", "translucent 2: light view 0"));
+	CHECK_FALSE(result.plan.is_skipped("Light", "translucent 2: light view 0"));
 }
 
 TEST_CASE("[GPU][TranslucentCasters] a soft coloured shadow is the reference's") {
@@ -234,7 +234,7 @@ TEST_CASE("[GPU][TranslucentCasters] glass that comes and goes leaves opaque fra
 		CHECK(again.colors.empty());
 		CHECK(again.visibility == before.visibility);
 	}
-	// Nothing is left out that would show.
+	// Nothing is skipped that would show.
 	scene.box->surfaces[0].material = make_glass(RED);
 	CHECK(fixture.render_mask(scene, id).colors ==
 			fixture.render_mask(scene, id, glm::uvec2(64), false).colors);

@@ -96,7 +96,7 @@ TEST_CASE("[Renderer] bounds of what is visible hold every point of the box in t
 				receivers.list[0].bounds_world.get_diagonal() < 0.9 * box.get_diagonal();
 	}
 	CHECK(seen_count > 300);
-	CHECK(smaller_count > 300); // a rule that leaves nothing out would hold every point too
+	CHECK(smaller_count > 300); // a rule that skips nothing would hold every point too
 }
 
 TEST_CASE("[Renderer] a light is said to miss a box only when it lights no point of it") {
