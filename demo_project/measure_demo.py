@@ -236,7 +236,7 @@ class Measurement:
 
 def select_scenes(project, options):
     """(name, path) of the scenes to do; one that is missing is skipped with a warning."""
-    wanted = [name for name in options.scenes.split(",") if name]
+    requested = [name for name in options.scenes.split(",") if name]
     skipped = [pattern for pattern in options.skip.split(",") if pattern]
     selected = []
     names = []
@@ -244,7 +244,7 @@ def select_scenes(project, options):
         name = os.path.splitext(os.path.basename(item))[0]
         names.append(name)
         path = os.path.join(PROJECT, item)
-        if wanted and name not in wanted:
+        if requested and name not in requested:
             continue
         if any(fnmatch.fnmatchcase(name, pattern) for pattern in skipped):
             continue
@@ -252,7 +252,7 @@ def select_scenes(project, options):
             print("WARNING: %s does not exist, skipped." % path, file=sys.stderr)
             continue
         selected.append((name, path))
-    unknown = [name for name in wanted if name not in names]
+    unknown = [name for name in requested if name not in names]
     if unknown:
         print("ERROR: unknown scene %s. The project has: %s." % (", ".join(unknown), ", ".join(names)), file=sys.stderr)
         sys.exit(2)

@@ -62,18 +62,18 @@ while [ $# -gt 0 ]; do
     shift
 done
 
-# is_wanted PART: those of Godot are asked for together.
-is_wanted() {
-    local wanted=$1 name
-    case $wanted in
+# is_requested PART: those of Godot are asked for together.
+is_requested() {
+    local requested=$1 name
+    case $requested in
         godot_*)
             [ "$has_godot" = yes ] || return 1
-            wanted=godot
+            requested=godot
             ;;
     esac
     [ ${#only[@]} -eq 0 ] && return 0
     for name in "${only[@]}"; do
-        [ "$name" = "$wanted" ] && return 0
+        [ "$name" = "$requested" ] && return 0
     done
     return 1
 }
@@ -81,10 +81,10 @@ is_wanted() {
 # shellcheck source=demo_project/install_packages.sh
 . demo_project/install_packages.sh
 packages=("${BUILD_PACKAGES[@]}" "${DEMO_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
-if [ "$is_full" = yes ] && { is_wanted large_meshes || is_wanted validator; } && ! command -v npm >/dev/null; then
+if [ "$is_full" = yes ] && { is_requested large_meshes || is_requested validator; } && ! command -v npm >/dev/null; then
     packages+=("${LARGE_MESH_PACKAGES[@]}")
 fi
-if [ "$is_full" = yes ] && is_wanted fuzz; then
+if [ "$is_full" = yes ] && is_requested fuzz; then
     packages+=("${FUZZ_PACKAGES[@]}")
 fi
 if [[ " ${only[*]} " == *" godot "* ]]; then
@@ -174,12 +174,12 @@ run_lanes() {
         (
             lane=$number
             for part in $parts; do
-                ! is_wanted "$part" || "part_$part"
+                ! is_requested "$part" || "part_$part"
             done
         ) >"$work/output.$number" 2>&1 &
     done
     for part in $first; do
-        ! is_wanted "$part" || "part_$part"
+        ! is_requested "$part" || "part_$part"
     done
     wait
     while [ "$number" -gt 0 ]; do
@@ -365,7 +365,7 @@ part_editor_repeats() {
 . demo_project/install_godot.sh
 run_lanes "layers scenes"
 # All that follows runs what this one builds. Builds use all cores, and no test may see half of one.
-if is_wanted build; then
+if is_requested build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
@@ -375,7 +375,7 @@ if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender
 fi
 run_lanes "sanitized fuzz_replay"
-if is_wanted godot_build && part_godot_build; then
+if is_requested godot_build && part_godot_build; then
     run_lanes "godot_addon" "godot_device godot_editor" "godot_masks godot_soak"
 fi
 if [ "$is_full" = yes ]; then

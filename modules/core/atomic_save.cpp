@@ -81,8 +81,8 @@ public:
 	void write(std::span<const uint8_t> p_bytes) {
 		size_t written = 0;
 		while (written < p_bytes.size()) {
-			const size_t wanted = std::min(CHUNK_BYTES, p_bytes.size() - written);
-			const ssize_t count = ::write(file, p_bytes.data() + written, wanted);
+			const size_t requested = std::min(CHUNK_BYTES, p_bytes.size() - written);
+			const ssize_t count = ::write(file, p_bytes.data() + written, requested);
 			if (count < 0 && errno == EINTR) {
 				continue;
 			}

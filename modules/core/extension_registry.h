@@ -29,8 +29,8 @@ public:
 
 protected:
 	/// The first of which that is true, or null.
-	template <typename Predicate> static const Info *find_if(Predicate p_is_wanted) {
-		const auto found = std::find_if(infos.begin(), infos.end(), p_is_wanted);
+	template <typename Predicate> static const Info *find_if(Predicate p_is_match) {
+		const auto found = std::find_if(infos.begin(), infos.end(), p_is_match);
 		return found == infos.end() ? nullptr : &*found;
 	}
 

@@ -189,7 +189,7 @@ std::string Project::replace_disabled_modules(const std::string &p_text,
 	for (const std::string &module : p_modules) {
 		list += (list.empty() ? "\"" : ", \"") + module + "\"";
 	}
-	const std::string wanted = "disabled=[" + list + "]\n";
+	const std::string new_entry = "disabled=[" + list + "]\n";
 	const Layout layout = read_layout(p_text, p_path);
 	const auto heading = layout.sections.find("modules");
 	std::string lines;
@@ -201,10 +201,10 @@ std::string Project::replace_disabled_modules(const std::string &p_text,
 				entry->section == "modules" && entry->key == "disabled";
 		lines += is_replaced ? "" : layout.lines[number] + "\n";
 		if (heading != layout.sections.end() && heading->second == number) {
-			lines += wanted;
+			lines += new_entry;
 		}
 	}
-	return heading != layout.sections.end() ? lines : lines + "\n[modules]\n" + wanted;
+	return heading != layout.sections.end() ? lines : lines + "\n[modules]\n" + new_entry;
 }
 
 fs::path Project::find_folder(const fs::path &p_scene_path) {

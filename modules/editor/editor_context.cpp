@@ -42,12 +42,12 @@ void EditorContext::note_item(const std::string &p_name) {
 
 bool EditorContext::begin_tab(const char *p_name, const std::string &p_addition) {
 	const std::string label = p_name + p_addition + "###" + p_name;
-	const bool is_wanted = wanted_tab == p_name;
+	const bool is_requested = requested_tab == p_name;
 	const bool is_shown = ImGui::BeginTabItem(
-			label.c_str(), nullptr, is_wanted ? ImGuiTabItemFlags_SetSelected : 0);
+			label.c_str(), nullptr, is_requested ? ImGuiTabItemFlags_SetSelected : 0);
 	note_item(std::string("tab ") + p_name);
-	if (is_wanted && is_shown) {
-		wanted_tab.clear();
+	if (is_requested && is_shown) {
+		requested_tab.clear();
 	}
 	if (is_shown) {
 		shown_tab = p_name;

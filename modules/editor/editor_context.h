@@ -30,7 +30,7 @@ struct ViewportPick {
 struct ViewportState {
 	OrbitCamera camera;
 	std::string debug_view;				// empty: the image itself
-	glm::uvec2 size_px = glm::uvec2(0); // wanted by the panel
+	glm::uvec2 size_px = glm::uvec2(0); // requested by the panel
 	bool is_moving = false;				// a coarser image will do
 	bool needs_redraw = true;			// something has changed since the last one
 	/// Of the light in question, other than the image itself: "mask", "error", the technique's own.
@@ -50,7 +50,7 @@ struct ErrorState {
 	static constexpr uint32_t SAMPLE_COUNTS[] = { 256, 1024, 4096, 9216 };
 	bool is_shown = false;		  // somebody looks
 	bool is_stopped = false;	  // by the user
-	uint32_t sample_count = 1024; // rays a pixel that are wanted in the end
+	uint32_t sample_count = 1024; // rays a pixel that are requested in the end
 	std::string refusal;		  // why there is nothing
 	std::string light;
 	std::string technique; // that it has, by choice or by default
@@ -114,12 +114,12 @@ struct EditorContext {
 	std::map<std::string, std::string> shader_errors; // by shader: why its last change is not used
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
-	std::string wanted_page;		 // of EditorCommand::READ_PAGE, from the program's folder
+	std::string requested_page;		 // of EditorCommand::READ_PAGE, from the program's folder
 	bool asks_to_open = false;		 // opens the menu of scenes
 	std::filesystem::path open_path; // of EditorCommand::OPEN
 	std::vector<std::string> recent; // scenes that were open, the newest first
 	std::string shown_tab;			 // of the bar below the viewport
-	std::string wanted_tab;			 // is to be shown; empty once it is
+	std::string requested_tab;			 // is to be shown; empty once it is
 	uint32_t dragged_handle = 0;	 // ImGuiID of a gizmo's handle; 0: none
 	/// Where widgets are in the window, by name: left, top, right, bottom in pixels. For tests.
 	std::map<std::string, glm::vec4> items;

@@ -90,13 +90,13 @@ public:
 	void recover();
 	/// Whosever it is.
 	void discard_recovery();
-	/// What this document itself put aside or took over is not wanted any more.
+	/// What this document itself put aside or took over is no longer needed.
 	void discard_own_recovery();
 
 	/// True when another program has written the file, or one that it refers to, since it was read
 	/// or saved.
 	bool is_file_newer() const;
-	/// The file's newer state is not wanted: the next save writes over it.
+	/// The file's newer state is not needed: the next save writes over it.
 	void keep_over_file() { note_file_time(); }
 	/// Reads the file again. Changes and history are lost; what has the selected node's name is
 	/// selected. An Error leaves everything as it is.

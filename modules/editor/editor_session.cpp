@@ -189,7 +189,7 @@ std::string EditorSession::describe_staged() const {
 
 /// With what the desktop shows such files.
 void EditorSession::read_page() {
-	const std::filesystem::path page = program.parent_path().parent_path() / context.wanted_page;
+	const std::filesystem::path page = program.parent_path().parent_path() / context.requested_page;
 	if (!std::filesystem::exists(page)) {
 		fail("Page ", page, " is not there. It comes with the sources of the program.");
 	}

@@ -84,13 +84,13 @@ public:
 		context.recent = settings.recent;
 		context.viewport.shows_penumbra = settings.shows_penumbra;
 		context.error.sample_count = settings.sample_count;
-		context.wanted_tab = settings.tab;
+		context.requested_tab = settings.tab;
 		if (document.get_failure().empty()) {
 			const std::string &staged = document.get_staged();
 			context.say(text("Opened ", document.get_path().filename().string(),
 					staged.empty() ? "" : ". ", staged));
 		} else {
-			context.wanted_tab = "Messages";
+			context.requested_tab = "Messages";
 		}
 	}
 	~Editor() {

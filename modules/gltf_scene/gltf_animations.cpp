@@ -141,11 +141,11 @@ std::vector<std::shared_ptr<const Animation>> read_animations(
 	std::vector<std::shared_ptr<const Animation>> animations;
 	std::set<std::string> names;
 	for (size_t index = 0; index < p_model.animations.size(); ++index) {
-		const std::string wanted =
+		const std::string base_name =
 				make_name(p_model.animations[index].name, text("Animation ", index));
-		std::string name = wanted;
+		std::string name = base_name;
 		for (int number = 2; !names.insert(name).second; ++number) {
-			name = text(wanted, "_", number);
+			name = text(base_name, "_", number);
 		}
 		animations.push_back(reader.read(index, name));
 	}

@@ -68,11 +68,11 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 		entry.index = p_parent->index;
 		return std::nullopt;
 	}
-	const size_t wanted = static_cast<size_t>(p_node.file_index);
-	const bool has_place = document && p_node.file_index >= 0 && wanted < document->nodes.size() &&
-			document->nodes[wanted].is_loaded && taken.insert(wanted).second;
+	const size_t file_index = static_cast<size_t>(p_node.file_index);
+	const bool has_place = document && p_node.file_index >= 0 && file_index < document->nodes.size() &&
+			document->nodes[file_index].is_loaded && taken.insert(file_index).second;
 	entry.is_new = !has_place;
-	entry.index = wanted;
+	entry.index = file_index;
 	if (entry.is_new) {
 		model.nodes.emplace_back();
 		entry.index = model.nodes.size() - 1;

@@ -22,10 +22,10 @@ namespace {
 /// Gives every node of the scene its own name.
 class UniqueNames {
 public:
-	std::string make(const std::string &p_wanted) {
-		std::string name = p_wanted;
+	std::string make(const std::string &p_requested) {
+		std::string name = p_requested;
 		while (!taken.insert(name).second) {
-			name = text(p_wanted, "_", ++counts.try_emplace(p_wanted, 1).first->second);
+			name = text(p_requested, "_", ++counts.try_emplace(p_requested, 1).first->second);
 		}
 		return name;
 	}

@@ -51,10 +51,10 @@ bool GltfSideFiles::is_taken(const std::string &p_name, const std::vector<uint8_
 			load_file(path, GLTF_MAX_BUFFER_BYTES) != p_bytes;
 }
 
-std::string GltfSideFiles::add(const std::string &p_wanted_name, std::vector<uint8_t> p_bytes) {
-	std::string name = p_wanted_name;
+std::string GltfSideFiles::add(const std::string &p_requested_name, std::vector<uint8_t> p_bytes) {
+	std::string name = p_requested_name;
 	for (size_t number = 2; is_taken(name, p_bytes); ++number) {
-		name = number_name(p_wanted_name, number);
+		name = number_name(p_requested_name, number);
 	}
 	files[name] = std::move(p_bytes);
 	return name;

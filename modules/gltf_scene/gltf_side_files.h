@@ -15,9 +15,9 @@ enum class GltfForm { TEXT, BINARY };
 class GltfSideFiles {
 public:
 	explicit GltfSideFiles(std::filesystem::path p_folder);
-	/// Notes a file to write and returns the name it gets: the wanted one, or where another file
+	/// Notes a file to write and returns the name it gets: the requested one, or where another file
 	/// has that name already, one with a number.
-	std::string add(const std::string &p_wanted_name, std::vector<uint8_t> p_bytes);
+	std::string add(const std::string &p_requested_name, std::vector<uint8_t> p_bytes);
 	/// The names that add tries: "desk.bin", "desk_2.bin", and so on.
 	static std::string number_name(const std::string &p_name, size_t p_number);
 	bool contains(const std::string &p_name) const { return files.count(p_name) > 0; }

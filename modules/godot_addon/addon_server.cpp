@@ -171,25 +171,25 @@ void AddonServer::reserve(glm::uvec2 p_size_px, uint32_t p_mask_count) {
 			[=, side = render_side](auto) { side->reserve(p_size_px, p_mask_count); }));
 }
 
-std::vector<WantedStandIn> AddonServer::choose_stand_ins(
+std::vector<NeededStandIn> AddonServer::choose_stand_ins(
 		const ReadWorld &p_world, bool p_has_failed) const {
-	std::vector<WantedStandIn> wanted;
+	std::vector<NeededStandIn> needed;
 	if (p_world.receivers.masked.empty()) {
-		return wanted;
+		return needed;
 	}
 	const bool needs_all = p_has_failed || p_world.has_godot_readers;
 	for (size_t index = 0; index < p_world.masked_lights.size(); ++index) {
 		const godot::Light3D &light = p_world.masked_lights[index];
-		wanted.push_back({ light, static_cast<int32_t>(index),
+		needed.push_back({ light, static_cast<int32_t>(index),
 				needs_all || reaches(light, p_world.receivers.others) });
 	}
 	for (const godot::Light3D &light : p_world.other_lights) {
 		if (!godot::cast<godot::DirectionalLight3D>(light) &&
 				light.get_param(godot::Light3D::PARAM_SIZE) > 0) {
-			wanted.push_back({ light }); // materials have to know its size
+			needed.push_back({ light }); // materials have to know its size
 		}
 	}
-	return wanted;
+	return needed;
 }
 
 } // namespace gnomon

@@ -23,7 +23,7 @@ private:
 	std::map<godot::RID, std::vector<ShadowNode *>> find_worlds(godot::SceneTree &r_tree);
 	void update_worlds();
 	/// Which lights shine through stand-ins, and which of those need Godot's shadow too.
-	std::vector<WantedStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
+	std::vector<NeededStandIn> choose_stand_ins(const ReadWorld &p_world, bool p_has_failed) const;
 	/// Makes room for the masks of a frame, on the render thread.
 	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
 	/// On the render thread.

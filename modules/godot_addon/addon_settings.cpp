@@ -41,10 +41,10 @@ template <typename Value>
 Value read_checked(const PropertyInfo &p_info, Value (*p_convert)(const godot::Variant &)) {
 	static std::set<std::string> refused;
 	const Value standard = std::get<Value>(p_info.default_value);
-	const Value wanted = p_convert(read_setting(p_info.name.c_str(), standard));
-	const std::string refusal = check_property(p_info, wanted);
+	const Value requested = p_convert(read_setting(p_info.name.c_str(), standard));
+	const std::string refusal = check_property(p_info, requested);
 	if (refusal.empty()) {
-		return wanted;
+		return requested;
 	}
 	if (refused.insert(p_info.name + refusal).second) {
 		log_warning("Project setting ", p_info.name, " ", refusal, ". ",

@@ -53,14 +53,14 @@ float get_param(const godot::Light3D &p_node, int64_t p_param) {
 	return static_cast<float>(p_node.get_param(p_param));
 }
 
-ReceiverLight make_receiver_light(const WantedStandIn &p_wanted, uint32_t p_row) {
-	const godot::Light3D &node = p_wanted.node;
+ReceiverLight make_receiver_light(const NeededStandIn &p_needed, uint32_t p_row) {
+	const godot::Light3D &node = p_needed.node;
 	ReceiverLight light;
 	light.row = p_row;
 	light.specular = tag_specular(get_param(node, godot::Light3D::PARAM_SPECULAR), p_row);
-	light.mask = p_wanted.mask;
+	light.mask = p_needed.mask;
 	light.mask_opacity = get_param(node, godot::Light3D::PARAM_SHADOW_OPACITY);
-	light.has_godot_shadow = p_wanted.needs_godot_shadow && node.has_shadow();
+	light.has_godot_shadow = p_needed.needs_godot_shadow && node.has_shadow();
 	if (godot::cast<godot::DirectionalLight3D>(node)) {
 		return light;
 	}
@@ -188,15 +188,15 @@ void StandInLight::update(uint32_t p_row, bool p_has_godot_shadow) {
 }
 
 std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
-		std::span<const WantedStandIn> p_wanted, const std::set<float> &p_others) {
+		std::span<const NeededStandIn> p_needed, const std::set<float> &p_others) {
 	std::set<uint32_t> taken;
-	for (const WantedStandIn &wanted : p_wanted) {
-		const auto found = lights.find(godot::get_instance_id(wanted.node.get_owner()));
+	for (const NeededStandIn &needed : p_needed) {
+		const auto found = lights.find(godot::get_instance_id(needed.node.get_owner()));
 		if (found == lights.end()) {
 			continue;
 		}
 		Entry &entry = found->second;
-		const float specular = get_param(wanted.node, godot::Light3D::PARAM_SPECULAR);
+		const float specular = get_param(needed.node, godot::Light3D::PARAM_SPECULAR);
 		entry.is_used = entry.light->get_scenario() == p_scenario &&
 				!p_others.contains(tag_specular(specular, entry.row)) &&
 				taken.insert(entry.row).second;
@@ -205,13 +205,13 @@ std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 		}
 	}
 	std::vector<ReceiverLight> rows;
-	for (const WantedStandIn &wanted : p_wanted) {
-		Entry &entry = lights[godot::get_instance_id(wanted.node.get_owner())];
+	for (const NeededStandIn &needed : p_needed) {
+		Entry &entry = lights[godot::get_instance_id(needed.node.get_owner())];
 		if (!entry.light) {
-			const float specular = get_param(wanted.node, godot::Light3D::PARAM_SPECULAR);
+			const float specular = get_param(needed.node, godot::Light3D::PARAM_SPECULAR);
 			entry.row = find_free_row(specular, taken, p_others);
 			if (entry.row == 0) {
-				lights.erase(godot::get_instance_id(wanted.node.get_owner()));
+				lights.erase(godot::get_instance_id(needed.node.get_owner()));
 				if (!std::exchange(has_warned, true)) {
 					log_warning("A world has more than ", taken.size(), " lights with shadows of ",
 							"Gnomon or a light_size. The rest of them stay as Godot has them.");
@@ -219,10 +219,10 @@ std::vector<ReceiverLight> StandInLights::update(godot::RID p_scenario,
 				continue;
 			}
 			taken.insert(entry.row);
-			entry.light = std::make_unique<StandInLight>(wanted.node, p_scenario);
+			entry.light = std::make_unique<StandInLight>(needed.node, p_scenario);
 			entry.is_used = true;
 		}
-		rows.push_back(make_receiver_light(wanted, entry.row));
+		rows.push_back(make_receiver_light(needed, entry.row));
 		entry.light->update(entry.row, rows.back().has_godot_shadow);
 	}
 	return rows;

@@ -68,7 +68,7 @@ private:
 float tag_specular(float p_specular, uint32_t p_row);
 
 /// A light whose stand-in is needed in a frame.
-struct WantedStandIn {
+struct NeededStandIn {
 	godot::Light3D node;
 	int32_t mask = -1; // its layer; -1: Gnomon makes none
 	bool needs_godot_shadow = true;
@@ -80,7 +80,7 @@ public:
 	/// Once a frame and world. p_others: the specular amounts of its other lights, which no row's
 	/// may equal. Lights beyond RECEIVER_ROW_COUNT - 1 stay Godot's, with one warning.
 	std::vector<ReceiverLight> update(godot::RID p_scenario,
-			std::span<const WantedStandIn> p_wanted, const std::set<float> &p_others);
+			std::span<const NeededStandIn> p_needed, const std::set<float> &p_others);
 	/// The nodes that shine through stand-ins in this world and are visible still. Queries of the
 	/// RenderingServer find them no more, as their own lights are hidden.
 	std::vector<godot::Light3D> find_nodes(godot::RID p_scenario) const;

@@ -142,7 +142,7 @@ Json list_info(bool p_as_text, const CommonOptions &p_common) {
 struct ListCommand {
 	const char *id;
 	const char *description;
-	Json (*list)(bool p_as_text, const CommonOptions &p_common); // prints it where text is wanted
+	Json (*list)(bool p_as_text, const CommonOptions &p_common); // prints it where text is requested
 };
 const ListCommand LIST_COMMANDS[] = {
 	{ "techniques", "Shadow techniques and their properties", &list_techniques },

@@ -68,13 +68,13 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 
 } // namespace
 
-void check_known(const char *p_option, const std::vector<std::string> &p_wanted,
+void check_known(const char *p_option, const std::vector<std::string> &p_requested,
 		const std::vector<std::string> &p_known) {
 	std::string names;
 	for (const std::string &name : p_known) {
 		names += (names.empty() ? "" : ", ") + name;
 	}
-	for (const std::string &name : p_wanted) {
+	for (const std::string &name : p_requested) {
 		if (std::ranges::find(p_known, name) == p_known.end()) {
 			throw UsageError(
 					text(p_option, ": there is no \"", name, "\", must be of ", names, "."));
@@ -156,15 +156,15 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 		selected.project = path.stem().string();
 		all = { { selected.project, path } };
 	}
-	const auto &wanted = p_arguments.scenes;
+	const auto &requested = p_arguments.scenes;
 	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
 		names.push_back(name);
-		if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) {
+		if (requested.empty() || std::find(requested.begin(), requested.end(), name) != requested.end()) {
 			selected.scenes.push_back({ name, file });
 		}
 	}
-	check_known("--scenes", wanted, names);
+	check_known("--scenes", requested, names);
 	if (selected.scenes.empty()) {
 		fail("Project ", selected.folder,
 				" names no scene that exists. Set scenes in its project.cfg.");

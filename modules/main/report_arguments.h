@@ -31,8 +31,8 @@ struct ReportArguments {
 	std::string merge_out;
 };
 
-/// A UsageError of that option where something is wanted that is not known.
-void check_known(const char *p_option, const std::vector<std::string> &p_wanted,
+/// A UsageError of that option where something is requested that is not known.
+void check_known(const char *p_option, const std::vector<std::string> &p_requested,
 		const std::vector<std::string> &p_known);
 // Each throws a UsageError that names the option, the value and what is allowed.
 ReportRunOptions parse_run_options(const ReportArguments &p_arguments);

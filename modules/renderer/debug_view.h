@@ -22,14 +22,14 @@ struct ReferenceMask {
 ShadowTechnique::DebugView add_error_view(
 		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference);
 
-/// Which view is wanted, see RenderRequest.
+/// Which view is requested, see RenderRequest.
 struct DebugViewWish {
 	const std::string &id;
 	bool is_needed = true;
 	bool has_reference = false;
 };
 
-/// The one that is wanted; an unknown one is an Error that lists those there are. Null: the lit image
+/// The one that is requested; an unknown one is an Error that lists those there are. Null: the lit image
 /// is shown.
 const ShadowTechnique::DebugView *choose_debug_view(
 		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);

@@ -118,16 +118,16 @@ std::string list_devices_in_words(const std::vector<PhysicalDevice> &p_devices) 
 }
 
 const PhysicalDevice *find_named_device(
-		const std::vector<PhysicalDevice> &p_devices, const std::string &p_wanted) {
+		const std::vector<PhysicalDevice> &p_devices, const std::string &p_requested) {
 	for (const PhysicalDevice &device : p_devices) {
-		if (text(device.info.index) == p_wanted) {
+		if (text(device.info.index) == p_requested) {
 			return &device;
 		}
 	}
 	const PhysicalDevice *found = nullptr;
 	for (const PhysicalDevice &device : p_devices) {
 		const bool is_match =
-				to_lower(device.info.name).find(to_lower(p_wanted)) != std::string::npos;
+				to_lower(device.info.name).find(to_lower(p_requested)) != std::string::npos;
 		if (is_match && (!found || (device.info.is_usable && !found->info.is_usable))) {
 			found = &device;
 		}
@@ -177,15 +177,15 @@ std::vector<PhysicalDevice> find_physical_devices(VkInstance p_instance, bool p_
 }
 
 const PhysicalDevice &choose_device(
-		const std::vector<PhysicalDevice> &p_devices, const std::string &p_wanted) {
+		const std::vector<PhysicalDevice> &p_devices, const std::string &p_requested) {
 	if (p_devices.empty()) {
 		fail("No Vulkan device was found. Install a driver, e.g. `apt install ",
 				"mesa-vulkan-drivers`, or the driver of your graphics card.");
 	}
-	if (!p_wanted.empty()) {
-		const PhysicalDevice *device = find_named_device(p_devices, p_wanted);
+	if (!p_requested.empty()) {
+		const PhysicalDevice *device = find_named_device(p_devices, p_requested);
 		if (!device) {
-			fail("Vulkan device \"", p_wanted,
+			fail("Vulkan device \"", p_requested,
 					"\" does not exist. There are: ", list_devices_in_words(p_devices),
 					". Give an index or a part of a name to ", "--device.");
 		}

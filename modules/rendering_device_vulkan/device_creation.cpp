@@ -33,30 +33,30 @@ struct FeatureChain {
 /// What Gnomon uses of what the device has; nothing else is enabled, so that the layers notice when
 /// a shader relies on more. p_features: what it says of itself.
 void choose_features(
-		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_wanted) {
+		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_enabled) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;
-	VkPhysicalDeviceFeatures &wanted = r_wanted.v10.features;
-	wanted.geometryShader = p_features.geometry_shader;
-	wanted.depthClamp = p_features.depth_clamp;
-	wanted.depthBounds = p_features.depth_bounds;
-	wanted.independentBlend = present.independentBlend;
-	wanted.fragmentStoresAndAtomics = p_features.fragment_stores;
-	wanted.vertexPipelineStoresAndAtomics = present.vertexPipelineStoresAndAtomics;
-	wanted.occlusionQueryPrecise = present.occlusionQueryPrecise;
-	wanted.shaderStorageImageExtendedFormats = present.shaderStorageImageExtendedFormats;
-	wanted.shaderStorageImageReadWithoutFormat = present.shaderStorageImageReadWithoutFormat;
-	wanted.shaderStorageImageWriteWithoutFormat = present.shaderStorageImageWriteWithoutFormat;
-	wanted.shaderImageGatherExtended = present.shaderImageGatherExtended;
-	wanted.shaderInt64 = present.shaderInt64;
-	r_wanted.v12.shaderBufferInt64Atomics = p_present.v12.shaderBufferInt64Atomics;
-	r_wanted.v12.scalarBlockLayout = p_present.v12.scalarBlockLayout;
-	r_wanted.v12.separateDepthStencilLayouts = p_present.v12.separateDepthStencilLayouts;
-	r_wanted.v12.timelineSemaphore = VK_TRUE;
-	r_wanted.v13.dynamicRendering = VK_TRUE;
-	r_wanted.v13.synchronization2 = VK_TRUE;
-	r_wanted.v13.maintenance4 = VK_TRUE;
-	r_wanted.v13.shaderDemoteToHelperInvocation = p_present.v13.shaderDemoteToHelperInvocation;
-	r_wanted.conditional.conditionalRendering = p_features.conditional_rendering;
+	VkPhysicalDeviceFeatures &enabled = r_enabled.v10.features;
+	enabled.geometryShader = p_features.geometry_shader;
+	enabled.depthClamp = p_features.depth_clamp;
+	enabled.depthBounds = p_features.depth_bounds;
+	enabled.independentBlend = present.independentBlend;
+	enabled.fragmentStoresAndAtomics = p_features.fragment_stores;
+	enabled.vertexPipelineStoresAndAtomics = present.vertexPipelineStoresAndAtomics;
+	enabled.occlusionQueryPrecise = present.occlusionQueryPrecise;
+	enabled.shaderStorageImageExtendedFormats = present.shaderStorageImageExtendedFormats;
+	enabled.shaderStorageImageReadWithoutFormat = present.shaderStorageImageReadWithoutFormat;
+	enabled.shaderStorageImageWriteWithoutFormat = present.shaderStorageImageWriteWithoutFormat;
+	enabled.shaderImageGatherExtended = present.shaderImageGatherExtended;
+	enabled.shaderInt64 = present.shaderInt64;
+	r_enabled.v12.shaderBufferInt64Atomics = p_present.v12.shaderBufferInt64Atomics;
+	r_enabled.v12.scalarBlockLayout = p_present.v12.scalarBlockLayout;
+	r_enabled.v12.separateDepthStencilLayouts = p_present.v12.separateDepthStencilLayouts;
+	r_enabled.v12.timelineSemaphore = VK_TRUE;
+	r_enabled.v13.dynamicRendering = VK_TRUE;
+	r_enabled.v13.synchronization2 = VK_TRUE;
+	r_enabled.v13.maintenance4 = VK_TRUE;
+	r_enabled.v13.shaderDemoteToHelperInvocation = p_present.v13.shaderDemoteToHelperInvocation;
+	r_enabled.conditional.conditionalRendering = p_features.conditional_rendering;
 }
 
 uint64_t find_timestamp_mask(const PhysicalDevice &p_device) {
@@ -131,8 +131,8 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 	for (bool DeviceFeatures::*const denied : options.denied_features) {
 		features.*denied = false;
 	}
-	FeatureChain wanted(has_conditional);
-	choose_features(present, features, wanted);
+	FeatureChain enabled(has_conditional);
+	choose_features(present, features, enabled);
 
 	const float priority = 1.0f;
 	const VkDeviceQueueCreateInfo queue_info = { .sType =
@@ -141,7 +141,7 @@ void VulkanDevice::initialize(const DeviceOptions &p_options) {
 		.queueCount = 1,
 		.pQueuePriorities = &priority };
 	const VkDeviceCreateInfo info = { .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-		.pNext = &wanted.v10,
+		.pNext = &enabled.v10,
 		.queueCreateInfoCount = 1,
 		.pQueueCreateInfos = &queue_info,
 		.enabledExtensionCount = static_cast<uint32_t>(extensions.size()),

@@ -62,7 +62,7 @@ std::vector<PhysicalDevice> find_physical_devices(VkInstance p_instance, bool p_
 /// The one that DeviceOptions::device names, or the best usable one. No such device: an Error that
 /// lists those there are, with the reason for each that is not usable.
 const PhysicalDevice &choose_device(
-		const std::vector<PhysicalDevice> &p_devices, const std::string &p_wanted);
+		const std::vector<PhysicalDevice> &p_devices, const std::string &p_requested);
 bool has_device_extension(VkPhysicalDevice p_device, const char *p_name);
 
 } // namespace gnomon

@@ -79,9 +79,9 @@ void VulkanSwapchain::create_semaphore(VkSemaphore &r_semaphore, const std::stri
 void VulkanSwapchain::choose_format() {
 	const auto formats = list_all<VkSurfaceFormatKHR>(
 			vkGetPhysicalDeviceSurfaceFormatsKHR, device.physical.handle, surface);
-	for (const VkFormat wanted : { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM }) {
+	for (const VkFormat preferred : { VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM }) {
 		for (const VkSurfaceFormatKHR &offered : formats) {
-			if (offered.format == wanted &&
+			if (offered.format == preferred &&
 					offered.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
 				format = offered;
 				return;
@@ -147,7 +147,7 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 	swapchain = made;
 	device.check(result, "vkCreateSwapchainKHR");
 	size_px = { extent.width, extent.height };
-	wanted_size_px = p_window_size_px;
+	requested_size_px = p_window_size_px;
 	is_out_of_date = false;
 
 	for (VkImage handle : list_all<VkImage>(vkGetSwapchainImagesKHR, device.device, swapchain)) {
@@ -179,7 +179,7 @@ std::optional<TextureRID> VulkanSwapchain::acquire(glm::uvec2 p_window_size_px) 
 	if (p_window_size_px.x == 0 || p_window_size_px.y == 0) {
 		return std::nullopt;
 	}
-	if (wanted_size_px != p_window_size_px) {
+	if (requested_size_px != p_window_size_px) {
 		is_out_of_date = true;
 	}
 	// A window that is being resized may outrun us; the next frame tries again then.

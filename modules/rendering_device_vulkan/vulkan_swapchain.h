@@ -18,7 +18,7 @@ public:
 	VkSwapchainKHR swapchain = VK_NULL_HANDLE;
 	VkSurfaceFormatKHR format = {};
 	glm::uvec2 size_px = glm::uvec2(0);
-	glm::uvec2 wanted_size_px = glm::uvec2(0); // the window's when the images were made
+	glm::uvec2 requested_size_px = glm::uvec2(0); // the window's when the images were made
 	bool is_out_of_date = false;
 	struct Image {
 		TextureRID texture;

@@ -71,14 +71,14 @@ glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points, double p_a
 }
 
 /// A name that no node of the scene has.
-std::string choose_name(const Scene &p_scene, const std::string &p_wanted) {
+std::string choose_name(const Scene &p_scene, const std::string &p_requested) {
 	std::set<std::string> taken;
 	for (const Node3D *node : p_scene.find_nodes<Node3D>()) {
 		taken.insert(node->name);
 	}
-	std::string name = p_wanted;
+	std::string name = p_requested;
 	for (int number = 2; taken.contains(name); ++number) {
-		name = text(p_wanted, "_", number);
+		name = text(p_requested, "_", number);
 	}
 	return name;
 }

@@ -52,14 +52,14 @@ CountCapacities choose_capacities(
 bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light,
 		const CountCapacities &p_capacities) {
 	is_imported = false;
-	CountCapacities wanted = p_capacities;
-	if (nodes && capacities.view_count == wanted.view_count &&
-			capacities.texels_per_view == wanted.texels_per_view &&
-			capacities.face_count == wanted.face_count) {
+	CountCapacities needed = p_capacities;
+	if (nodes && capacities.view_count == needed.view_count &&
+			capacities.texels_per_view == needed.texels_per_view &&
+			capacities.face_count == needed.face_count) {
 		// Never fewer than there are: a scene that swings about a limit reuses its buffers.
-		wanted.nodes_per_view = std::max(wanted.nodes_per_view, capacities.nodes_per_view);
+		needed.nodes_per_view = std::max(needed.nodes_per_view, capacities.nodes_per_view);
 	}
-	if (nodes && capacities == wanted) {
+	if (nodes && capacities == needed) {
 		return true;
 	}
 	reset();
@@ -81,21 +81,21 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 		desc.usage = desc.usage | BufferUsage::COPY_TARGET;
 		return OwnedBuffer(p_device, p_device.create_buffer(desc));
 	};
-	planes = make("planes", wanted.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
-	faces = make("faces", wanted.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
-	words = make("edge words", wanted.word_count, sizeof(uint32_t));
-	blocks = make("edge blocks", wanted.block_count, sizeof(uint32_t));
-	edges = make("edges", wanted.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
-	bundles = make("bundles", wanted.get_bundle_count() + wanted.get_bundle_group_count(),
+	planes = make("planes", needed.face_count, sizeof(glm::vec4), Format::RGBA32_SFLOAT);
+	faces = make("faces", needed.face_count, sizeof(shader::CountFaceRecord), Format::RGBA32_UINT);
+	words = make("edge words", needed.word_count, sizeof(uint32_t));
+	blocks = make("edge blocks", needed.block_count, sizeof(uint32_t));
+	edges = make("edges", needed.edge_count, sizeof(shader::CountEdgeRecord), Format::RGBA32_UINT);
+	bundles = make("bundles", needed.get_bundle_count() + needed.get_bundle_group_count(),
 			sizeof(shader::CountEdgeBundle), Format::RGBA32_SFLOAT);
-	const uint64_t view_count = wanted.view_count;
+	const uint64_t view_count = needed.view_count;
 	heads = make(
-			"face lists", view_count * wanted.texels_per_view, sizeof(uint32_t), Format::R32_UINT);
-	nodes = make("listed faces", view_count * wanted.nodes_per_view, sizeof(glm::uvec2),
+			"face lists", view_count * needed.texels_per_view, sizeof(uint32_t), Format::R32_UINT);
+	nodes = make("listed faces", view_count * needed.nodes_per_view, sizeof(glm::uvec2),
 			Format::RG32_UINT);
-	cut_faces = make("cut faces", wanted.cut_face_count, sizeof(uint32_t), Format::R32_UINT);
+	cut_faces = make("cut faces", needed.cut_face_count, sizeof(uint32_t), Format::R32_UINT);
 	totals = make("totals", EDGE_COUNT_TOTAL_COUNT, sizeof(uint32_t));
-	capacities = wanted;
+	capacities = needed;
 	return false;
 }
 

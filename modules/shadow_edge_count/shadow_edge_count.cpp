@@ -91,7 +91,7 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	if (!may_filter) {
 		depth_map.reset();
 	}
-	if (!views.get_wanted_views().empty()) {
+	if (!views.get_needed_views().empty()) {
 		drawn.first_view = p_inputs.views[0];
 		drawn.casters = std::move(casters);
 		plan_casters(r_plan);

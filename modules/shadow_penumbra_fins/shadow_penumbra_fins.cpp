@@ -90,7 +90,7 @@ void ShadowPenumbraFins::plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan
 	fin_casters = {};
 	edge_lists = {};
 	layer_texels = {};
-	const std::vector<uint32_t> &drawn_views = views.get_wanted_views();
+	const std::vector<uint32_t> &drawn_views = views.get_needed_views();
 	if (drawn_views.empty()) {
 		return;
 	}

@@ -27,7 +27,7 @@ void CachedViews::plan(
 	if (!p_has_content || drawn_hashes.size() != view_count) {
 		drawn_hashes.assign(view_count, 0);
 	}
-	wanted_views.clear();
+	needed_views.clear();
 	unseen_frame_count = is_empty && unseen_views != 0 ? unseen_frame_count + 1 : 0;
 	const bool may_reuse = p_inputs.may_skip && p_inputs.may_reuse;
 	for (uint32_t index = 0; index < view_count; ++index) {
@@ -41,7 +41,7 @@ void CachedViews::plan(
 			r_plan.skip_light_view(index, "cached: neither the light nor a caster moved");
 		} else {
 			drawn_hashes[index] = 0; // until it is drawn
-			wanted_views.push_back(index);
+			needed_views.push_back(index);
 		}
 	}
 }

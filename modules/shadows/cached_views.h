@@ -33,7 +33,7 @@ public:
 		return is_empty && (unseen_views == 0 || unseen_frame_count >= MAX_UNUSED_FRAMES);
 	}
 	/// Views that were not skipped, ascending.
-	const std::vector<uint32_t> &get_wanted_views() const { return wanted_views; }
+	const std::vector<uint32_t> &get_needed_views() const { return needed_views; }
 
 private:
 	uint32_t unseen_frame_count = 0;	// in which nothing but receivers was missing
@@ -41,7 +41,7 @@ private:
 	uint32_t empty_views = 0;
 	uint32_t unseen_views = 0; // of them: those that have casters
 	bool is_empty = false;
-	std::vector<uint32_t> wanted_views;
+	std::vector<uint32_t> needed_views;
 };
 
 } // namespace gnomon

@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// One caster whose silhouette is wanted: the same for all views of a light.
+/// One caster whose silhouette is needed: the same for all views of a light.
 struct SilhouetteCaster {
 	uint32_t instance_index = 0;
 	const GpuTopology *gpu = nullptr;

@@ -99,19 +99,19 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	do {
 		const uint first_bundle = choice.next / size;
 		const uint bundle = first_bundle + gl_SubgroupInvocationID;
-		const bool is_wanted = bundle < bundle_count &&
+		const bool is_needed = bundle < bundle_count &&
 				may_use_bundle(p_box, load_count_bundle(bundle < bundle_count ? bundle : 0u));
-		uvec4 wanted = subgroup_ballot(is_wanted);
+		uvec4 needed = subgroup_ballot(is_needed);
 		choice.next += SUBGROUP_SIZE * size;
 		do {
-			const bool is_there = subgroupBallotBitCount(wanted) != 0u;
-			const uint lane = is_there ? subgroupBallotFindLSB(wanted) : 0u;
+			const bool is_there = subgroupBallotBitCount(needed) != 0u;
+			const uint lane = is_there ? subgroupBallotFindLSB(needed) : 0u;
 			const bool has_room = has_choice_room(choice, size);
 			if (is_there && !has_room) {
 				choice.next = (first_bundle + lane) * size; // from here on the next time
 			}
-			wanted[lane / 32u] &= ~(1u << (lane & 31u));
-			wanted = has_room ? wanted : uvec4(0u);
+			needed[lane / 32u] &= ~(1u << (lane & 31u));
+			needed = has_room ? needed : uvec4(0u);
 			const uint end = is_there && has_room ? p_end : 0u;
 			uint i = gl_SubgroupInvocationID;
 			do {
@@ -121,7 +121,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 				choose_edge_of_bundle(p_box, first_bundle + lane, i + 3u * SUBGROUP_SIZE, end, choice);
 				i += 4u * SUBGROUP_SIZE;
 			} while (4u * SUBGROUP_SIZE < size && i - gl_SubgroupInvocationID < size);
-		} while (subgroupBallotBitCount(wanted) != 0u);
+		} while (subgroupBallotBitCount(needed) != 0u);
 	} while (choice.next < p_end && has_choice_room(choice, size));
 	return choice;
 }

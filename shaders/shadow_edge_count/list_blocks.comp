@@ -152,8 +152,8 @@ BoxPair find_tile_pair(uvec2 p_tile, uint p_view, uint p_parts) {
 }
 
 // Bundles that may matter to the tile, in their order; and edges of them that may.
-const uint MOST_WANTED = 512u;
-shared uint wanted_bundles[MOST_WANTED];
+const uint MOST_NEEDED = 512u;
+shared uint needed_bundles[MOST_NEEDED];
 const uint MOST_HELD = 1024u;
 shared uint held_items[MOST_HELD];
 
@@ -179,7 +179,7 @@ bool may_use_bundle(BoxPair p_pair, uint p_bundle) {
 	return may_use_bundle(p_pair.near, bundle) || (p_pair.count > 1u && may_use_bundle(p_pair.far, bundle));
 }
 
-/// Puts bundles from r_next on, whole groups, into wanted_bundles, until all are tested or there may be no room, and
+/// Puts bundles from r_next on, whole groups, into needed_bundles, until all are tested or there may be no room, and
 /// returns how many.
 uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 	const uint size = uint(EDGE_COUNT_BUNDLES_PER_GROUP);
@@ -190,15 +190,15 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 		const uint first_group = r_next / size;
 		const uint group = first_group + gl_SubgroupInvocationID;
 		const bool is_group = group < group_count;
-		const bool is_group_wanted =
+		const bool is_group_needed =
 				is_group && may_use_bundle(p_pair, is_group ? light.most_bundles + group : 0u);
-		uvec4 groups = subgroup_ballot(is_group_wanted);
+		uvec4 groups = subgroup_ballot(is_group_needed);
 		r_next += GROUP_SIZE * size;
 		do {
 			const bool is_there = subgroupBallotBitCount(groups) != 0u;
 			const uint lane = is_there ? subgroupBallotFindLSB(groups) : 0u;
 			groups[lane / 32u] &= ~(1u << (lane & 31u));
-			has_room = count + size <= MOST_WANTED;
+			has_room = count + size <= MOST_NEEDED;
 			if (is_there && !has_room) {
 				r_next = (first_group + lane) * size; // from here on the next time
 				groups = uvec4(0u);
@@ -207,12 +207,12 @@ uint choose_bundles(BoxPair p_pair, uint p_bundle_count, inout uint r_next) {
 			const uint end = is_there && has_room ? min(first + size, p_bundle_count) : 0u;
 			do {
 				const uint bundle = first + gl_SubgroupInvocationID;
-				const bool is_wanted = bundle < end && may_use_bundle(p_pair, bundle < end ? bundle : 0u);
-				const uvec4 wanted = subgroup_ballot(is_wanted);
-				if (is_wanted) {
-					wanted_bundles[count + subgroupBallotExclusiveBitCount(wanted)] = bundle;
+				const bool is_needed = bundle < end && may_use_bundle(p_pair, bundle < end ? bundle : 0u);
+				const uvec4 needed = subgroup_ballot(is_needed);
+				if (is_needed) {
+					needed_bundles[count + subgroupBallotExclusiveBitCount(needed)] = bundle;
 				}
-				count += subgroupBallotBitCount(wanted);
+				count += subgroupBallotBitCount(needed);
 				first += GROUP_SIZE;
 				++iteration_count;
 			} while (first < end);
@@ -266,13 +266,13 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 }
 
 /// Puts those of the chosen bundles that a part needs into held_items, and returns how many.
-uint hold_bundles(CountBox p_box, uint p_wanted_count) {
+uint hold_bundles(CountBox p_box, uint p_needed_count) {
 	uint count = 0u;
 	uint first = 0u;
 	do {
 		const uint item = first + gl_SubgroupInvocationID;
-		const uint bundle = item < p_wanted_count ? wanted_bundles[item] : 0u;
-		const bool is_used = item < p_wanted_count && may_use_bundle(p_box, load_count_bundle(bundle));
+		const uint bundle = item < p_needed_count ? needed_bundles[item] : 0u;
+		const bool is_used = item < p_needed_count && may_use_bundle(p_box, load_count_bundle(bundle));
 		const uvec4 used = subgroup_ballot(is_used);
 		if (is_used) {
 			held_items[count + subgroupBallotExclusiveBitCount(used)] = bundle;
@@ -280,7 +280,7 @@ uint hold_bundles(CountBox p_box, uint p_wanted_count) {
 		count += subgroupBallotBitCount(used);
 		first += GROUP_SIZE;
 		++iteration_count;
-	} while (first < p_wanted_count);
+	} while (first < p_needed_count);
 	sync_subgroup_memory();
 	return count;
 }
@@ -305,17 +305,17 @@ void list_held(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout floa
 }
 
 /// Lists what each part needs of the chosen bundles, or of p_held_count edges in held_items; one of both numbers is 0.
-void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count, uint p_held_count) {
+void list_parts(uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count, uint p_held_count) {
 	sync_subgroup_memory();
-	const bool has_bundles = p_wanted_count > 0u;
-	uint parts = p_wanted_count + p_held_count > 0u ? p_parts : 0u;
+	const bool has_bundles = p_needed_count > 0u;
+	uint parts = p_needed_count + p_held_count > 0u ? p_parts : 0u;
 	do {
 		const bool is_there = parts != 0u;
 		const uint i = is_there ? uint(findLSB(parts)) : 0u;
 		const CountBox box = make_count_box(light, load_count_view(p_view), load_box(p_tile, p_parts, i));
 		Chain chain = part_chains[i];
 		float least_share = COUNT_FAR;
-		const uint bundle_count = hold_bundles(box, is_there ? p_wanted_count : 0u);
+		const uint bundle_count = hold_bundles(box, is_there ? p_needed_count : 0u);
 		const uint edge_count = has_bundles ? bundle_count * uint(EDGE_COUNT_BUNDLE_SIZE) : p_held_count;
 		list_held(box, has_bundles, is_there ? edge_count : 0u, least_share, chain);
 		chain.is_smooth = chain.is_smooth && subgroup_all(least_share >= box.smooth_share);
@@ -337,7 +337,7 @@ uint hold_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 	do {
 		const uint item = r_first + gl_SubgroupInvocationID;
 		const uint place = item < p_item_count ? item : 0u;
-		const uint index = wanted_bundles[place / size] * size + place % size;
+		const uint index = needed_bundles[place / size] * size + place % size;
 		const bool is_there = item < p_item_count && index < most;
 		const CountEdgeRecord edge = load_count_edge(is_there ? index : 0u);
 		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
@@ -356,13 +356,13 @@ uint hold_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 }
 
 /// Lists the edges of the chosen bundles that the tile's parts need.
-void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint p_wanted_count) {
+void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint p_needed_count) {
 	const bool is_deep = uint(bitCount(p_parts)) > BLOCKS_PER_TILE;
-	const uint item_count = is_deep ? 0u : p_wanted_count * uint(EDGE_COUNT_BUNDLE_SIZE);
+	const uint item_count = is_deep ? 0u : p_needed_count * uint(EDGE_COUNT_BUNDLE_SIZE);
 	uint first = 0u;
 	do {
 		const uint held_count = hold_edges(p_pair, item_count, first);
-		list_parts(p_tile, p_view, p_parts, is_deep ? p_wanted_count : 0u, held_count);
+		list_parts(p_tile, p_view, p_parts, is_deep ? p_needed_count : 0u, held_count);
 	} while (first < item_count && iteration_count < MOST_ITERATIONS);
 }
 
@@ -439,9 +439,9 @@ void check_faces_of_view(uvec2 p_tile, uint p_view, uint p_parts) {
 		const uint block = i % BLOCKS_PER_TILE;
 		const bool has_edges = part_chains[min(i, PARTS_PER_TILE - 1u)].edge_count > 0u;
 		// Without edges a light of size 0 has borders all the same.
-		const bool is_wanted = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
+		const bool is_needed = !is_count_bounds_empty(bounds) && light.most_edges > 0u &&
 				(!has_edges || blocks_are_smooth[block] != 0u);
-		if (is_wanted) {
+		if (is_needed) {
 			const uint solids = find_box_solids(p_view, bounds);
 			atomicOr(block_solids[block], has_edges ? 0u : solids);
 			atomicAnd(blocks_are_smooth[block], has_edges && solids == MAY_VARY ? 0u : 1u);
@@ -463,8 +463,8 @@ void list_view(uvec2 p_tile, uint p_view) {
 	const BoxPair pair = find_tile_pair(p_tile, p_view, parts);
 	uint next = 0u;
 	do {
-		const uint wanted_count = choose_bundles(pair, bundle_count, next);
-		list_bundles(pair, p_tile, p_view, parts, wanted_count);
+		const uint needed_count = choose_bundles(pair, bundle_count, next);
+		list_bundles(pair, p_tile, p_view, parts, needed_count);
 	} while (next < bundle_count && iteration_count < MOST_ITERATIONS);
 	for (uint first = 0u; first < PARTS_PER_TILE && parts >> first != 0u; first += GROUP_SIZE) {
 		const uint i = first + gl_SubgroupInvocationID;

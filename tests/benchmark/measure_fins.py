@@ -94,7 +94,7 @@ def measure_rounds(round_count):
 
 
 def find_layer_passes(result):
-    """The passes that found the layers; a device without the wanted way takes the other."""
+    """The passes that found the layers; a device without the requested way takes the other."""
     return ONE_PASS if "layers view 0" in result["passes"] else PEELS
 
 

@@ -180,10 +180,10 @@ def main():
     targets = STUDY + OTHERS
     if arguments.scenes:
         names = sorted({target.scene for target in targets})
-        wanted = arguments.scenes.split(",")
-        if any(name not in names for name in wanted):
+        requested = arguments.scenes.split(",")
+        if any(name not in names for name in requested):
             parser.error("--scenes is %s, must be of: %s" % (arguments.scenes, ",".join(names)))
-        targets = [target for target in targets if target.scene in wanted]
+        targets = [target for target in targets if target.scene in requested]
     if arguments.jobs < 1:
         parser.error("--jobs is %d, must be 1 or more" % arguments.jobs)
     if arguments.write:

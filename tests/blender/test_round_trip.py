@@ -88,7 +88,7 @@ class WithDisplay(BlenderTest, DisplayTest):
             self.assertEqual(json.load(file), ["AREA", "POINT", "SPOT", "SUN"])
         self.assertNotIn("Traceback", result.stdout + result.stderr)
 
-    def wait_for(self, process, is_wanted):
+    def wait_for(self, process, matches):
         end, state = time.monotonic() + WAIT_S, {}
         while time.monotonic() < end and process.poll() is None:
             try:
@@ -96,7 +96,7 @@ class WithDisplay(BlenderTest, DisplayTest):
                     state = json.load(file)
             except (OSError, ValueError):  # not there yet
                 state = {}
-            if state and is_wanted(state):
+            if state and matches(state):
                 return
             time.sleep(0.1)
         self.fail("the editor did not get there: %s" % state)

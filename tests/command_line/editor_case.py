@@ -52,22 +52,22 @@ class EditorCase(DisplayTest):
             return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0,
                     "pictures": 0, "answers_ms": [], "error": error}  # fmt: skip
 
-    def wait_for(self, is_wanted, at_most_s=TIMEOUT_S):
-        """The first state that is wanted. None comes in time: the test fails with the last one."""
+    def wait_for(self, matches, at_most_s=TIMEOUT_S):
+        """The first state that matches. None comes in time: the test fails with the last one."""
         end = time.monotonic() + at_most_s
         while time.monotonic() < end:
             state = self.get_state()
-            if is_wanted(state):
+            if matches(state):
                 return state
             if self.process.poll() is not None:
                 self.fail("the editor ended: %s" % self.process.communicate()[1])
             time.sleep(0.05)
         self.fail("the editor did not get there: %s" % json.dumps(self.get_state()))
 
-    def wait_frames(self, count=2, is_wanted=lambda state: True):
+    def wait_frames(self, count=2, matches=lambda state: True):
         """What was pressed last has arrived two frames later, however long they take."""
         frame = self.get_state()["frame"]
-        return self.wait_for(lambda state: state["frame"] > frame + count and is_wanted(state))
+        return self.wait_for(lambda state: state["frame"] > frame + count and matches(state))
 
     def find_middle(self, name):
         bounds, before = self.wait_for(lambda state: name in state["items"])["items"][name], None
@@ -95,7 +95,7 @@ class EditorCase(DisplayTest):
 
     def rest(self):
         """Waits until the window shows all that there is, and sharply."""
-        self.wait_frames(is_wanted=lambda state: state["is_resting"])
+        self.wait_frames(matches=lambda state: state["is_resting"])
 
     def photograph(self, begin=0.0, end=1.0):
         """What the viewport shows between two shares of its width, as raw bytes; not what the mouse calls up there."""

@@ -109,8 +109,8 @@ class TechniquePageTest(unittest.TestCase):
             if os.path.isfile(path):
                 with self.subTest(technique=technique["id"]):
                     headings = re.findall(r"(?m)^## (.+)$", read(path))
-                    wanted = ["Idea", "Passes and textures", "Parameters", "Known failures", "Measured"]
-                    self.assertEqual([name for name in wanted if name not in headings], [])
+                    required = ["Idea", "Passes and textures", "Parameters", "Known failures", "Measured"]
+                    self.assertEqual([name for name in required if name not in headings], [])
 
 
 class GeneratedPageTest(unittest.TestCase):

@@ -72,15 +72,15 @@ def main():
     if unknown or min(arguments.seconds, arguments.jobs, arguments.limit_s) < 1:
         names = ", ".join(target.name for target in targets)
         parser.error("seconds, jobs and limit must be above 0, targets some of %s" % names)
-    wanted = [target for target in targets if not arguments.targets or target.name in arguments.targets]
+    requested = [target for target in targets if not arguments.targets or target.name in arguments.targets]
     passed = 0
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        runs = pool.map(lambda target: run_target(target, arguments.seconds, arguments.limit_s), wanted)
+        runs = pool.map(lambda target: run_target(target, arguments.seconds, arguments.limit_s), requested)
         for has_passed, summary in runs:
             passed += has_passed
             print(summary, flush=True)
-    print("%d passed, %d failed, 0 skipped" % (passed, len(wanted) - passed))
-    return 0 if passed == len(wanted) else 1
+    print("%d passed, %d failed, 0 skipped" % (passed, len(requested) - passed))
+    return 0 if passed == len(requested) else 1
 
 
 if __name__ == "__main__":

@@ -176,13 +176,13 @@ std::vector<GoldenFile> find_goldens() {
 /// $GNOMON_UPDATE_GOLDEN, set by update.sh: "all", a scene, or "scene/id" (which may be new).
 std::vector<GoldenFile> choose_updates(std::vector<GoldenFile> p_goldens) {
 	const char *variable = std::getenv("GNOMON_UPDATE_GOLDEN");
-	const std::string wanted = variable == nullptr ? "" : variable;
-	const size_t slash = wanted.find('/');
+	const std::string requested = variable == nullptr ? "" : variable;
+	const size_t slash = requested.find('/');
 	if (slash != std::string::npos) {
-		return { { wanted.substr(0, slash), wanted.substr(slash + 1) } };
+		return { { requested.substr(0, slash), requested.substr(slash + 1) } };
 	}
 	std::erase_if(p_goldens, [&](const GoldenFile &p_golden) {
-		return wanted != "all" && wanted != p_golden.scene;
+		return requested != "all" && requested != p_golden.scene;
 	});
 	return p_goldens;
 }

@@ -18,15 +18,15 @@ if [ $# -gt 2 ] || [[ "${1:-}" == -* ]]; then
     [[ "${1:-}" == -h || "${1:-}" == --help ]] && exit 0
     exit 2
 fi
-wanted=${1:-all}
+requested=${1:-all}
 if [ $# -ge 1 ] && [ ! -f "tests/golden/$1/golden.json" ]; then
     echo "ERROR: tests/golden/$1/golden.json is missing. Scenes: $(cd tests/golden && echo */)" >&2
     exit 1
 fi
-[ $# -eq 2 ] && wanted=$1/$2
+[ $# -eq 2 ] && requested=$1/$2
 if [ ! -x bin/gnomon_tests ]; then
     echo "ERROR: bin/gnomon_tests is missing. Run scons first." >&2
     exit 1
 fi
-GNOMON_UPDATE_GOLDEN=$wanted bin/gnomon_tests '--test-case=[GPU][Golden] every image*'
+GNOMON_UPDATE_GOLDEN=$requested bin/gnomon_tests '--test-case=[GPU][Golden] every image*'
 git status --short -- tests/golden

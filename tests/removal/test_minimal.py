@@ -97,7 +97,7 @@ def check_plan(results):
         return set(re.findall(r"(?<![\w/.])(?:build/\w+/)?modules/(\w+)/", text))
 
     used = find_modules(planned.stdout)
-    results.check(used == set(enabled), "it is made of %s; of them not wanted: %s" % (sorted(used), sorted(used - set(enabled))))
+    results.check(used == set(enabled), "it is made of %s; of them not requested: %s" % (sorted(used), sorted(used - set(enabled))))
     # Canary: the whole program is made of more, and the same question sees it.
     whole = find_modules(run(command, ROOT).stdout)
     results.check(whole > set(enabled) and "editor" in whole, "the whole program has more modules, found %s" % sorted(whole))

@@ -117,9 +117,9 @@ def main():
     arguments = parser.parse_args()
     tree = test_layers.Tree(ROOT)
     techniques = {name: ids for name, (ids, _) in tree.find_techniques().items()}
-    wanted = sorted(techniques) if arguments.all else [arguments.module or find_smallest(techniques)]
+    requested = sorted(techniques) if arguments.all else [arguments.module or find_smallest(techniques)]
     passed = failed = 0
-    for module in wanted:
+    for module in requested:
         if module not in techniques:
             failed += 1
             print("FAILED: %s registers no technique. Those that do: %s" % (module, ", ".join(sorted(techniques))))

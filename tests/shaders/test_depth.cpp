@@ -26,8 +26,8 @@ TEST_CASE("[GPU][Shaders] a stored depth gives back the position that was drawn"
 	for (int index = 0; index < 4000; ++index) {
 		const glm::dvec2 pixel =
 				glm::floor(glm::dvec2(random.next(), random.next()) * glm::dvec2(size_px));
-		const double wanted_m = std::pow(10.0, random.next(-1.2, 4)); // 6 cm .. 10 km
-		const float depth = static_cast<float>(double(camera.near_m) / wanted_m);
+		const double requested_m = std::pow(10.0, random.next(-1.2, 4)); // 6 cm .. 10 km
+		const float depth = static_cast<float>(double(camera.near_m) / requested_m);
 		pixels.push_back(glm::vec4(glm::vec2(pixel), depth, 0.0f));
 		// The camera looks along -Z; rows go down.
 		const double z_m = double(camera.near_m) / double(depth);

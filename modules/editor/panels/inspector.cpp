@@ -150,14 +150,14 @@ void draw_label(const PropertyInfo &p_info) {
 /// What the widgets of one frame ask for; done after all are drawn, since a change may declare
 /// other properties.
 struct PropertyEdit {
-	bool is_wanted = false;
+	bool is_requested = false;
 	std::string name;
 	std::optional<PropertyValue> value;
 	bool is_drag = false;
 	bool ends_drag = false;
 
 	void apply(EditorContext &r_context, Node3D &r_node) const {
-		if (is_wanted) {
+		if (is_requested) {
 			r_context.attempt(
 					[&] { r_context.document.set_property(r_node, name, value, is_drag); });
 			r_context.viewport.is_moving = is_drag;
@@ -214,7 +214,7 @@ void draw_pose(EditorContext &r_context, const Node3D &p_node) {
 	}
 }
 
-bool is_wanted(const EditorContext &p_context, const PropertyInfo &p_info) {
+bool matches_filter(const EditorContext &p_context, const PropertyInfo &p_info) {
 	return p_info.name.find(p_context.inspector_filter) != std::string::npos ||
 			p_info.group.find(p_context.inspector_filter) != std::string::npos;
 }
@@ -232,7 +232,7 @@ void draw_group(EditorContext &r_context, const Node3D &p_node, const std::strin
 	ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 2.0f * ImGui::GetFontSize());
 	ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.5f * ImGui::GetFontSize());
 	for (const PropertyInfo &info : p_properties) {
-		if (info.group == p_group && is_wanted(r_context, info)) {
+		if (info.group == p_group && matches_filter(r_context, info)) {
 			draw_property(r_context, p_node, info, r_edit);
 		}
 	}
@@ -266,7 +266,7 @@ void draw_inspector(EditorContext &r_context) {
 	const std::vector<PropertyInfo> properties = list_node_properties(*node).get_properties();
 	std::vector<std::string> groups;
 	for (const PropertyInfo &info : properties) {
-		if (is_wanted(r_context, info) &&
+		if (matches_filter(r_context, info) &&
 				std::find(groups.begin(), groups.end(), info.group) == groups.end()) {
 			groups.push_back(info.group);
 		}

@@ -34,7 +34,7 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 			ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
 		}
 		if (ImGui::IsItemClicked()) {
-			r_context.wanted_page = p_module.doc;
+			r_context.requested_page = p_module.doc;
 			r_context.command = EditorCommand::READ_PAGE;
 		}
 	}

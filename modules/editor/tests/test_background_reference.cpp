@@ -56,7 +56,7 @@ void wait_for_end(const BackgroundReference &p_reference) {
 
 } // namespace
 
-TEST_CASE("Each round of a reference has four times the rays, the last as many as are wanted") {
+TEST_CASE("Each round of a reference has four times the rays, the last as many as are needed") {
 	Script script;
 	BackgroundReference reference;
 	CHECK(!reference.take());

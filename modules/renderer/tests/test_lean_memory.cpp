@@ -14,10 +14,10 @@ using namespace gnomon;
 
 namespace {
 
-void disable_all_but(const std::vector<std::string> &p_wanted, std::vector<std::string> &r_off) {
+void disable_all_but(const std::vector<std::string> &p_requested, std::vector<std::string> &r_off) {
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		if (module.can_disable && module.is_enabled &&
-				std::find(p_wanted.begin(), p_wanted.end(), module.name) == p_wanted.end()) {
+				std::find(p_requested.begin(), p_requested.end(), module.name) == p_requested.end()) {
 			r_off.push_back(module.name);
 		}
 	}

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Adds the pass that draws what the camera sees. Normals only where they are wanted and the device
+/// Adds the pass that draws what the camera sees. Normals only where they are needed and the device
 /// knows the primitive's index in fragment shaders.
 inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shadows,
 		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,

@@ -16,10 +16,10 @@ const CASES: Array[GDScript] = [
 
 func _ready() -> void:
 	DisplayServer.window_set_size(Vector2i(200, 200))
-	var wanted := OS.get_cmdline_user_args()
+	var requested := OS.get_cmdline_user_args()
 	for script in CASES:
 		for method in script.get_script_method_list():
-			if method.name.begins_with("test_") and (wanted.is_empty() or method.name in wanted):
+			if method.name.begins_with("test_") and (requested.is_empty() or method.name in requested):
 				await _run(script, method.name)
 	get_tree().quit()
 
