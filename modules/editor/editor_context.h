@@ -104,7 +104,7 @@ struct EditorContext {
 	double shown_ms = 0; // wall time
 	bool is_image_coarse = false;
 	void *image = nullptr;		  // ImTextureID; null: none yet
-	void *compared_image = nullptr; // likewise, of ViewportState::compared_technique
+	void *compared_image = nullptr; // the same, of ViewportState::compared_technique
 	glm::uvec2 image_size_px = glm::uvec2(0);
 	ErrorState error;
 	/// What went wrong or was done last, for the status bar.
@@ -177,9 +177,9 @@ void draw_inspector(EditorContext &r_context);
 void draw_viewport(EditorContext &r_context);
 void draw_timeline(EditorContext &r_context);
 void draw_error(EditorContext &r_context);	  // within a tab bar
-void draw_plan(EditorContext &r_context);	  // likewise
-void draw_modules(EditorContext &r_context);  // likewise
-void draw_messages(EditorContext &r_context); // likewise
+void draw_plan(EditorContext &r_context);	  // within a tab bar
+void draw_modules(EditorContext &r_context);  // within a tab bar
+void draw_messages(EditorContext &r_context); // within a tab bar
 void draw_status(EditorContext &r_context);
 
 } // namespace gnomon

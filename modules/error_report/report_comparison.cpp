@@ -20,7 +20,7 @@ namespace {
 const double ERROR_MARGIN = 0.0005;		// differences of rounding between devices stay below
 const double ERROR_MARGIN_SHARE = 0.01; // of the old error
 const double RATIO_MARGIN_SHARE = 0.15; // repeated runs on one machine stay within, mostly
-const double TIME_MARGIN_SHARE = 0.3;	// likewise for times, which other work on it changes
+const double TIME_MARGIN_SHARE = 0.3;	// the same for times, which other work on it changes
 
 using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
 

@@ -49,7 +49,7 @@ public:
 	/// By index of their node: what the scene named a light or camera that shares its node.
 	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, LightSettings> lights;			   // by index of their node
-	std::map<size_t, std::pair<float, float>> cameras; // likewise: field of view, near plane
+	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
 	/// Where a light's properties stand besides its node: see find_blender_owner.
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;

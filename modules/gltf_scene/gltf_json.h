@@ -109,9 +109,9 @@ public:
 	/// A number in p_minimum..p_maximum; any other value is reported and the default returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
 			std::string_view p_unit = "") const;
-	/// Three numbers in 0..p_maximum, likewise.
+	/// Three numbers in 0..p_maximum, in the same way.
 	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
-	/// True, false, 1 or 0 (Blender writes flags as numbers), likewise.
+	/// True, false, 1 or 0 (Blender writes flags as numbers), in the same way.
 	bool read_bool(std::string_view p_key, bool p_default) const;
 
 	[[noreturn]] void fail_at(std::string_view p_key, std::string_view p_problem) const;

@@ -172,7 +172,7 @@ RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptio
 		request.debug_view = state.shown.empty() ? p_options.debug_view : state.shown;
 		// A view that never was is refused; one that T or a light has taken away gives way.
 		request.needs_debug_view = drawn_count == 0;
-		// Likewise a reference of another size, once the window has been resized.
+		// So does a reference of another size, once the window has been resized.
 		const bool fits = reference && (drawn_count == 0 || reference->size_px == size_px);
 		request.reference = fits ? reference : nullptr;
 		request.wants_image = is_last && !p_options.capture.empty();

@@ -15,7 +15,7 @@ const int32_t CONTOUR_UNITS_PER_TEXEL = 256;
 /// marching squares. Nothing: more than so many segments.
 std::optional<std::vector<PolygonLoop>> find_alpha_contour(
 		const AlphaTest &p_test, size_t p_most_segments);
-/// Likewise along the sides of texels, as a nearest sampler shows them. Texels that meet in a point
+/// The same along the sides of texels, as a nearest sampler shows them. Texels that meet in a point
 /// are parted there.
 std::optional<std::vector<PolygonLoop>> find_alpha_squares(
 		const AlphaTest &p_test, size_t p_most_segments);

@@ -26,7 +26,7 @@ struct MeshRig {
 	size_t vertex_count = 0;
 	uint32_t influence_count = 0; // joints a vertex: 0 (no skin), 4 or 8
 	std::vector<uint32_t> joints; // influence_count a vertex
-	std::vector<float> weights;	  // likewise; 0..1, the sum of a vertex is 1
+	std::vector<float> weights;	  // as many; 0..1, the sum of a vertex is 1
 	/// The sums stay as they are: a host draws the mesh so, although its rounding made them less.
 	bool keeps_weight_sums = false;
 	std::vector<MorphTarget> targets;

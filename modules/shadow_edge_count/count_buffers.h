@@ -36,7 +36,7 @@ struct CountFrameBuffers {
 	RGBuffer edges;		// CountEdgeRecord
 	RGBuffer bundles;	// CountEdgeBundle
 	RGBuffer heads;		// of the texels' face lists, by view
-	RGBuffer nodes;		// likewise
+	RGBuffer nodes;		// of the same lists
 	RGBuffer cut_faces; // that may cut the light's disc
 	RGBuffer totals;	// EDGE_COUNT_TOTAL_*
 };

@@ -20,7 +20,7 @@ constexpr uint32_t MAX_COUNT = 10'000'000;
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
 const double SIDE_TOLERANCE_SIZES = 2.5e-7; // of S: what rounding may move a face's plane
-const double SIDE_TOLERANCE_COSINE = 1e-6;	// likewise, directional
+const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same, directional
 
 /// How many texels the faces of a mesh may cover in part.
 uint64_t compute_node_bound(

@@ -10,7 +10,7 @@ namespace gnomon {
 /// One caster of a light.
 struct CountCaster {
 	const CountGpuMesh *gpu = nullptr; // lives as long as the mesh, which the frame's scene holds
-	BufferRID positions;			   // likewise; vec4 per welded vertex
+	BufferRID positions;			   // lives as long; vec4 per welded vertex
 	uint64_t mesh_id = 0;
 	uint64_t pose_hash = 0;
 	shader::CountCasterPush push;

@@ -14,7 +14,7 @@ enum class VolumeMaker { GEOMETRY_SHADER, COMPUTE, CPU };
 /// What the technique's settings and the device make of it.
 struct VolumeSettings {
 	std::optional<VolumeCount> count; // none: chosen for each caster
-	std::optional<VolumeMaker> maker; // none: likewise
+	std::optional<VolumeMaker> maker; // none: the same
 	bool is_always_robust = false;
 	bool has_scissor = true; // and depth bounds, where the device can
 	CasterCulling::Wish culling = CasterCulling::Wish::OFF;

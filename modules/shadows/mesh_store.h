@@ -18,7 +18,7 @@ inline constexpr char DEFORM_PASS_NAME[] = "deform";
 /// One mesh in GPU memory.
 struct GpuMesh {
 	OwnedBuffer positions;	 // VERTEX | STORAGE, three floats each
-	OwnedBuffer normals;	 // VERTEX | STORAGE, likewise
+	OwnedBuffer normals;	 // VERTEX | STORAGE, three floats each
 	SharedBuffer indices;	 // INDEX | STORAGE
 	OwnedBuffer tangents;	 // of a mesh that poses deform, once requested: four floats each
 	BufferRID rest_tangents; // from which those come

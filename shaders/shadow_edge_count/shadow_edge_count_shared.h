@@ -20,7 +20,7 @@
 /// An edge that may be a silhouette from some point of the light: 2 x RGBA32_UINT.
 struct SHARED_ALIGN CountEdgeRecord {
 	uvec4 a_face0; // bits of its position; index and kind of its first face, which winds a -> b
-	uvec4 b_face1; // likewise; index of the second face, or EDGE_COUNT_NO_FACE
+	uvec4 b_face1; // the same of b; index of the second face, or EDGE_COUNT_NO_FACE
 };
 SHARED_SIZE(CountEdgeRecord, 32);
 

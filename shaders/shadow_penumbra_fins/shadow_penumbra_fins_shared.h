@@ -41,8 +41,8 @@
 /// One light view, for drawing its fins. Lengths in metres.
 struct SHARED_ALIGN FinsViewConstants {
 	vec2 half_extent;  // of the map, see LightViewConstants
-	float depth_scale; // likewise
-	float view_far_m;  // likewise; orthographic only
+	float depth_scale; // see LightViewConstants
+	float view_far_m;  // see LightViewConstants; orthographic only
 	uint is_orthographic;
 	uint layer;			 // of the texture arrays
 	float outer_width_m; // r

@@ -87,10 +87,10 @@ def main():
     middle = statistics.median
     rows = [
         ("start to the first frame, nothing cached", "%.2f s" % cold, "", ""),
-        ("likewise, pipelines cached, median of %d" % STARTS, "%.2f s" % warm, "< 2 s", answer(warm < START_GOAL_S)),
+        ("the same, pipelines cached, median of %d" % STARTS, "%.2f s" % warm, "< 2 s", answer(warm < START_GOAL_S)),
         ("a dragged size is seen after, median of %d" % len(alone), "%.0f ms" % middle(alone), "", ""),
         ("90th percentile", "%.0f ms" % percentile(alone, 0.9), "", ""),
-        ("likewise while the reference is traced, median of %d" % len(traced), "%.0f ms" % middle(traced), "", ""),
+        ("a dragged size while the reference is traced, median of %d" % len(traced), "%.0f ms" % middle(traced), "", ""),
         ("its ratio to the one without", "%.2f" % (middle(traced) / middle(alone)), "", ""),
     ]
     table = format_table(("three_lights, three soft shadows", "", "goal", "met"), rows)

@@ -72,7 +72,7 @@ ReceiverBox make_box(
 
 struct CullResult {
 	std::vector<bool> is_used;		// one per edge, of each box
-	std::vector<int> known_weights; // likewise, or UNKNOWN_WEIGHT
+	std::vector<int> known_weights; // the same, or UNKNOWN_WEIGHT
 	size_t wrong_bundle_count = 0;	// that reject an edge which is used alone
 };
 

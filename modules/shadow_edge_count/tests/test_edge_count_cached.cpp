@@ -148,7 +148,7 @@ TEST_CASE("[GPU][EdgeCount] after any change the mask is that of a new frame, bi
 	check_changes(LightType::SPOT);
 }
 
-TEST_CASE("[GPU][EdgeCount] likewise of an omni light, some of whose views have no casters") {
+TEST_CASE("[GPU][EdgeCount] the same of an omni light, some of whose views have no casters") {
 	check_changes(LightType::OMNI);
 }
 
