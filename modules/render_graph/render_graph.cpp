@@ -139,7 +139,7 @@ void RenderGraph::compute_lifetimes() {
 			Resource &resource = resources[use.resource];
 			const bool is_first = resource.first_pass == ~0u;
 			GNOMON_ASSERT(!is_first || resource.is_imported || use.is_written, "pass ",
-					passes[index].name, " reads ", resource.name, ", which nobody wrote");
+					passes[index].name, " reads ", resource.name, ", which no pass wrote");
 			resource.first_pass = std::min(resource.first_pass, index);
 			resource.last_pass = index;
 		}

@@ -76,7 +76,7 @@ public:
 			RGTexture p_texture, LoadOp p_load, float p_clear = 0.0f, uint32_t p_layer = 0);
 	/// The rendering has no attachments but a size: for fragment shaders that only store.
 	PassBuilder &without_targets(glm::uvec2 p_size_px);
-	/// Runs even when nobody reads what it writes.
+	/// Runs even when nothing reads what it writes.
 	PassBuilder &keep();
 	void execute(std::function<void(PassContext &)> p_record);
 	/// Runs on the CPU: everything before it is submitted and waited for. Its buffers are READBACK
@@ -92,7 +92,7 @@ private:
 };
 
 /// The passes of one frame, in the order in which they were added. Passes declare reads and
-/// writes; the graph culls passes whose results nobody uses, gives transient textures memory
+/// writes; the graph culls passes whose results are unused, gives transient textures memory
 /// that they share when they do not live at the same time, and puts the barriers between passes.
 ///
 /// Recreated each frame; what can be reused (memory) is cached in the TransientPool.
@@ -145,7 +145,7 @@ public:
 	const std::vector<PassTiming> &get_timings() const { return timings; }
 	/// Sum over the passes, and the wall time of execute() from the first to the last command.
 	double get_wall_ms() const { return wall_ms; }
-	/// Passes that were culled because nobody uses what they write.
+	/// Passes that were culled because nothing uses what they write.
 	std::vector<std::string> get_culled_passes() const;
 	/// Bytes of transient textures as if none shared memory, and as placed. After execute().
 	uint64_t get_unaliased_bytes() const { return unaliased_bytes; }

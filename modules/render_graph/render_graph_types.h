@@ -18,7 +18,7 @@ struct RenderGraph::Resource {
 	BufferDesc buffer_desc;
 	TextureRID texture;
 	BufferRID buffer;
-	// Passes that are not culled; first > last means that nobody uses it.
+	// Passes that are not culled; first > last means that it is unused.
 	uint32_t first_pass = ~0u;
 	uint32_t last_pass = 0;
 	/// Accesses of the resources that had this one's memory before (aliasing).

@@ -27,7 +27,7 @@ bool has_extension(
 /// A messenger that counts what the layers report: warnings and errors of validation, not advice
 /// on speed and not what the loader says of the drivers it finds.
 VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
-/// From now on r_messages gets them instead, or nobody (null): for tests. Returns what got them.
+/// From now on r_messages gets them instead, or nothing (null): for tests. Returns what got them.
 std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages);
 
 /// The VkInstance with its validation messenger; destroyed with this object.

@@ -133,7 +133,7 @@ struct LightSettings {
 	float inner_cone_rad = 0.0f;	   // half angles, 0 <= inner < outer <= pi/2
 	float outer_cone_rad = 0.785398163f;
 	/// Size, widths, technique (see Light3D::get_property_list) and what techniques and filters
-	/// declare. Only what was set, also what nobody in this build declares: unknown properties
+	/// declare. Only what was set, also what nothing in this build declares: unknown properties
 	/// survive a save untouched.
 	PropertyValues properties;
 

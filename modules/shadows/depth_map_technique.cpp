@@ -27,7 +27,7 @@ void DepthMapTechnique::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	frame_map = {};
 	views.begin(p_inputs, reads);
 	if (views.may_forget()) {
-		map.reset(); // nobody reads it
+		map.reset(); // nothing reads it
 	}
 	has_content = bool(map) && map_desc == desc;
 	views.plan(p_inputs, r_plan, has_content);

@@ -59,7 +59,7 @@ bool is_edge_record_silhouette(
 
 /// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:
 /// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
-/// Each edge of the mesh belongs to one face, so that nobody draws it twice.
+/// Each edge of the mesh belongs to one face, so that it is not drawn twice.
 uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {
 	if ((p_flags & 7u) == 0u) {
 		return 0u;

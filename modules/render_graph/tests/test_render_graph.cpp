@@ -146,7 +146,7 @@ TEST_CASE("[GPU][RenderGraph] a fill reaches every word of a buffer") {
 	CHECK(found == std::vector<uint32_t>(word_count, 7));
 }
 
-TEST_CASE("[GPU][RenderGraph] a pass whose result nobody uses does not run, nor do its sources") {
+TEST_CASE("[GPU][RenderGraph] a pass whose result is unused does not run, nor do its sources") {
 	GraphFixture fixture;
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGTexture unused = graph.create_texture(make_desc("unused"));
