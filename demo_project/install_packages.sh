@@ -11,15 +11,15 @@ BUILD_PACKAGES=(
 )
 # Meshes of the bunny and of scenes/make_package_meshes.py, and what converts them.
 DEMO_PACKAGES=(glmark2-data assimp-testmodels assimp-utils)
-# What the tests use beside that.
+# What the tests use in addition.
 TEST_PACKAGES=(
     git vulkan-tools vulkan-validationlayers xvfb xdotool imagemagick x11-apps chromium
 )
-# What tests/run_tests.sh --full uses beside that, to download meshes and gltf-validator.
+# What tests/run_tests.sh --full uses in addition, to download meshes and gltf-validator.
 LARGE_MESH_PACKAGES=(npm)
-# What tests/run_tests.sh --full uses beside that, to fuzz: libFuzzer is clang's.
+# What tests/run_tests.sh --full uses in addition, to fuzz: libFuzzer is clang's.
 FUZZ_PACKAGES=(clang libclang-rt-14-dev)
-# What tests/run_tests.sh --only blender uses beside that; 160 MB with what they depend on.
+# What tests/run_tests.sh --only blender uses in addition; 160 MB with what they depend on.
 BLENDER_PACKAGES=(blender python3-numpy)
 
 is_package_installed() {

@@ -166,7 +166,7 @@ class Measurement:
         return min(complete, key=complete.get, default=None)
 
     def compute_mask(self, stem, scene_path, light, technique, *arguments):
-        """Path of the EXR; the PNG beside the page is named stem.png."""
+        """Path of the EXR; the PNG next to the page is named stem.png."""
         mask = os.path.join(self.work_folder, stem + ".exr")
         self.gnomon.run(
             "visibility", scene_path, "--technique", technique, "--light", light, "--size", self.options.size,

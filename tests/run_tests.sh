@@ -7,7 +7,7 @@ PARTS="layers scenes build docs engine embed command_line demo stability removal
 usage() {
     cat <<'TEXT'
 Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
-  --full       beside the quick tests: sanitizers over everything, removal of every technique in
+  --full       in addition to the quick tests: sanitizers over everything, removal of every technique in
                turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
                times, shadow volumes of large meshes and gltf-validator (installs npm, which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200

@@ -429,7 +429,7 @@ class GNOMON_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.gltf;*.glb", options={"HIDDEN"})
     is_embedded: BoolProperty(
         name="Embedded",
-        description="For .gltf: one file with everything in it, in place of a .bin beside it",
+        description="For .gltf: one file with everything in it, in place of a .bin next to it",
         default=False,
     )
 
@@ -515,7 +515,7 @@ def run_command(arguments):
     """The exit code."""
     parser = argparse.ArgumentParser(prog="blender -b FILE.blend -P gnomon_shadows.py --", description="Exports for Gnomon.")
     parser.add_argument("--export", required=True, metavar="OUT", help="the .gltf or .glb file to write")
-    parser.add_argument("--embedded", action="store_true", help="a .gltf without a .bin beside it")
+    parser.add_argument("--embedded", action="store_true", help="a .gltf without a .bin next to it")
     options = parser.parse_args(arguments)
     try:
         for warning in export_scene(bpy.context, options.export, options.embedded):

@@ -271,7 +271,7 @@ class Document:
         return len(self.root["materials"]) - 1
 
     def add_texture(self, file_name, png):
-        """Of a file beside the scene; repeated and interpolated."""
+        """Of a file next to the scene; repeated and interpolated."""
         self.images[file_name] = png
         for members, value in (("samplers", {}), ("images", {"uri": file_name})):
             self.root.setdefault(members, []).append(value)
@@ -371,7 +371,7 @@ class Document:
 
 
 def save_files(files, folder):
-    """Each file is written beside its place and renamed, so that none is ever half there."""
+    """Each file is written next to its place and renamed, so that none is ever half there."""
     os.makedirs(folder, exist_ok=True)
     for name, data in sorted(files.items()):
         path = os.path.join(folder, name)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes the bunny scenes from the mesh of Debian's package glmark2-data.
 
-    make_bunny.py [OUT.gltf]       default: bunny.gltf beside this file (not committed)
+    make_bunny.py [OUT.gltf]       default: bunny.gltf next to this file (not committed)
 
-The mesh (69,666 triangles, closed) is scaled to 1.9 m and put on the ground of the study's scenes. Beside OUT.gltf,
+The mesh (69,666 triangles, closed) is scaled to 1.9 m and put on the ground of the study's scenes. Next to OUT.gltf,
 OUT_wax.gltf has a translucent one, before a wall and a point light, as in figure 8 of Wang and Xiao 2015; its
 self-shadow is what it is about.
 """

@@ -4,7 +4,7 @@ in which a figure walks and a flag waves.
 
     make_foliage_scenes.py [--scenes A,B] [--seed N] [--count N] [--out DIR]
 
-The same seed and count give the same bytes. The default output is beside this file and not committed; run_demo.sh and
+The same seed and count give the same bytes. The default output is next to this file and not committed; run_demo.sh and
 tests/stability make it.
 """
 

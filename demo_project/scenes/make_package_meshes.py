@@ -4,7 +4,7 @@
     make_package_meshes.py [--scenes A,B] [--out DIR]
 
 Needs the command assimp (package assimp-utils), assimp-testmodels and glmark2-data. The default output is
-package_NAME.gltf beside this file, not committed. A mesh that is missing or does not convert is named on stderr, the
+package_NAME.gltf next to this file, not committed. A mesh that is missing or does not convert is named on stderr, the
 others are made, and the exit code is 1.
 """
 
@@ -144,7 +144,7 @@ def make_scenes(meshes, folder):
 def main():
     parser = argparse.ArgumentParser(description="Makes scenes of meshes of Debian packages.")
     parser.add_argument("--scenes", default=",".join(MESHES), help="comma-separated (default: %(default)s)")
-    parser.add_argument("--out", default=FOLDER, help="folder to write to (default: beside this file)")
+    parser.add_argument("--out", default=FOLDER, help="folder to write to (default: next to this file)")
     arguments = parser.parse_args()
     names = [name for name in arguments.scenes.split(",") if name]
     if not names or any(name not in MESHES for name in names):

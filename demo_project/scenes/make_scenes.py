@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the demo scenes beside this file.
+"""Writes the demo scenes next to this file.
 
     make_scenes.py [--out DIR]     writes every scene
     make_scenes.py --check         exits 1 when a committed scene differs from what would be written
@@ -285,7 +285,7 @@ def find_differences(files, folder):
 
 def main():
     parser = argparse.ArgumentParser(description="Writes the demo scenes.")
-    parser.add_argument("--out", default=FOLDER, help="folder to write to (default: beside this file)")
+    parser.add_argument("--out", default=FOLDER, help="folder to write to (default: next to this file)")
     parser.add_argument("--check", action="store_true", help="write nothing, compare with the files there")
     arguments = parser.parse_args()
     files = build_all_files()

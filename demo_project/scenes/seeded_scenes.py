@@ -31,7 +31,7 @@ class SeededScenes:
         parser.add_argument("--scenes", default=",".join(self.scenes), help="comma-separated (default: %(default)s)")
         parser.add_argument("--seed", type=int, default=DEFAULT_SEED, help="of the random numbers (default: %(default)s)")
         parser.add_argument("--count", type=int, help="%s, 1..%d (default: the scene's)" % (self.counted, self.most))
-        parser.add_argument("--out", default=FOLDER, help="folder to write to (default: beside this file)")
+        parser.add_argument("--out", default=FOLDER, help="folder to write to (default: next to this file)")
         arguments = parser.parse_args()
         names = [name for name in arguments.scenes.split(",") if name]
         unknown = [name for name in names if name not in self.scenes]

@@ -42,7 +42,7 @@ void lock(int p_file) {
 	}
 }
 
-/// A file beside the target that is written, then renamed. Vanishes unless it was.
+/// A file next to the target that is written, then renamed. Vanishes unless it was.
 class UnfinishedFile {
 public:
 	explicit UnfinishedFile(const fs::path &p_target) : target(p_target) {
@@ -66,7 +66,7 @@ public:
 			}
 			::close(file);
 		}
-		fail("Cannot write ", target, ": another program removes the files beside it. End that ",
+		fail("Cannot write ", target, ": another program removes the files next to it. End that ",
 				"program, or choose another place.");
 	}
 	~UnfinishedFile() {

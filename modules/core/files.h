@@ -20,13 +20,13 @@ std::vector<uint8_t> load_file(
 std::string load_text_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 
-/// Writes beside the target, syncs to disk and renames: the target is the old file or the new one,
-/// never a part, also when the process is killed (what it leaves beside the target is removed by
+/// Writes next to the target, syncs to disk and renames: the target is the old file or the new one,
+/// never a part, also when the process is killed (what it leaves next to the target is removed by
 /// the next one that saves there). An unwritable folder or a full disk is an Error naming the path.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
-/// How the files end that save_file_atomically has not renamed yet. They lie beside the target, and
+/// How the files end that save_file_atomically has not renamed yet. They lie next to the target, and
 /// are locked as long as their writer lives: what a killed process left is removed by the next one
 /// that saves into the folder.
 inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";

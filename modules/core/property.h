@@ -102,7 +102,7 @@ std::string describe_range(const PropertyInfo &p_info);
 
 /// The names of an ENUM, in order.
 std::vector<std::string> get_choices(const PropertyInfo &p_info);
-/// What a number may be, beside its special value. Without a hint there are no limits.
+/// What a number may be, apart from its special value. Without a hint there are no limits.
 struct PropertyRange {
 	double minimum = -1e30;
 	double maximum = 1e30;

@@ -63,7 +63,7 @@ public:
 	/// An empty name, or one that another node has, is an Error.
 	void rename(Node3D &r_node, const std::string &p_name);
 	void remove(Node3D &r_node);
-	/// Beside the node, with a name of its own; it is selected then.
+	/// Next to the node, with a name of its own; it is selected then.
 	void duplicate(Node3D &r_node);
 	/// Selects what changed, and says what it was; empty: nothing to undo.
 	std::string undo();
@@ -75,7 +75,7 @@ public:
 	/// The file is the old one or the new one. An Error loses nothing.
 	void save();
 	void save_as(const std::filesystem::path &p_path);
-	/// Where the changes go from time to time, beside the file.
+	/// Where the changes go from time to time, next to the file.
 	std::filesystem::path get_recovery_path() const;
 	/// Writes the changes aside when they have waited long enough. False: that failed; once a while
 	/// it is tried again.

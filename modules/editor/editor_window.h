@@ -14,7 +14,7 @@ struct EditorOptions {
 	std::string device;
 	bool validation = false;
 	StageMode stage = StageMode::AUTO;
-	std::filesystem::path program; // this program's file: bin/gnomon beside doc and shaders
+	std::filesystem::path program; // this program's file: bin/gnomon next to doc and shaders
 	/// Where the shaders' sources are, to be recompiled when they change; may not be there.
 	std::filesystem::path shaders;
 	/// Where widgets are, written as JSON each frame; empty: nowhere. For tests.

@@ -56,7 +56,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 			measured_image = p_image_count;
 			measure_mask(r_context);
 		} else if (!has_cost()) {
-			if (state.refusal.empty() && !background_reference.is_running()) { // beside it all is slower
+			if (state.refusal.empty() && !background_reference.is_running()) { // while it runs all is slower
 				measure_cost(r_context);
 			}
 		} else if (asked_reference && !state.is_stopped) {

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// While it lives, errors and warnings of all modules are collected for the status bar, beside
+/// While it lives, errors and warnings of all modules are collected for the status bar, in addition to
 /// where they went before. They may come from any thread.
 class StatusSink {
 public:

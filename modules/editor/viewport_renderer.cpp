@@ -89,7 +89,7 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	try {
 		draw_compared(r_context, request);
 	} catch (const std::exception &failure) {
-		compared_image.reset(); // it would show something else than the one beside it
+		compared_image.reset(); // it would show something else than the one next to it
 		r_context.complain(describe_failure(failure));
 	}
 	r_context.shown_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

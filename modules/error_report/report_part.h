@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// A part of the report beside its matrix and its scaling curves, of a module that a build may
+/// A part of the report in addition to its matrix and its scaling curves, of a module that a build may
 /// lack. Its configurations form one group (ReportConfiguration::group), whose name is the part's
 /// id.
 class ReportPart {

@@ -69,7 +69,7 @@ fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const Glt
 	const auto refuse = [&](const char *p_problem) {
 		p_object.fail_at("uri",
 				text("is \"", to_one_line(p_uri), "\", ", p_problem,
-						". Put the file beside the scene and name it alone."));
+						". Put the file next to the scene and name it alone."));
 	};
 	if (has_scheme(p_uri)) {
 		refuse("must be a file's relative path");

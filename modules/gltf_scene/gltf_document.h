@@ -50,7 +50,7 @@ public:
 	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, LightSettings> lights;			   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
-	/// Where a light's properties stand besides its node: see find_blender_owner.
+	/// Where a light's properties stand in addition to its node: see find_blender_owner.
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;

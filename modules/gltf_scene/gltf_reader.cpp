@@ -261,7 +261,7 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 	if (!reference) {
 		if (area) {
 			messages.warn("area light", text("nodes[", p_index, "]"),
-					"has an area light alone; only one beside a KHR_lights_punctual light is "
+					"has an area light alone; only one with a KHR_lights_punctual light is "
 					"read.");
 		}
 		return nullptr;

@@ -36,9 +36,9 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 /// everything of it that the program does not understand; only what changed is rewritten. The
 /// file itself is replaced atomically, after the files it refers to.
 ///
-/// Saved in another folder, buffers and images beside the old file are copied beside the new one
+/// Saved in another folder, buffers and images next to the old file are copied next to the new one
 /// (never over a file with other content: the copy then gets a number). A scene without a file gets
-/// its vertices in <name>.bin beside the .gltf, or inside the .glb.
+/// its vertices in <name>.bin next to the .gltf, or inside the .glb.
 void save_gltf(const Scene &p_scene, const std::filesystem::path &p_path);
 
 } // namespace gnomon

@@ -15,7 +15,7 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 	return fs::equivalent(p_first, p_second, code);
 }
 
-/// Copies what an element's relative URI names beside the target.
+/// Copies what an element's relative URI names next to the target.
 void copy_uri(const GltfObject &p_object, const GltfPlace &p_place, bool p_is_required,
 		Json &r_json, GltfSideFiles &r_files) {
 	const Json *uri = p_object.find("uri");

@@ -11,7 +11,7 @@ namespace gnomon {
 
 enum class GltfForm { TEXT, BINARY };
 
-/// The files that one save writes beside its scene. Nothing is written before save().
+/// The files that one save writes next to its scene. Nothing is written before save().
 class GltfSideFiles {
 public:
 	explicit GltfSideFiles(std::filesystem::path p_folder);

@@ -54,7 +54,7 @@ NewBuffer choose_buffer(const GltfContainer &p_container, GltfForm p_form) {
 	return chosen;
 }
 
-/// The buffer that an earlier save of a generated scene put beside the file; empty: none.
+/// The buffer that an earlier save of a generated scene put next to the file; empty: none.
 fs::path find_own_buffer(const fs::path &p_path) {
 	const size_t MOST_NAMES = 100;
 	std::error_code code;

@@ -14,7 +14,7 @@ struct SceneBody {
 	std::string name;
 	uint32_t layers = 1;
 	bool casts_shadow = true;
-	bool is_drawn = true;  // besides its shadow
+	bool is_drawn = true;  // apart from its shadow
 	float detail_bias = 1; // lod_bias
 };
 

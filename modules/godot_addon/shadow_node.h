@@ -27,7 +27,7 @@ struct MaskRequest {
 	std::vector<ReadMask> masks;
 };
 
-/// What GnomonShadow3D is besides a Node3D. Main thread only.
+/// What GnomonShadow3D is in addition to a Node3D. Main thread only.
 class ShadowNode {
 public:
 	explicit ShadowNode(void *p_object) : node(p_object) {}

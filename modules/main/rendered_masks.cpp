@@ -149,7 +149,7 @@ DrawnMasks RenderedMasks::draw(
 	for (const MaskQuestion &question : p_questions) {
 		RenderRequest request = make_request(question, p_technique);
 		if (question.scene->lights.size() > 1) {
-			// Beside the one light that is measured all of them are drawn.
+			// Not only the one light that is measured: all of them are drawn.
 			RenderRequest whole_frame = request;
 			whole_frame.mask_light.clear();
 			whole_frame.wants_mask = false;

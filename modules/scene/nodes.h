@@ -53,7 +53,7 @@ public:
 	virtual const char *get_class_name() const { return "Node3D"; }
 	/// Members that can be read and set by name, those of the base class first.
 	virtual const std::vector<NodeField> &get_fields() const;
-	/// Values that the class keeps by name beside its members; null: none.
+	/// Values that the class keeps by name in addition to its members; null: none.
 	virtual PropertyValues *get_stored_properties() { return nullptr; }
 	const PropertyValues *find_stored_properties() const {
 		return const_cast<Node3D *>(this)->get_stored_properties();
@@ -124,7 +124,7 @@ enum class LightType { OMNI, SPOT, DIRECTIONAL };
 /// "omni", "spot", "directional".
 const char *get_light_type_name(LightType p_type);
 
-/// What a light is, beside its place: its node, its file and a frame's snapshot hold one.
+/// What a light is, apart from its place: its node, its file and a frame's snapshot hold one.
 struct LightSettings {
 	LightType type = LightType::OMNI;
 	glm::vec3 color = glm::vec3(1.0f); // linear

@@ -28,7 +28,7 @@ struct CountMesh {
 
 CountMesh build_count_mesh(const MeshTopology &p_topology);
 
-/// A mesh in GPU memory, beside its welded positions (GpuTopology).
+/// A mesh in GPU memory, in addition to its welded positions (GpuTopology).
 struct CountGpuMesh {
 	OwnedBuffer faces; // shader::CountMeshFace
 	OwnedBuffer edges; // shader::CountMeshEdge

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// The reference beside the frames. The tree over the casters is built by the first trace and cached.
+/// The reference in parallel with the frames. The tree over the casters is built by the first trace and cached.
 class ShadowReferenceSource : public ReferenceSource {
 public:
 	explicit ShadowReferenceSource(ReferenceQuestion p_question) : question(std::move(p_question)) {}

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-// A light's exact mask beside the frames: on any thread, without a device.
+// A light's exact mask in parallel with the frames: on any thread, without a device.
 
 namespace gnomon {
 

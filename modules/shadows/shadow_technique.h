@@ -134,7 +134,7 @@ public:
 	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
 			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
 	/// True: directional views may be narrowed to what the camera sees and what lies a penumbra
-	/// beside it, since the technique asks its maps about receivers alone.
+	/// from it, since the technique asks its maps about receivers alone.
 	virtual bool asks_receivers_alone() const { return false; }
 	/// Called once a frame before any pass: what will run, what is skipped and why.
 	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}

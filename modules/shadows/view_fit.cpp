@@ -37,7 +37,7 @@ void fit_to_receivers(LightView &r_view, const VisibleReceivers &p_receivers, do
 	const glm::dvec2 greatest = glm::min(glm::dvec2(seen.maximum) + p_reach_m, whole);
 	const glm::dvec2 needed = 0.5 * (greatest - least);
 	if (needed.x <= 0 || needed.y <= 0) {
-		return; // beside all casters
+		return; // outside all casters
 	}
 	double part = 1;
 	while (part > LEAST_PART &&

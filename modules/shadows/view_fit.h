@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// How far beside a receiver lies what may hide the directional light from it, or what a technique
+/// How far from a receiver is what may hide the directional light from it, or what a technique
 /// with that light's penumbra widths looks at, metres; across the view.
 double compute_fit_reach_m(
 		const LightView &p_view, const LightSnapshot &p_light, const SceneSnapshot &p_scene);

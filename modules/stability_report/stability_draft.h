@@ -59,7 +59,7 @@ struct StabilityDraft {
 
 /// A closed sphere of 320 triangles.
 std::shared_ptr<const Mesh> make_globe(double p_radius_m);
-/// A closed cube each of whose faces is cut beside one of its edges, so that the strip's triangles
+/// A closed cube each of whose faces is cut next to one of its edges, so that the strip's triangles
 /// have this ratio of length to width; at 1 in the middle.
 std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_ratio);
 /// A closed box whose faces look inwards.

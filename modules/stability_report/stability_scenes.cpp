@@ -44,7 +44,7 @@ void change_depth_range(StabilityDraft &r_draft, double p_value) {
 			glm::scale(glm::translate(at_light, glm::dvec3(0, 0, -near_m)), glm::dvec3(near_m)));
 }
 
-/// A plate before the light, somewhat to the side, beside the casters that stay.
+/// A plate before the light, somewhat to the side, in addition to the casters that stay.
 void change_near_caster(StabilityDraft &r_draft, double p_radii) {
 	const glm::dmat4 at_light = look_at(r_draft.light_position, r_draft.light_target);
 	r_draft.add_box("near", glm::vec3(0.12f, 0.1f, 0.01f),

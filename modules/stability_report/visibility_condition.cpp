@@ -47,8 +47,8 @@ double DoubleVisibility::compute(
 	const glm::dvec3 way =
 			is_directional ? -light.get_direction_world() : light.position_world - origin;
 	const glm::dvec3 axis = glm::normalize(way);
-	const glm::dvec3 beside = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-	const glm::dvec3 u = glm::normalize(glm::cross(axis, beside));
+	const glm::dvec3 other_axis = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+	const glm::dvec3 u = glm::normalize(glm::cross(axis, other_axis));
 	const glm::dvec3 v = glm::cross(axis, u);
 	int seen_count = 0;
 	for (int sample = 0; sample < SAMPLE_COUNT; ++sample) {

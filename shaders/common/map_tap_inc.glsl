@@ -22,7 +22,7 @@ float lookup_w(
 	const float stored = texelFetch(p_map, ivec3(fetched, p_view.layer), 0).r;
 	const bool is_drawn = (p_empty_views & (1u << p_view.layer)) == 0u;
 	// The side of a single view goes on as its last texel: what a spot's cone omits still hides
-	// it, and beside a directional light's map, which holds every caster, that texel is empty.
+	// it, and outside a directional light's map, which holds every caster, that texel is empty.
 	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
 	// Beyond the side of one of six views another one goes on. A loop and no branch: software drivers
 	// run what a branch skips, but leave a loop.

@@ -216,7 +216,7 @@ SHARED_SIZE(CountBlockBox, 32);
 #define EDGE_COUNT_BLOCKS_FILTERED 4
 #define EDGE_COUNT_BLOCKS_SMOOTH 5
 #define EDGE_COUNT_BLOCK_KINDS 6
-#define EDGE_COUNT_BLOCK_IS_DARK 0x80000000u // beside the block, in the list of even ones
+#define EDGE_COUNT_BLOCK_IS_DARK 0x80000000u // with the block, in the list of even ones
 #define EDGE_COUNT_DISPATCH_CHUNKS 18
 #define EDGE_COUNT_DISPATCH_WORDS 19
 

@@ -1,4 +1,4 @@
-// What resolve.comp and accumulate.comp both read beside the receivers: the maps of one light.
+// What resolve.comp and accumulate.comp both read in addition to the receivers: the maps of one light.
 #ifndef BINDINGS_INC_GLSL
 #define BINDINGS_INC_GLSL
 

@@ -1,4 +1,4 @@
-// What resolve.comp, cases.comp and hard.comp read beside the receivers.
+// What resolve.comp, cases.comp and hard.comp read in addition to the receivers.
 #ifndef BINDINGS_INC_GLSL
 #define BINDINGS_INC_GLSL
 

@@ -74,8 +74,8 @@ uint look_at(uint p_view, CullingBox p_box) {
 		depth = (view.far_m - low.z) / (view.far_m - view.near_m) + LEAST_GAP;
 	} else {
 		// In the view |x| <= half_extent z, so that the box's part in it begins here at the least.
-		const vec2 beside = max(max(low.xy, -high.xy), 0.0) / view.half_extent;
-		const float begin = max(max(low.z, view.near_m), max(beside.x, beside.y));
+		const vec2 nearest_z = max(max(low.xy, -high.xy), 0.0) / view.half_extent;
+		const float begin = max(max(low.z, view.near_m), max(nearest_z.x, nearest_z.y));
 		if (begin > high.z) {
 			return OUTSIDE;
 		}
@@ -100,7 +100,7 @@ uint look_at(uint p_view, CullingBox p_box) {
 	}
 	const bool is_within = all(greaterThanEqual(least, vec2(-1.0))) && all(lessThanEqual(greatest, vec2(1.0)));
 	if (constants.view_count == 1u && !is_within) {
-		return SEEN; // what lies beside the view nothing is known of
+		return SEEN; // what lies outside the view nothing is known of
 	}
 	return is_behind(p_view, least, greatest, depth) ? HIDDEN : SEEN;
 }

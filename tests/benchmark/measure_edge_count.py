@@ -41,7 +41,7 @@ RECEIVERS_PASS = "receivers"  # the renderer's, for whatever technique
 GRASS = "grass"  # has errors to meet, no times
 MEMORY_SIZE = "1920x1080"
 SMALLEST_SIZE = "16x16"
-# What any technique needs beside its own: G-buffer, receivers, mask. Its map has 1 KB a view.
+# What any technique needs in addition to its own: G-buffer, receivers, mask. Its map has 1 KB a view.
 BASELINE = ("shadow_map", ("shadow_map_size=16",))
 MB = 1e6
 MOTION_SCENES = ("kitbash", "rigging")
@@ -276,7 +276,7 @@ def measure_times(images, folder, rounds):
 
 
 def measure_memory(images, folder, _rounds):
-    """MB of a light, beside what any technique needs."""
+    """MB of a light, in addition to what any technique needs."""
     mask = os.path.join(folder, "mask.exr")
     used = {}
     for image in find_sources([image for image in images if math.isclose(image.share, LARGE_SHARE)]):

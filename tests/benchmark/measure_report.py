@@ -71,7 +71,7 @@ def build_ranking(report):
 
 
 def build_study(report):
-    """Mean errors over the study's scenes, the population of its figures beside the full one."""
+    """Mean errors over the study's scenes, the population of its figures next to the full one."""
     errors = {}
     best = {}
     for cell in report["cells"]:

@@ -1,4 +1,4 @@
-"""What the editor shows: the error beside its reference, two techniques, changed shaders, what was open before."""
+"""What the editor shows: the error next to its reference, two techniques, changed shaders, what was open before."""
 
 import os
 import shutil

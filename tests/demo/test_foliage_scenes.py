@@ -39,7 +39,7 @@ class FoliageScenes(unittest.TestCase):
                 if name in ("leaves", "courtyard"):
                     self.assertNotEqual(files[name + ".bin"], make_foliage_scenes.build_scene_files(name, 4, 20)[name + ".bin"])
 
-    def test_a_scene_has_its_images_beside_it_and_casters_that_are_cut_out(self):
+    def test_a_scene_has_its_images_next_to_it_and_casters_that_are_cut_out(self):
         for name in make_foliage_scenes.SCENES:
             with self.subTest(name):
                 document = make_foliage_scenes.build_scene(name, 1, 20)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shadows without our renderer: tests/embed/embed.cpp beside `gnomon visibility`, on the same scene.
+"""Shadows without our renderer: tests/embed/embed.cpp compared with `gnomon visibility`, on the same scene.
 
 Needs bin/gnomon and bin/gnomon_embed.
 """

@@ -19,7 +19,7 @@ const uint32_t MOST_TEXELS_A_SIDE = 24;
 const uint32_t MOST_VERTICES = 32;
 const uint32_t MOST_TRIANGLES = 32;
 const uint32_t FEWEST_EDGES = 4; // of a budget
-// A triangle of the mesh meets so many parts of a clamped plane, or tiles beside those that it
+// A triangle of the mesh meets so many parts of a clamped plane, or tiles next to those that it
 // covers.
 const uint64_t MOST_PARTS = 9;
 // Budgets are of edges, and long triangles look at more of them than they cover. Three sides cut a

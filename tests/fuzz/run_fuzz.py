@@ -6,7 +6,7 @@
 Each target runs for N seconds (default: $FUZZ_SECONDS, else 600), as many at once as there are jobs (default: one a
 core). An input may take as long as the limit (default: 10 s; longer where other programs have the cores). What a
 target learns stays in build/fuzz/<target>/corpus, where the next run goes on; what goes wrong (crash-*, leak-*,
-timeout-*, oom-*) in build/fuzz/<target>/findings, beside the log. A target passes when it ran and has no new finding.
+timeout-*, oom-*) in build/fuzz/<target>/findings, next to the log. A target passes when it ran and has no new finding.
 The last line is "N passed, N failed, N skipped".
 """
 

@@ -28,8 +28,8 @@ const fs = require("fs"), path = require("path"), validator = require("./gltf-va
             uri: path.basename(file),
             maxIssues: 0,
             externalResourceFunction: uri => new Promise((resolve, reject) => {
-                const beside = path.resolve(path.dirname(file), decodeURIComponent(uri));
-                fs.readFile(beside, (error, data) => error ? reject(error.toString()) : resolve(new Uint8Array(data)));
+                const side_file = path.resolve(path.dirname(file), decodeURIComponent(uri));
+                fs.readFile(side_file, (error, data) => error ? reject(error.toString()) : resolve(new Uint8Array(data)));
             }),
         }).catch(error => ({issues: {messages: [{code: "UNREADABLE", severity: 0, pointer: String(error)}]}}));
         found[file] = report.issues.messages.filter(issue => issue.severity === 0).map(issue => [issue.code, issue.pointer]);

@@ -11,7 +11,7 @@
 using namespace gnomon;
 namespace fs = std::filesystem;
 
-TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing beside it") {
+TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing next to it") {
 	const TemporaryCache folder;
 	save_file_atomically(folder.path / "a.txt", "first");
 	save_file_atomically(folder.path / "a.txt", "second");

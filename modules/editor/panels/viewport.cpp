@@ -56,7 +56,7 @@ void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 	}
 }
 
-/// Which view of the light in question, and which technique beside its own.
+/// Which view of the light in question, and which technique in addition to its own.
 void draw_choices(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const auto choose = [&](std::string &r_choice, const std::string &p_choice,

@@ -130,7 +130,7 @@
 		return labels;
 	}
 
-	/* Beside the dot of least error of each technique, on the side with the least in the way. */
+	/* Next to the dot of least error of each technique, on the side with the least in the way. */
 	function placeNearBest(groups, places, width_px, height_px) {
 		const taken = places.map((place) => ({ left: place.x_px - 6, right: place.x_px + 6, top: place.y_px - 6, bottom: place.y_px + 6 }));
 		const getOverlap = (a, b) => Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *

@@ -76,7 +76,7 @@
 			draw();
 		});
 		const partial = full.length < rows.length ? make("p", { class: "soft" }, "Hollow dots and marked rows: measured in fewer " +
-			`than ${most} configurations, so their means are over other images. They take no part in the Pareto front and the answers beside it.`) : null;
+			`than ${most} configurations, so their means are over other images. They take no part in the Pareto front and the answers next to it.`) : null;
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
 			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),

@@ -39,7 +39,7 @@ std::vector<uint8_t> encode_jpeg(
 	return file;
 }
 
-/// A triangle whose material has the image as its base colour, in a file beside.
+/// A triangle whose material has the image as its base colour, in a file next to it.
 Json make_textured(const GltfTestFolder &p_folder) {
 	Json json = make_triangle(p_folder);
 	GltfTestBuffer buffer;

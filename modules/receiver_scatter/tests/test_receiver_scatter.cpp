@@ -181,7 +181,7 @@ TEST_CASE("[GPU][ReceiverScatter] opaque receivers stay to the bit as they are")
 			fixture.render_mask(scene, find_technique(), glm::uvec2(64), false).visibility);
 }
 
-TEST_CASE("[GPU][ReceiverScatter] every opaque pixel beside a translucent body keeps its bits") {
+TEST_CASE("[GPU][ReceiverScatter] every opaque pixel next to a translucent body keeps its bits") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const MaskResult before = fixture.render_mask(scene, find_technique());
@@ -223,7 +223,7 @@ TEST_CASE("[GPU][ReceiverScatter] light does not leak between surfaces, unless i
 		const MaskResult taking = fixture.render_mask(scene, find_technique(), glm::uvec2(128));
 		CHECK(is_valid_mask(refusing));
 		CHECK(is_valid_mask(taking));
-		// The box's top sees all of the light: nothing beside it may darken it.
+		// The box's top sees all of the light: nothing next to it may darken it.
 		MaskRequest request;
 		request.scene = scene.snap();
 		request.size_px = glm::uvec2(128);

@@ -145,7 +145,7 @@ TEST_CASE("[GPU][EdgeCount] rays through shared edges and vertices count each so
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and beside them") {
+TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and next to them") {
 	KernelFixture fixture;
 	TestRandom random;
 	for (const bool is_directional : { false, true }) {

@@ -179,7 +179,7 @@ TEST_CASE("[GPU][EdgeCount] frames repeat bit for bit, also on another device") 
 }
 
 TEST_CASE("[GPU][EdgeCount] what memory held before changes no bit of the mask") {
-	// Five of the light's views have no casters, and beside pixels in a shadow there are some that
+	// Five of the light's views have no casters, and next to pixels in a shadow there are some that
 	// receive nothing: the shadow on the box ends where the box does.
 	SmallScene scene(LightType::OMNI);
 	scene.ground->surfaces.clear();

@@ -59,7 +59,7 @@ TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or beside it, do no harm") {
+TEST_CASE("[GPU][EdgeCount] outlines where texels meet, or next to it, do no harm") {
 	MaskFixture fixture;
 	SmallScene scene;
 	const double height_m = 4.0;

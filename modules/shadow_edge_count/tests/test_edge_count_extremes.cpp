@@ -168,7 +168,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 			scene.light->properties["light_size"] = 0.1;
 			const MaskResult without = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(without.plan.is_skipped("Light", "faces that cut the light's disc"));
-			add_mesh(scene.scene, "Beside", mesh, { 1.05, 3.8, 0.62 });
+			add_mesh(scene.scene, "Near", mesh, { 1.05, 3.8, 0.62 });
 			const MaskResult with = render_frame(fixture, scene, { .size_px = SIZE_PX });
 			CHECK(compute_mask_difference(with, without) > 0.02);
 			const MaskDifference difference = compare_with_reference(fixture, scene);
@@ -308,7 +308,7 @@ TEST_CASE("[GPU][EdgeCount] meshes that are no plain solids cast the shadow that
 		}
 		const MaskDifference difference = compare_with_reference(fixture, scene);
 		CHECK(difference.penumbra_mean < 0.02);
-		// The camera looks into the box that is inside out: there, beside its edges, some pixels
+		// The camera looks into the box that is inside out: there, next to its edges, some pixels
 		// are wrong.
 		CHECK(difference.mean < (index == 3 ? 0.02 : 0.001));
 	}

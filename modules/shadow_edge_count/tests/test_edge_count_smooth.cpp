@@ -70,7 +70,7 @@ TEST_CASE("[GPU][EdgeCount] a mask that is interpolated far from all edges is as
 	}
 }
 
-TEST_CASE("[GPU][EdgeCount] beside outlines and contacts every pixel is counted") {
+TEST_CASE("[GPU][EdgeCount] next to outlines and contacts every pixel is counted") {
 	MaskFixture fixture;
 	SmallScene scene; // a box on the ground
 	scene.light->properties["light_size"] = 0.05;

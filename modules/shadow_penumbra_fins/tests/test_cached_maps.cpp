@@ -120,7 +120,7 @@ TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing t
 	CHECK(render(fixture, scene, true).visibility == render(fresh, scene, true).visibility);
 }
 
-TEST_CASE("[GPU][PenumbraFins] fins of a caster beside an omni light's view reach into it") {
+TEST_CASE("[GPU][PenumbraFins] fins of a caster outside an omni light's view reach into it") {
 	// The box stands outside the view downwards; its outer fins reach into it and darken the
 	// ground.
 	MaskFixture fixture;

@@ -126,7 +126,7 @@ TEST_CASE("[ShadowPlanar] planes are found by their lit area") {
 	CHECK(found.planes[0].offset_m == doctest::Approx(snapshot->camera.position_world.y));
 	CHECK(compute_light_height(found.planes[0], snapshot->lights[0], snapshot->camera) ==
 			doctest::Approx(4.0));
-	// Beside a block the light sees a side of it too.
+	// Next to a block the light sees a side of it too.
 	scene.box->is_planar_receiver = true;
 	const auto both = scene.snap();
 	CHECK(find_receiver_planes(*both, both->lights[0]).planes.size() == 4);

@@ -185,6 +185,6 @@ TEST_CASE("[CasterScene] each translucent body leaves its part once, however oft
 	CHECK(glm::distance(result.colors[0], red * blue) < 1e-6f);
 	CHECK(result.colors[1] == glm::vec3(1.0f));
 	CHECK(result.visibility[1] == 1.0f);
-	// Half of the disc is seen beside the blue body, as its edge is straight above.
+	// Half of the disc is seen next to the blue body, as its edge is straight above.
 	CHECK(glm::distance(result.colors[2], red * (0.5f + 0.5f * blue)) < 0.01f);
 }

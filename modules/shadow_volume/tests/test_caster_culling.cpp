@@ -120,7 +120,7 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 	CHECK(build_culling_boxes({}, place).subtree_count == 0);
 }
 
-TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those beside and before not") {
+TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those next to it and before it not") {
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		MaskFixture fixture;

@@ -6,7 +6,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Small casters behind, beside and before whatever there is, for culling to decide about.
+/// Small casters behind, next to and before whatever there is, for culling to decide about.
 void add_probes(SmallScene &r_scene) {
 	const auto probe = make_box_mesh("probe", glm::vec3(0.012f));
 	for (int i = 0; i < 125; ++i) {
@@ -73,12 +73,12 @@ TEST_CASE("[GPU][ShadowVolume] near and far a million apart, for the camera and 
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] casters across the light's planes and beside the light") {
+TEST_CASE("[GPU][ShadowVolume] casters across the light's planes and next to the light") {
 	check_for_each_type([](SmallScene &r_scene) {
 		add_mesh(r_scene.scene, "Rod", make_box_mesh("rod", { 0.02f, 3.0f, 0.02f }),
 				{ 1.22, 3.0, 0.85 });
 	});
-	// The light below the box and beside it: what is above is behind a spot, or behind its cone.
+	// The light below the box and next to it: what is above is behind a spot, or behind its cone.
 	check_for_each_type([](SmallScene &r_scene) {
 		place_light(r_scene, { 1.4, 0.9, 0.2 }, { 0, 0.2, 0 });
 	});

@@ -54,7 +54,7 @@ TEST_CASE("[GPU][Techniques] under a plate that hides the whole light nothing is
 		const MaskResult result = fixture.render_mask(scene, p_info.id);
 		CHECK(count_receivers(result) > 0);
 		for (size_t index = 0; index < result.visibility.size(); ++index) {
-			// Less than a step of 8 bits: counted points beside an outline are rounded.
+			// Less than a step of 8 bits: counted points next to an outline are rounded.
 			CHECK_MESSAGE(result.visibility[index] < 1.0f / 255.0f, "pixel ", index);
 			if (result.visibility[index] >= 1.0f / 255.0f) {
 				break;

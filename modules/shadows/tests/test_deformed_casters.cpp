@@ -190,7 +190,7 @@ TEST_CASE("deformed casters: cut-outs follow, and several instances keep their o
 		compute_difference(posed, fixture.render(make_request(scene.snap(), p_info.id)), changed);
 		CHECK(share < std::max(0.004, MOST_OF_CHANGE * changed));
 		scene.pose(1.1);
-		// Another instance of the same mesh, at rest beside it.
+		// Another instance of the same mesh, at rest next to it.
 		MeshInstance3D &second =
 				add_mesh(scene.scene, "Second", scene.tube->surfaces[0].mesh, { -0.9, 0.2, 0.3 });
 		second.surfaces[0].material = shared_material;

@@ -56,7 +56,7 @@ TEST_CASE("[LightView] a directional view holds every caster") {
 	}
 }
 
-TEST_CASE("[LightView] a box beside or behind a view is not seen by it") {
+TEST_CASE("[LightView] a box outside or behind a view is not seen by it") {
 	LightView view;
 	view.half_extent = glm::vec2(0.5f);
 	const auto may_see = [&](const glm::dvec3 &p_centre) {
@@ -99,7 +99,7 @@ TEST_CASE("[LightView] a turned caster is seen as its own box, not as the box ar
 	CHECK(range_m.y == doctest::Approx(3 + (2.0 + 0.01) * std::sqrt(0.5)));
 }
 
-TEST_CASE("[LightView] a margin lists casters beside the view, and a directional view holds it") {
+TEST_CASE("[LightView] a margin lists casters outside the view, and a directional view holds it") {
 	SmallScene scene;
 	const std::shared_ptr<const SceneSnapshot> snapshot = scene.snap();
 	LightView view = build_light_views(snapshot->lights[0], *snapshot, 512, 1, 0.5f).at(0);

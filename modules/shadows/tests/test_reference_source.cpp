@@ -34,7 +34,7 @@ struct TracedScene {
 
 } // namespace
 
-TEST_CASE("[GPU] The reference traced beside the frames is the technique's, bit for bit") {
+TEST_CASE("[GPU] The reference traced in parallel with the frames is the technique's, bit for bit") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return; // a build without one

@@ -49,7 +49,7 @@ TEST_CASE("[TranslucentCasters] casters of one colour share a group where no ray
 	CHECK(find_casters(scene).is_empty());
 	scene.box->surfaces[0].material = make_glass(RED);
 	CHECK(find_casters(scene).groups.size() == 1);
-	add_pane(scene, "Beside", RED, { 2.9, 0.6, -2.4 });
+	add_pane(scene, "Near", RED, { 2.9, 0.6, -2.4 });
 	REQUIRE(find_casters(scene).groups.size() == 1);
 	CHECK(find_casters(scene).groups[0].instances.size() == 2);
 	CHECK(find_casters(scene).groups[0].transmittance == RED);
@@ -92,7 +92,7 @@ TEST_CASE("[TranslucentCasters] a slanting ray meets two that lie far apart alon
 	scene.light->parent_from_node = look_at({ 0, 50, 0 }, { 0, 0, 0 });
 	scene.light->properties["light_angular_distance"] = 10.0;
 	scene.box->surfaces[0].material = make_glass(RED);
-	add_pane(scene, "Beside", RED, { 2.4, 1.0, 0.0 });
+	add_pane(scene, "Near", RED, { 2.4, 1.0, 0.0 });
 	CHECK(find_casters(scene).groups.size() == 1);
 	MeshInstance3D &above = add_pane(scene, "Above", RED, { 2.4, 21.0, 0.0 });
 	CHECK(find_casters(scene).groups.size() == 2); // though S is 4 m

@@ -83,7 +83,7 @@ TEST_CASE("[LightView] a view of which most is seen, or nothing, and a spot's st
 	CHECK(view == before);
 }
 
-TEST_CASE("[LightView] a view reaches as far beside receivers as the light and its widths do") {
+TEST_CASE("[LightView] a view reaches as far from receivers as the light and its widths do") {
 	const FittedScene scene;
 	LightSnapshot light = scene.snapshot->lights[0];
 	light.light_angular_distance_deg = 2.0f;

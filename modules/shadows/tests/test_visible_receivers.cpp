@@ -136,12 +136,12 @@ TEST_CASE("[Renderer] a box at the edge of a light's range or cone is taken to b
 	light.type = LightType::SPOT; // along -Z, away from all of the next box but its side
 	light.range_m = 0;
 	light.outer_cone_rad = 0.785398163f;
-	Bounds beside;
-	beside.add(glm::dvec3(1, -0.5, -1));
-	beside.add(glm::dvec3(2, 0.5, 0.5));
-	CHECK(may_light_reach(light, beside));
-	beside.minimum.x = 1.01;
-	CHECK_FALSE(may_light_reach(light, beside));
+	Bounds neighbour;
+	neighbour.add(glm::dvec3(1, -0.5, -1));
+	neighbour.add(glm::dvec3(2, 0.5, 0.5));
+	CHECK(may_light_reach(light, neighbour));
+	neighbour.minimum.x = 1.01;
+	CHECK_FALSE(may_light_reach(light, neighbour));
 	light.type = LightType::DIRECTIONAL;
-	CHECK(may_light_reach(light, beside));
+	CHECK(may_light_reach(light, neighbour));
 }

@@ -36,7 +36,7 @@ const glm::dvec3 UP(0, 1, 0);
 
 } // namespace
 
-TEST_CASE("[Condition] visibility in double is the share of the disc beside a half plane") {
+TEST_CASE("[Condition] visibility in double is the share of the disc next to a half plane") {
 	const HalfPlane small(0.2);
 	const DoubleVisibility exact(small.scene, small.get_light());
 	CHECK(exact.compute({ -1, 0, 0 }, UP) == 1.0);

@@ -1,5 +1,5 @@
 extends AddonTest
-## What masks do to the image: each light by its own, beside Godot's own shadows.
+## What masks do to the image: each light by its own, next to Godot's own shadows.
 
 const SIZE := Vector2i(160, 120)
 const ROUNDING := 0.004 # of half floats whose values reach 1 and more
