@@ -17,7 +17,7 @@ import sys
 from page_style import SCRIPT, STYLE
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
-# Colours that differ for colour-blind eyes too (Okabe, Ito 2008), told apart by shape as well.
+# Colours that differ for colour-blind eyes too (Okabe, Ito 2008), distinguished by shape as well.
 COLORS = ("#d55e00", "#0072b2", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#7f7f7f", "#8a5a44", "#6a3d9a", "#1b9e77", "#e7298a")
 
 

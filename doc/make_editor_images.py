@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tells the editor's story under Xvfb and writes its screenshots: doc/images/editor*.png. Build first: scons.
+"""Runs the editor's story under Xvfb and writes its screenshots: doc/images/editor*.png. Build first: scons.
 
 Look at them afterwards: a screenshot that shows something else than its page says is worse than none.
 """
@@ -21,7 +21,7 @@ class Photographer(EditorCase):
     checks = ()  # validation would be in the frame times that are seen
 
     def runTest(self):
-        editor_story.tell(self, self.take)
+        editor_story.run_story(self, self.take)
 
     def take(self, name):
         path = os.path.join(ROOT, "doc", "images", name + ".png")

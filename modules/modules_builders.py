@@ -10,7 +10,7 @@ register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_mo
     get_source() -> str, get_doc() -> str              (optional; where it comes from, its doc page)
     can_disable() -> bool                              (optional; default: layer 4 and up)
     is_example() -> bool                               (optional; default False: there to be copied, lists for users omit it)
-    is_enabled() -> bool                               (optional; built unless told otherwise)
+    is_enabled() -> bool                               (optional; built by default)
     get_optional_dependencies() -> list of module names (optional; used only where they are built)
     is_program() -> bool                               (optional; main: linked into bin/gnomon only)
     get_hosts() -> names of "program" and "godot"      (optional; what it is built for; default: both)

@@ -26,7 +26,7 @@ def count_tests(program, options):
     result = subprocess.run([program, "--count", *options], capture_output=True, text=True, check=False)
     found = COUNT.search(result.stdout)
     if not found:
-        raise SystemExit("ERROR: %s --count ended with %d and told no number of tests: %s" % (program, result.returncode, result.stdout + result.stderr))
+        raise SystemExit("ERROR: %s --count ended with %d and printed no number of tests: %s" % (program, result.returncode, result.stdout + result.stderr))
     return int(found.group(1))
 
 

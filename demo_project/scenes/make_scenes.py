@@ -53,7 +53,7 @@ SCATTER_DISTANCE_M = 0.12
 
 
 def make_ground():
-    """The ground box with its top in the node's plane y = 0, so that the node tells the plane."""
+    """The ground box with its top in the node's plane y = 0, so that the node defines the plane."""
     mesh = make_box(GROUND_HALF)
     mesh.positions = [(x, 0.0 if y > 0.0 else 2.0 * GROUND_CENTER[1], z) for x, y, z in mesh.positions]
     return mesh

@@ -19,7 +19,7 @@ namespace gnomon {
 class EditorDocument {
 public:
 	using Clock = std::chrono::steady_clock;
-	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // unless told otherwise
+	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // the default
 
 	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
 	/// read opens empty and is said in the log, see get_failure. p_stage: see stage_scene; what is

@@ -97,7 +97,7 @@ public:
 		try {
 			device->wait_idle();
 		} catch (const std::exception &) {
-			// The device is lost, which was told when it happened.
+			// The device is lost, which was reported when it happened.
 		}
 	}
 	Editor(const Editor &) = delete;
@@ -270,7 +270,7 @@ private:
 
 	const EditorOptions &options;
 	EditorSettings &settings;
-	StatusSink sink; // first: what cannot be read when the scene is opened is told too
+	StatusSink sink; // first: what cannot be read when the scene is opened is reported too
 	EditorDocument document;
 	Window window;
 	std::unique_ptr<RenderingDevice> device;

@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-// Frames that tell the cost; fewer of a technique that takes long.
+// Frames that measure the cost; fewer of a technique that takes long.
 const uint32_t COST_FRAME_COUNT = 20;
 const uint32_t LEAST_COST_FRAME_COUNT = 3;
 const double COST_MS = 1500;

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Takes over changed shader sources while the editor runs. What does not compile is told in the
+/// Takes over changed shader sources while the editor runs. What does not compile is reported in the
 /// viewport, and the last good one stays.
 class ShaderReloader {
 public:

@@ -14,7 +14,7 @@ public:
 	ViewportRenderer(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Draws if need be. An Error is told in the status bar, and the last image stays.
+	/// Draws if need be. An Error is shown in the status bar, and the last image stays.
 	void update(EditorContext &r_context);
 	/// What techniques cached of earlier frames is not valid any more: shaders are others.
 	void forget_cached();

@@ -46,7 +46,7 @@ struct ReportReference {
 	uint64_t penumbra_pixel_count = 0;
 };
 
-/// Names of the groups of configurations that ReportConfiguration::group tells apart.
+/// Names of the groups of configurations that ReportConfiguration::group distinguishes.
 inline constexpr const char *MATRIX_GROUP = "matrix";
 inline constexpr const char *TRIANGLES_GROUP = "triangles";
 inline constexpr const char *LIGHT_SIZE_GROUP = "light_size";

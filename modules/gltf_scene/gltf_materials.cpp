@@ -75,7 +75,7 @@ void read_transmission(const tinygltf::Material &p_written, Material &r_material
 	}
 }
 
-/// In metres, where the extras do not tell it.
+/// In metres, where the extras do not state it.
 float derive_scatter_distance(const Material &p_material) {
 	return p_material.scatter > 0 ? p_material.attenuation_distance_m : 0.0f;
 }
@@ -197,15 +197,15 @@ void write_material(const Material &p_material, const Material *p_before, tinygl
 	write_surface(p_material, before, p_before == nullptr, r_model, r_written);
 	write_transmission(p_material, before, r_model, r_written);
 	// Absent, it would be derived: also from what has just changed.
-	const bool tells_distance = r_written.extras.Has("scatter_distance");
-	const bool must_tell_distance = tells_distance
+	const bool has_distance = r_written.extras.Has("scatter_distance");
+	const bool must_write_distance = has_distance
 			? p_material.scatter_distance_m != before.scatter_distance_m
 			: p_material.scatter_distance_m != derive_scatter_distance(p_material);
-	if (p_material.scatter != before.scatter || must_tell_distance ||
+	if (p_material.scatter != before.scatter || must_write_distance ||
 			p_material.shading_model != before.shading_model) {
 		Value::Object &extras = require_extras(r_written.extras);
 		write_number(p_material.scatter, before.scatter, "scatter", extras);
-		if (must_tell_distance) {
+		if (must_write_distance) {
 			extras["scatter_distance"] = to_value(p_material.scatter_distance_m);
 		}
 		if (p_material.shading_model != before.shading_model) {

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// The GridMaps of a scene tree: their instances do not tell Godot's RenderingServer whose they
-/// are, as those of other nodes do. Main thread only.
+/// The GridMaps of a scene tree: their instances do not give Godot's RenderingServer the id of
+/// their node, as those of other nodes do. Main thread only.
 class GridMaps {
 public:
 	explicit GridMaps(const godot::SceneTree &p_tree);

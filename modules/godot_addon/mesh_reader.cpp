@@ -12,7 +12,7 @@ namespace {
 
 const uint64_t MAX_UNUSED_FRAMES = 600;
 
-/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh tell without a copy from the GPU.
+/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh return it without a copy from the GPU.
 int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 	if (const auto array_mesh = godot::cast<godot::ArrayMesh>(p_mesh)) {
 		return array_mesh.surface_get_primitive_type(p_surface);

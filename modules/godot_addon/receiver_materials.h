@@ -11,7 +11,7 @@ namespace gnomon {
 /// Gives materials in use a copy of their shader whose light() reads masks, on Godot's
 /// RenderingServer alone: no resource and no scene changes. Main thread only.
 ///
-/// A BaseMaterial3D tells its generated shader to the editor's viewer of shaders alone: nodes of a
+/// A BaseMaterial3D gives its generated shader to the editor's viewer of shaders alone: nodes of a
 /// group are called, before the next frame.
 class ReceiverMaterials {
 public:

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// A light of the RenderingServer that shines in place of a Light3D, with the same values but for
-/// two: the last bits of its specular amount tell materials which light it is, and its shadow is
+/// two: the last bits of its specular amount encode for materials which light it is, and its shadow is
 /// Gnomon's. The node, its properties and the scene that is saved stay as they are. Main thread
 /// only.
 class StandInLight {
@@ -64,7 +64,7 @@ private:
 	bool is_applied = false;
 };
 
-/// The specular amount that tells materials a row.
+/// The specular amount that encodes a row for materials.
 float tag_specular(float p_specular, uint32_t p_row);
 
 /// A light whose stand-in is needed in a frame.

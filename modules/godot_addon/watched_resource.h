@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// Tells whether a Resource of Godot has changed since it was last asked. It does not keep the
+/// Reports whether a Resource of Godot has changed since the last query. It does not keep the
 /// resource alive. Main thread only.
 class WatchedResource {
 public:

@@ -64,7 +64,7 @@ std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options = {});
 /// The processor's name as the system knows it.
 std::string find_cpu_name();
-/// Version and hash of this program, so that results of another build are told apart.
+/// Version and hash of this program, so that results of another build can be distinguished.
 std::string describe_program();
 /// An Error now rather than after minutes of work: the file's folder must exist and be writable.
 void check_writable(const std::filesystem::path &p_path);

@@ -49,7 +49,7 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 	}
 	if (!p_command.starts_with('-')) {
 		throw UsageError(text("\"", p_command, "\" is no command, must be one of ", names,
-				". `gnomon --help` tells what they do."));
+				". `gnomon --help` lists what they do."));
 	}
 }
 

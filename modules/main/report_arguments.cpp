@@ -41,7 +41,7 @@ NamedFiles name_files(const std::vector<fs::path> &p_files, const fs::path &p_fo
 		const std::string name = file.stem().string();
 		if (!by_name.insert({ name, file }).second) {
 			fail("Project ", p_folder, ": two scenes are named \"", name, "\", ", by_name[name],
-					" and ", file, ". Rename one: the report tells scenes apart by their names.");
+					" and ", file, ". Rename one: the report identifies scenes by their names.");
 		}
 		named.push_back({ name, file });
 	}

@@ -30,7 +30,7 @@ uint32_t find_choice(const PropertyValues &p_properties, const char *p_name,
 
 enum class Scatter { ANY, IN_METRES };
 
-/// IN_METRES: one that tells its distance.
+/// IN_METRES: one with a scatter distance.
 bool is_translucent(const Material &p_material, Scatter p_which) {
 	return clamp_scatter(p_material.scatter) > 0.0f &&
 			(p_which == Scatter::ANY || p_material.scatter_distance_m > 0.0f);

@@ -10,7 +10,7 @@
 namespace gnomon {
 
 /// How opaque surfaces reflect. METALLIC_ROUGHNESS: as glTF says (Lambert and GGX). PHONG: Phong
-/// 1975, whose lobe is as wide as the roughness tells; for images like those of older papers.
+/// 1975, whose lobe is as wide as the roughness states; for images like those of older papers.
 enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 
 /// MASK: a surface is there where its alpha is at least the cutoff, and nowhere else. BLEND is
@@ -29,7 +29,7 @@ struct Material {
 	ShadingModel shading_model = ShadingModel::METALLIC_ROUGHNESS;
 	/// s in 0..1 (Wang, Xiao 2015): how much light spreads below the surface; 0 = opaque.
 	float scatter = 0.0f;
-	float scatter_distance_m = 0.0f; // 0..1e4; how far it spreads at s = 1; 0: not told
+	float scatter_distance_m = 0.0f; // 0..1e4; how far it spreads at s = 1; 0: not given
 	/// KHR_materials_transmission: the share of the light that goes through, 0..1; it gets the
 	/// base colour.
 	float transmission = 0.0f;

@@ -37,7 +37,7 @@ struct TransformParts {
 			}
 		}
 		for (int axis = 0; axis < 3; ++axis) {
-			if (scale[axis] == 0) { // flat: the other two still tell how it is turned
+			if (scale[axis] == 0) { // flat: the other two still give its rotation
 				axes[axis] = glm::cross(axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
 			}
 		}

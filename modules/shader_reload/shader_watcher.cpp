@@ -26,7 +26,7 @@ void ShaderWatcher::add_file(const std::string &p_name) {
 	std::error_code code;
 	const fs::file_time_type time = fs::last_write_time(folder / p_name, code);
 	if (code || files.contains(p_name)) {
-		return; // of a missing include the compiler tells
+		return; // the compiler reports a missing include
 	}
 	File &file = files[p_name];
 	file.time = time;

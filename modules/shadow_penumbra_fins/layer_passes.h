@@ -13,7 +13,7 @@ namespace gnomon {
 /// layer, with the usages DEPTH_ATTACHMENT, SAMPLED and, for ONE_PASS, COPY_TARGET.
 ///
 /// Where no caster is closed, a third layer behind an empty second one is not drawn: the peel
-/// before tells it, on the GPU.
+/// before sets a flag, on the GPU.
 void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
 		RGBuffer &r_texels);

@@ -240,7 +240,7 @@ void ShadowPenumbraFins::get_debug_views(std::vector<DebugView> &r_views) const 
 std::vector<std::string> ShadowPenumbraFins::get_shader_files() const {
 	std::vector<std::string> files;
 	for (const char *name :
-			{ "peel.frag", "peel_telling.frag", "layers.frag", "fins.vert", "fins.geom",
+			{ "peel.frag", "peel_flag.frag", "layers.frag", "fins.vert", "fins.geom",
 					"edge_fins.vert", "fins.frag", "resolve.comp", "cases.comp", "hard.comp" }) {
 		files.push_back(text("shadow_penumbra_fins/", name));
 	}

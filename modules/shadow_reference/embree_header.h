@@ -69,7 +69,7 @@ struct CrossingContext {
 };
 
 /// A geometry's filter for find_crossings_8: no hit counts, each is noted.
-inline void tell_crossing(const RTCFilterFunctionNArguments *p_arguments) {
+inline void record_crossing(const RTCFilterFunctionNArguments *p_arguments) {
 	Crossings &crossings = *reinterpret_cast<CrossingContext *>(p_arguments->context)->crossings;
 	for (unsigned int i = 0; i < p_arguments->N; ++i) {
 		if (p_arguments->valid[i] != 0) {
@@ -83,7 +83,7 @@ inline void tell_crossing(const RTCFilterFunctionNArguments *p_arguments) {
 	}
 }
 
-/// Adds all geometries with tell_crossing that the rays meet between tnear and tfar. Rays of any
+/// Adds all geometries with record_crossing that the rays meet between tnear and tfar. Rays of any
 /// start.
 inline void find_crossings_8(
 		RTCScene p_scene, const int *p_valid, RTCRay8 &r_rays, Crossings &r_crossings) {

@@ -114,7 +114,7 @@ EmbreeScene::EmbreeScene(std::span<const glm::vec3> p_positions,
 EmbreeScene EmbreeScene::make_crossed(std::span<const Triangles *const> p_geometries) {
 	EmbreeScene made;
 	for (const Triangles *triangles : p_geometries) {
-		made.add(triangles->positions, triangles->indices, Hits::ARE_TOLD);
+		made.add(triangles->positions, triangles->indices, Hits::RECORD);
 	}
 	made.finish();
 	return made;
@@ -178,8 +178,8 @@ void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 			std::copy(finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
 		}
 	}
-	if (p_hits == Hits::ARE_TOLD) {
-		rtcSetGeometryOccludedFilterFunction(geometry, &tell_crossing);
+	if (p_hits == Hits::RECORD) {
+		rtcSetGeometryOccludedFilterFunction(geometry, &record_crossing);
 	}
 	if (p_cut_out != nullptr) {
 		rtcSetGeometryUserData(geometry, const_cast<CutOutTriangles *>(p_cut_out)); // only read

@@ -44,7 +44,7 @@ public:
 	EmbreeScene(std::span<const glm::vec3> p_positions,
 			std::span<const uint32_t> p_triangle_indices,
 			std::span<const CutOutTriangles> p_cut_out = {});
-	/// A geometry for each, whose hits are told and do not count (tell_crossing).
+	/// A geometry for each, whose hits are recorded and do not count (record_crossing).
 	static EmbreeScene make_crossed(std::span<const Triangles *const> p_geometries);
 	~EmbreeScene();
 	EmbreeScene(EmbreeScene &&) noexcept;
@@ -59,7 +59,7 @@ public:
 
 private:
 	EmbreeScene();
-	enum class Hits { COUNT, ARE_TOLD };
+	enum class Hits { COUNT, RECORD };
 	void add(std::span<const glm::vec3> p_positions, std::span<const uint32_t> p_triangle_indices,
 			Hits p_hits, const CutOutTriangles *p_cut_out = nullptr);
 	void finish();

@@ -15,7 +15,7 @@ namespace {
 const double MOST_SIZE_PER_CASTERS = 200; // receivers then move by a hundredth of the casters
 const double MOST_CASTERS_PER_SIZE = 5e3;
 
-const char *const WHERE_TO_READ = "; doc/stability.md tells the limits of each technique.";
+const char *const WHERE_TO_READ = "; doc/stability.md lists the limits of each technique.";
 
 /// True when all of the box lies behind the light by more than its radius: what a spot does not
 /// shine at.

@@ -143,7 +143,7 @@ bool LightView::may_see(const InstanceSnapshot &p_instance) const {
 namespace {
 
 glm::dvec2 compute_range_m(const Bounds &p_box, const glm::dmat4 &p_view_from_box) {
-	glm::dvec2 range(p_view_from_box[3].z); // the third row tells which corners
+	glm::dvec2 range(p_view_from_box[3].z); // the third row determines which corners
 	for (int axis = 0; axis < 3; ++axis) {
 		const double low = p_view_from_box[axis].z * p_box.minimum[axis];
 		const double high = p_view_from_box[axis].z * p_box.maximum[axis];

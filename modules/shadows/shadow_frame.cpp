@@ -53,9 +53,9 @@ std::string describe_forced(const LightSnapshot &p_light, const TranslucentCaste
 		return {};
 	}
 	return text("Light \"", p_light.name, "\": ", p_casters.forced_count,
-			" translucent casters share the colour of others, as it can tell ",
+			" translucent casters share the colour of others, as it can distinguish ",
 			TranslucentCasters::MAX_GROUP_COUNT,
-			" groups apart. Give casters of one colour the same transmission, or fewer colours.");
+			" groups. Give casters of one colour the same transmission, or fewer colours.");
 }
 
 void check_surface(const RenderGraph &p_graph, RGTexture p_texture, const char *p_what,

@@ -31,7 +31,7 @@ struct CasterList {
 /// What a technique decides before any pass is recorded. Names the light in the frame's plan.
 class TechniquePlan {
 public:
-	/// p_prefix: tells the runs of one technique for one light apart, see sees_translucent_casters.
+	/// p_prefix: distinguishes the runs of one technique for one light, see sees_translucent_casters.
 	explicit TechniquePlan(FramePlan &p_plan, std::string p_prefix = {}) :
 			plan(p_plan), prefix(std::move(p_prefix)) {}
 
@@ -115,7 +115,7 @@ public:
 
 	virtual ~ShadowTechnique() = default;
 
-	/// Within what the technique answers as its page tells. Called once a frame, with p_properties
+	/// Within what the technique's results hold, see its page. Called once a frame, with p_properties
 	/// as in Inputs; beyond a limit there is a warning.
 	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 

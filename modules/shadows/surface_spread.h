@@ -5,7 +5,7 @@ namespace gnomon {
 /// What a receiver's material says of the light below its surface.
 struct SurfaceMaterial {
 	float scatter = 0.0f;			 // s in 0..1
-	float scatter_distance_m = 0.0f; // 0: not told
+	float scatter_distance_m = 0.0f; // 0: not given
 	bool operator==(const SurfaceMaterial &) const = default;
 };
 

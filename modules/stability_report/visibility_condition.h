@@ -13,7 +13,7 @@
 namespace gnomon {
 
 /// Visibility of one light in double precision, from 256 rays a point, with neither GPU nor Embree:
-/// slow, for few points, to tell rounding from method. The light is the disc of its
+/// slow, for few points, to separate rounding from method. The light is the disc of its
 /// radius that faces the point, as the reference has it, and the point is moved by RECEIVER_OFFSET.
 /// Scene and light must live on.
 class DoubleVisibility {

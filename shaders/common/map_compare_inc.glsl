@@ -1,4 +1,4 @@
-// Is a receiver lit, as far as one texel of a light's depth map can tell?
+// Is a receiver lit, as far as one texel of a light's depth map can resolve?
 #ifndef MAP_COMPARE_INC_GLSL
 #define MAP_COMPARE_INC_GLSL
 

@@ -26,7 +26,7 @@ float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, 
 		}
 	}
 	const float mean_w = blocker_w / float(max(blocker_count, 1u));
-	// Less than half a texel is more than the map can tell; but a light without size stays hard.
+	// Less than half a texel is more than the map can resolve; but a light without size stays hard.
 	const float least = p_radius > 0.0 ? 0.5 * max(extent.x, extent.y) : 0.0;
 	const float radius = max(p_radius * (mean_w - p_point.w), least);
 	// Early out: without blockers there is no tap to take.

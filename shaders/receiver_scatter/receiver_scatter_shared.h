@@ -27,7 +27,7 @@
 // samples as the next, the weight of an area is that over d, which is near the dipole's.
 #define SCATTER_FALLOFF 3.0f
 
-// In the order of the properties' choices. AUTO: in metres where the material tells a distance, and
+// In the order of the properties' choices. AUTO: in metres where the material gives a distance, and
 // refusing in metres only.
 #define SCATTER_METHOD_AUTO 0u
 #define SCATTER_METHOD_METRES 1u

@@ -4,7 +4,7 @@
 #include "common/normal_inc.glsl"
 #include "renderer/gbuffer_inc.glsl"
 
-// gbuffer.frag for devices that tell no fragment its primitive: without the geometric normal, for
+// gbuffer.frag for devices without gl_PrimitiveID in fragments: without the geometric normal, for
 // which derivatives would not do at grazing angles.
 layout(set = 0, binding = GBUFFER_BINDING_FRAME) uniform Frame { // see gbuffer_inc.glsl
 	FrameConstants frame;

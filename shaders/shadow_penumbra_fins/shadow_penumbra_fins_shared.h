@@ -5,7 +5,7 @@
 
 #define FINS_MAX_LAYERS 3
 
-// peel.frag, peel_telling.frag and layers.frag
+// peel.frag, peel_flag.frag and layers.frag
 #define PEEL_BINDING_NEARER 0
 #define PEEL_BINDING_FOUND 1
 #define LAYERS_BINDING_TEXELS 0

@@ -53,7 +53,7 @@ bool is_behind(uint p_view, vec2 p_least_ndc, vec2 p_greatest_ndc, float p_depth
 	return true;
 }
 
-/// What the view tells of the part of the box that lies in it. Depths that are compared are greater
+/// What the view knows about the part of the box that lies in it. Depths that are compared are greater
 /// than the box's by the gap.
 uint look_at(uint p_view, CullingBox p_box) {
 	const CullingView view = constants.views[p_view];

@@ -39,7 +39,7 @@ vec3 position_at(ivec2 p_pixel, float p_depth) {
 	return position_from_depth(frame, p_pixel, p_depth);
 }
 
-/// Along the surface, of any length; zero where no neighbour tells.
+/// Along the surface, of any length; zero where no neighbour gives it.
 vec3 compute_tangent(ivec2 p_pixel, float p_depth, ivec2 p_step) {
 	const float ahead = load_depth(p_pixel + p_step);
 	const float behind = load_depth(p_pixel - p_step);

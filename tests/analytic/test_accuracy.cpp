@@ -63,7 +63,7 @@ struct AccuracyScene {
 	}
 };
 
-/// A case may be of another size, where few pixels tell.
+/// A case may be of another size, where few pixels suffice.
 uint32_t read_size_px(const nlohmann::json &p_limits, const nlohmann::json &p_case) {
 	return (p_case.contains("size_px") ? p_case : p_limits).at("size_px").get<uint32_t>();
 }

@@ -1,4 +1,4 @@
-"""The engine's tests in slices: every test is in one, and what goes wrong in any is told."""
+"""The engine's tests in slices: every test is in one, and what goes wrong in any is reported."""
 
 import os
 import sys

@@ -29,7 +29,7 @@ TIMEOUT_S = 90.0
 MAX_SCREENSHOT_HEIGHT_PX = 16000
 PROBE = """(() => { const root = document.documentElement; return {
     ready: root.dataset.ready || "", overflow_px: root.scrollWidth - root.clientWidth,
-    told_overflow_px: root.dataset.overflow || "", width_px: root.clientWidth, height_px: root.scrollHeight,
+    reported_overflow_px: root.dataset.overflow || "", width_px: root.clientWidth, height_px: root.scrollHeight,
     plot_count: document.querySelectorAll("svg.plot").length,
     blank_count: [...document.querySelectorAll("svg.plot")].filter((plot) => !plot.querySelector("path, circle")).length,
     title: document.title, markers: (document.body.innerText.match(/\\{\\{[A-Z]+\\}\\}/g) || []).join(" "),
@@ -182,8 +182,8 @@ def find_problems(state, expected_plot_count):
         problems.append("%d plots with nothing in them" % state["blank_count"])
     if state["overflow_px"] > 0:
         problems.append("the page is %d pixels wider than the window" % state["overflow_px"])
-    if state["told_overflow_px"] != str(state["overflow_px"]):
-        problems.append("data-overflow is '%s', measured %d" % (state["told_overflow_px"], state["overflow_px"]))
+    if state["reported_overflow_px"] != str(state["overflow_px"]):
+        problems.append("data-overflow is '%s', measured %d" % (state["reported_overflow_px"], state["overflow_px"]))
     if state["markers"]:
         problems.append("markers of the template are left: " + state["markers"])
     return problems

@@ -1,5 +1,5 @@
 """What the editor is for, from end to end: open, switch a soft shadow on for a light, drag its size, compare it with the
-reference, save, run the game. A test tells it; doc/make_editor_images.py photographs it.
+reference, save, run the game. A test runs it; doc/make_editor_images.py photographs it.
 """
 
 import os
@@ -40,7 +40,7 @@ def wait_until(is_so):
         time.sleep(0.05)
 
 
-def tell(case, take):
+def run_story(case, take):
     """case: an EditorCase. take(name) is called where there is something to be seen."""
     make_hard(case)
     size = case.find_light(load(case.scene))["extras"]["light_size"]

@@ -152,7 +152,7 @@ class FailingEditor(EditorCase):
     def test_changes_are_saved_aside_when_memory_is_out(self):
         self.fail_with("out_of_memory", "Out of memory", "smaller scene or image")
 
-    def test_a_shadow_that_does_not_fit_into_the_device_is_told_and_undone(self):
+    def test_a_shadow_that_does_not_fit_into_the_device_is_reported_and_undone(self):
         technique, scene = find_technique("is_fallback"), load(self.scene)
         before = self.find_light(scene)["extras"]
         before["%s_size" % technique] = GREATEST_MAP

@@ -12,7 +12,7 @@ from editor_case import EditorCase, load  # noqa: E402
 
 class EditorTest(EditorCase):
     def test_the_story_from_opening_to_the_game(self):
-        editor_story.tell(self, lambda name: None)
+        editor_story.run_story(self, lambda name: None)
 
     def test_a_light_is_changed_undone_saved_and_read_again(self):
         before = load(self.scene)

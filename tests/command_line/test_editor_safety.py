@@ -58,7 +58,7 @@ class EditorSafetyTest(EditorCase):
         self.wait_for(lambda state: "read again" in state["status"] and "node Spot" in state["items"])
         self.finish()
 
-    def test_a_full_disk_is_told_and_nothing_is_lost(self):
+    def test_a_full_disk_is_reported_and_nothing_is_lost(self):
         whole = self.read_scene()
         self.assertGreater(len(whole), FULL_DISK_BYTES)
         self.open_editor(preexec_fn=fill_disk, restore_signals=False)  # SIGXFSZ stays ignored

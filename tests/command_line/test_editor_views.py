@@ -14,7 +14,7 @@ TONE_MAP = os.path.join("renderer", "tone_map.comp")
 
 
 class EditorViewsTest(EditorCase):
-    def test_the_error_panel_tells_a_soft_shadow_from_a_hard_one(self):
+    def test_the_error_panel_distinguishes_a_soft_shadow_from_a_hard_one(self):
         self.open_editor()
         self.select_light()
         self.click("tab Error")
@@ -96,7 +96,7 @@ class EditorViewsTest(EditorCase):
         self.wait_for(lambda state: state["selected"] in ("Knot", "Box", "Sphere", "Ground"))
         self.finish()
 
-    def test_a_changed_shader_is_seen_and_a_broken_one_is_told(self):
+    def test_a_changed_shader_is_seen_and_a_broken_one_is_reported(self):
         shaders = self.path("shaders")
         shutil.copytree(os.path.join(ROOT, "shaders"), shaders)
         tone_map = os.path.join(shaders, TONE_MAP)

@@ -3,7 +3,7 @@
 
     run_soak.py PROGRAM [--frames N] [--seed N]
 
-PROGRAM is bin/gnomon_tests. A frame that takes longer than 60 s fails the test, and the seed is told whenever it
+PROGRAM is bin/gnomon_tests. A frame that takes longer than 60 s fails the test, and the seed is printed whenever it
 fails. The last line is "N passed, N failed, N skipped".
 """
 

@@ -119,7 +119,7 @@ public:
 			const uint64_t after = read_resident_bytes();
 			// Sanitizers keep what is freed.
 			CHECK((after <= before + MOST_GROWTH_BYTES || IS_SANITIZED));
-			if (tells) {
+			if (prints_progress) {
 				std::printf("block %u: %llu MiB resident, then %llu; %u pipelines\n", block,
 						static_cast<unsigned long long>(before / MIB),
 						static_cast<unsigned long long>(after / MIB), get_pipeline_count(*device));
@@ -145,7 +145,7 @@ private:
 			scene->change();
 			draw();
 			CHECK(get_validation_message_count() == message_count);
-			if (tells) {
+			if (prints_progress) {
 				std::printf("frame %u\n", frame); // the runner waits for it
 				std::fflush(stdout);
 			}
@@ -221,10 +221,10 @@ private:
 		}
 	}
 
-	const bool tells = std::getenv("GNOMON_SOAK_FRAMES") != nullptr;
+	const bool prints_progress = std::getenv("GNOMON_SOAK_FRAMES") != nullptr;
 	const uint32_t seed;
 	Random random;
-	CaughtLog log; // fallbacks and the reference tell what they do
+	CaughtLog log; // fallbacks and the reference report what they do
 	TemporaryCache cache;
 	EmptyScene empty;
 	std::unique_ptr<RenderingDevice> device;

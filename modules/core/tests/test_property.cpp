@@ -92,7 +92,7 @@ TEST_CASE("[Property] a property that is declared again stays at its place") {
 	CHECK(std::get<std::string>(list.find("first")->default_value).empty());
 }
 
-TEST_CASE("[Property] whole numbers that a double cannot tell apart are refused") {
+TEST_CASE("[Property] whole numbers that a double cannot represent are refused") {
 	const PropertyInfo count = { "count", PropertyType::INT, 0, "", "Count." };
 	CHECK(std::get<int64_t>(parse_property(count, "9007199254740991", "x")) == 9007199254740991);
 	CHECK(std::get<int64_t>(parse_property(count, "-12e3", "x")) == -12000);

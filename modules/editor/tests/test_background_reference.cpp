@@ -98,7 +98,7 @@ TEST_CASE("A stopped trace ends at once and returns nothing more; it can start a
 	CHECK(reference.take());
 }
 
-TEST_CASE("A failure in the background is told once, by whoever asks") {
+TEST_CASE("A failure in the background is reported once, to the first query") {
 	Script script;
 	script.fails = true;
 	BackgroundReference reference;

@@ -259,7 +259,7 @@ TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing")
 		const FullDisk full(200);
 		CHECK_THROWS_AS(document.save(), Error);
 		document.autosave(START);
-		CHECK_FALSE(document.autosave(LATER)); // told, and tried again later
+		CHECK_FALSE(document.autosave(LATER)); // reported, and tried again later
 	}
 	const fs::path away = project.path.string() + "_away";
 	fs::rename(project.path, away);

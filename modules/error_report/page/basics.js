@@ -6,7 +6,7 @@
 	const report = {};
 	window.GnomonReport = report;
 
-	// d3's filled symbols differ at 9 pixels; shape tells techniques apart where colour cannot.
+	// d3's filled symbols differ at 9 pixels; shape distinguishes techniques where colour cannot.
 	const SYMBOLS = ["circle", "square", "triangle", "diamond", "star", "cross", "wye"];
 	const NO_VALUE = "–";
 

@@ -119,7 +119,7 @@
 		return { select, element: make("label", { class: "field" }, make("span", {}, label), select) };
 	}
 
-	/* { element, select(cell), draw() }; p_on_select is told of every cell that is chosen here or from outside. */
+	/* { element, select(cell), draw() }; p_on_select gets every cell that is chosen here or from outside. */
 	report.makeViewer = function (configurations, onSelect, getLabel = report.getLightText) {
 		const referenceCanvas = make("canvas", { "aria-hidden": "true" });
 		const resultCanvas = make("canvas", { class: "over", "aria-hidden": "true" });

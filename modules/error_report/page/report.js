@@ -204,7 +204,7 @@
 
 	let width_px = window.innerWidth;
 	let timer = 0;
-	function tellOverflow() {
+	function reportOverflow() {
 		root.dataset.overflow = root.scrollWidth - root.clientWidth;
 	}
 	window.addEventListener("resize", () => {
@@ -213,7 +213,7 @@
 		timer = width_px === window.innerWidth ? 0 : setTimeout(() => {
 			width_px = window.innerWidth;
 			sized.forEach(([host, draw]) => report.drawWhenNear(host, draw));
-			tellOverflow();
+			reportOverflow();
 		}, 150);
 	});
 
@@ -247,7 +247,7 @@
 			// The browser looked for the section before it was there.
 			document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
 		}
-		tellOverflow();
+		reportOverflow();
 		root.dataset.ready = "yes";
 	}
 

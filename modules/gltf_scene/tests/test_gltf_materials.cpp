@@ -50,8 +50,8 @@ TEST_CASE("[GltfMaterials] transmission and volume are read, and what they leave
 	CHECK(left.z == doctest::Approx(0.75 * 1 * 0.0625));
 	CHECK(wax.compute_transmittance(2.0f).x == doctest::Approx(0.75 * 0.5 * 0.0625));
 	json["materials"][0]["extras"]["scatter_distance"] = 0.125;
-	const auto told = folder.load(json);
-	CHECK(get_instances(*told)[0]->surfaces[0].material->scatter_distance_m == 0.125f);
+	const auto explicit_distance = folder.load(json);
+	CHECK(get_instances(*explicit_distance)[0]->surfaces[0].material->scatter_distance_m == 0.125f);
 	json["materials"][0]["extras"]["scatter"] = 0;
 	json["materials"][0]["extras"].erase("scatter_distance");
 	const auto opaque = folder.load(json);
@@ -166,7 +166,7 @@ TEST_CASE("[GltfMaterials] a new scene's materials say all that they are") {
 	CHECK(json["extensionsUsed"] == Json({ "KHR_materials_transmission", "KHR_materials_volume" }));
 }
 
-TEST_CASE("[GltfMaterials] a distance that the volume told stays what it is when the volume "
+TEST_CASE("[GltfMaterials] a distance that the volume defines stays what it is when the volume "
 		  "changes") {
 	GltfTestFolder folder;
 	GltfTestLog log;

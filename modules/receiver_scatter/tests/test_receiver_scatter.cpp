@@ -208,7 +208,7 @@ TEST_CASE("[GPU][ReceiverScatter] every opaque pixel next to a translucent body 
 	CHECK(count > 50);
 }
 
-TEST_CASE("[GPU][ReceiverScatter] light does not leak between surfaces, unless it is told to") {
+TEST_CASE("[GPU][ReceiverScatter] light does not leak between surfaces, unless it is set to") {
 	// A translucent pillar before a translucent ground: neighbours in the image, far in space.
 	MaskFixture fixture;
 	SmallScene scene;

@@ -86,7 +86,7 @@ TEST_CASE("[GPU][Lean] techniques that no light uses allocate and compile nothin
 		CHECK(among_others == alone);
 		CHECK(among_others.pipeline_count > 0);
 	}
-	// Two techniques at work are more: what is counted above does tell them apart.
+	// Two techniques at work are more: what is counted above does show the difference.
 	RenderFixture fixture(DeviceChoice::NEW);
 	TwoLights lights;
 	const auto count_pipelines = [&](const std::string &p_second) {

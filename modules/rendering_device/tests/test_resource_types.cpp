@@ -17,7 +17,7 @@ TEST_CASE("[RenderingDevice] formats know their name, their size and what they h
 	CHECK_FALSE(is_uint_format(Format::RGBA8_UNORM));
 }
 
-TEST_CASE("[RenderingDevice] usages are told by name") {
+TEST_CASE("[RenderingDevice] usages are listed by name") {
 	CHECK(describe_usage(TextureUsage::SAMPLED | TextureUsage::STORAGE) == "SAMPLED | STORAGE");
 }
 

@@ -37,7 +37,7 @@ TEST_CASE("[SpirvReflection] the local size follows its specialization constant"
 	CHECK(reflect("tests/scale.comp").push_constant_bytes == 8);
 }
 
-TEST_CASE("[SpirvReflection] what is declared and never touched is told apart") {
+TEST_CASE("[SpirvReflection] what is declared and never touched is distinguished") {
 	const ReflectedShader shader = reflect("tests/unused_binding.comp");
 	REQUIRE(shader.bindings.size() == 3);
 	for (const ReflectedBinding &binding : shader.bindings) {

@@ -132,7 +132,7 @@ TEST_CASE("[NodeProperties] other modules add properties, which the node keeps b
 	CHECK(light.properties.contains("note_size"));
 }
 
-TEST_CASE("[NodeProperties] a mesh tells where it is, and a light how large") {
+TEST_CASE("[NodeProperties] a mesh lists its position, and a light its size") {
 	MeshInstance3D instance;
 	CHECK(instance.compute_bounds().is_empty());
 	instance.surfaces.push_back({ make_box_mesh("box", glm::vec3(1, 2, 3)), nullptr });

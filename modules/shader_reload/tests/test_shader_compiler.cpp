@@ -61,7 +61,7 @@ TEST_CASE("[ShaderCompiler] every shader of this build compiles to what the buil
 	CHECK(count > 0);
 }
 
-TEST_CASE("[ShaderCompiler] includes are found, and what is wrong is told by file and line") {
+TEST_CASE("[ShaderCompiler] includes are found, and what is wrong is reported by file and line") {
 	ShaderFolder folder;
 	folder.write("tests/answer.comp", KERNEL);
 	const std::vector<uint32_t> words = compile_shader(folder.path, "tests/answer.comp");
@@ -136,7 +136,7 @@ TEST_CASE("[ShaderWatcher] what changes is compiled again, with all that include
 	REQUIRE(changes.size() == 1);
 	CHECK(changes[0].failure.find("common/answer_inc.glsl:1") != std::string::npos);
 	CHECK(changes[0].spirv.empty());
-	CHECK(watcher.poll().empty()); // told once
+	CHECK(watcher.poll().empty()); // reported once
 
 	// Away for a moment, as editors write files; then there again with another content.
 	fs::remove(folder.path / "common/answer_inc.glsl");

@@ -54,7 +54,7 @@ std::shared_ptr<const Mesh> make_box_with_slivers() {
 } // namespace
 
 TEST_CASE("[GPU][EdgeCount] a device that cannot count is refused, and a caster that is a line is "
-		  "told") {
+		  "reported") {
 	{
 		MaskFixture fixture("", { &DeviceFeatures::subgroup_operations });
 		std::string message;

@@ -1,4 +1,4 @@
-// What occlusion culling culls, and that the image never tells.
+// What occlusion culling culls, and that the image never changes.
 
 #include "modules/shadow_volume/culling_boxes.h"
 #include "modules/shadow_volume/tests/volume_fixture.h"

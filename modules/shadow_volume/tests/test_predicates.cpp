@@ -1,4 +1,4 @@
-// Do predicates really decide what is drawn? Images alone would not tell: what is culled is
+// Do predicates really decide what is drawn? Images alone would not show it: what is culled is
 // hidden.
 
 #include "modules/shadow_volume/tests/volume_fixture.h"

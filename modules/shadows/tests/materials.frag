@@ -1,5 +1,5 @@
 #version 460
-// surfaces.frag without normals, for devices that tell no fragment its primitive.
+// surfaces.frag without normals, for devices without gl_PrimitiveID in fragments.
 layout(push_constant) uniform Push {
 	mat4 camera_relative_from_node;
 	vec4 material;

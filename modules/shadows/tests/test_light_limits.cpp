@@ -47,7 +47,7 @@ TEST_CASE("[LightLimits] a caster that touches the light's sphere is named, one 
 	CHECK(find_broken(sunny, {}).empty());
 }
 
-TEST_CASE("[LightLimits] widths beyond a technique's limit are told with their values") {
+TEST_CASE("[LightLimits] widths beyond a technique's limit are reported with their values") {
 	SmallScene scene;
 	scene.scene.scene_size_m = 4.0;
 	scene.light->properties["penumbra_outer_width"] = 0.3;
@@ -60,7 +60,7 @@ TEST_CASE("[LightLimits] widths beyond a technique's limit are told with their v
 	CHECK(holds(broken[0].warning, "above 0.8"));
 }
 
-TEST_CASE("[LightLimits] a width that was derived is told with the size that it comes from") {
+TEST_CASE("[LightLimits] a width that was derived is reported with the size that it comes from") {
 	SmallScene scene;
 	scene.scene.scene_size_m = 4.0;
 	scene.light->properties["light_size"] = 0.9;
@@ -71,7 +71,7 @@ TEST_CASE("[LightLimits] a width that was derived is told with the size that it 
 	CHECK(holds(broken[0].warning, "Lower light_size"));
 }
 
-TEST_CASE("[LightLimits] a size of the scene that does not fit to its casters is told") {
+TEST_CASE("[LightLimits] a size of the scene that does not fit to its casters is reported") {
 	SmallScene scene;
 	CHECK(describe_unfit_size(*scene.snap()).empty());
 	scene.scene.scene_size_m = 2000.0;

@@ -12,7 +12,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Replaces every mask by a quarter of the light; leaves it alone when told to.
+/// Replaces every mask by a quarter of the light; leaves it alone when set to.
 class QuarterFilter : public MaskFilter {
 public:
 	static inline bool is_needed = true;

@@ -165,7 +165,7 @@ TEST_CASE("[Stability] a curve breaks where its error is twice the centre's, on 
 						.break_after);
 }
 
-TEST_CASE("[Stability] nonsense, refusals and failures are told apart") {
+TEST_CASE("[Stability] nonsense, refusals and failures are distinguished") {
 	Report report = make_light_size_report({ 0.01, 0.01 });
 	ReportCell &cell = report.cells[0];
 	const auto judge = [&] { return judge_stability(cell, {}, &report.cells[1]); };

@@ -55,7 +55,7 @@ TEST_CASE("[Condition] visibility in double is the share of the disc next to a h
 			exact.compute({ -0.05, 0, 0 }, UP));
 }
 
-TEST_CASE("[Condition] the number is the slope of visibility, and tells rounding from method") {
+TEST_CASE("[Condition] the number is the slope of visibility, and separates rounding from method") {
 	// Soft: v changes by about 1 over 0.4 m, 2 m from the light.
 	const HalfPlane soft(0.2);
 	const ConditionPoint point = { { -0.01f, 0, 0 }, UP, 0.53, 0.3 };

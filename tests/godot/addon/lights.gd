@@ -41,7 +41,7 @@ static func _add(left: PackedFloat32Array, right: PackedFloat32Array) -> PackedF
 	return sum
 
 
-## Of all kinds, two of them at one place and some on a line of sight, so that neither place nor direction tells them apart.
+## Of all kinds, two of them at one place and some on a line of sight, so that neither place nor direction distinguishes them.
 func _add_eight_lights(scene: StudyScene) -> Array[Light3D]:
 	scene.light.free()
 	var lights: Array[Light3D] = []

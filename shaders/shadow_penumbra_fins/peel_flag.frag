@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/peel_inc.glsl"
 
-// As peel.frag, and tells whether the layer holds anything: behind an empty one there is nothing.
+// As peel.frag, and sets a flag when the layer holds anything: behind an empty one there is nothing.
 layout(std430, set = 0, binding = PEEL_BINDING_FOUND) buffer Found {
 	uint is_found; // not 0 once it does
 };
