@@ -313,7 +313,7 @@ class Page:
         scenes = self.results["scenes"]
         links = "".join('<a href="#%s">%s</a>' % (escape(s["name"]), escape(s["name"].replace("_", " "))) for s in scenes)
         failures = self.results.get("failure_count", 0)
-        notice = '<p class="failure"><strong>%d failed.</strong> The rows below say what and why.</p>' % failures if failures else ""
+        notice = '<p class="failure"><strong>%d failed.</strong> The rows below list what and why.</p>' % failures if failures else ""
         return (
             '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1"><title>Gnomon demo</title>'

@@ -24,7 +24,7 @@ TIMEOUT_S = 900
 
 
 class CommandFailed(Exception):
-    """The text is what the program said."""
+    """The text is what the program printed."""
 
 
 def load_config(path):

@@ -17,7 +17,7 @@ Usage: demo_project/run_demo.sh [options]
   --device NAME   Vulkan device, by name or index (default: the engine's choice)
   --no-window     do not open the window at the end, even where there is a display
   --no-build      use bin/gnomon as it is
-Exit code: 0 all done, 1 something failed (the page says what), 2 wrong usage.
+Exit code: 0 all done, 1 something failed (the page lists what), 2 wrong usage.
 TEXT
 }
 

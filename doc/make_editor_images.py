@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the editor's story under Xvfb and writes its screenshots: doc/images/editor*.png. Build first: scons.
 
-Look at them afterwards: a screenshot that shows something else than its page says is worse than none.
+Look at them afterwards: a screenshot that shows something else than its page states is worse than none.
 """
 
 import os

@@ -1,7 +1,7 @@
 """Finds modules, orders them by dependency, and generates what ties them together.
 
 A module is a folder with register_types.h, SCsub and config.py. One that registers something has a
-register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_module. config.py says:
+register_types.cpp too, with initialize_<name>_module and uninitialize_<name>_module. config.py defines:
     get_dependencies() -> list of module names        (required)
     get_layer() -> int                                 (required; dependencies have a lower layer)
     get_description() -> str                           (required; one line, shown to users)
@@ -27,7 +27,7 @@ REQUIRED_FILES = ("register_types.h", "SCsub", "config.py")
 
 
 class Module:
-    """One module folder and what its config.py says."""
+    """One module folder and what its config.py defines."""
 
     def __init__(self, name, folder):
         spec = importlib.util.spec_from_file_location("config_" + name, os.path.join(folder, "config.py"))
@@ -209,7 +209,7 @@ OPTIMISED = "// build: optimised"
 
 def make_test_environment(env):
     """A clone of env for tests, with add_test_sources. A test runs about as often as it is compiled: the optimiser would take
-    more time than it gives, but for files that compute much, whose first line says so.
+    more time than it gives, but for files that compute much, whose first line states it.
     """
     plain = env.Clone(CCFLAGS=["-O0" if flag == "-O2" else flag for flag in env["CCFLAGS"]])
     if "-O2" in env["CCFLAGS"]:

@@ -16,7 +16,7 @@
 
 namespace gnomon {
 
-/// Tests run from the repository's root; an Error says so when they do not.
+/// Tests run from the repository's root; an Error reports when they do not.
 inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	const std::filesystem::path path =
 			std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");

@@ -1,6 +1,6 @@
 """Triangles and a small glTF 2.0 writer for the demo scenes. Standard library only.
 
-A mesh is checked before it is written: float32 positions, no degenerate triangle, unless it says otherwise an
+A mesh is checked before it is written: float32 positions, no degenerate triangle, unless it is marked as such an
 oriented 2-manifold after welding by position, and, where it should be closed, one with outward faces.
 """
 

@@ -123,7 +123,7 @@ def build_scene_files(name, item):
         raise MeshUnavailable("%s has no triangles" % item.ending)
     mesh = make_creased_mesh(fit_points(points, item.turn), triangles)
     document = make_artist_set()
-    # These formats do not say which side of an open mesh is seen; viewers show both.
+    # These formats do not define which side of an open mesh is seen; viewers show both.
     document.add_object("Mesh", mesh, document.add_material("Mesh", item.color, roughness=0.6, is_double_sided=True))
     return document.build_files(PREFIX + name)
 

@@ -26,7 +26,7 @@ public:
 	using Error::Error;
 };
 
-/// What a caught exception says. Of memory that ran out, which says nothing itself, what to do.
+/// The message of a caught exception. Of memory that ran out, which has none itself, what to do.
 std::string describe_failure(const std::exception &p_failure);
 
 /// Throws Error with the arguments joined by text().

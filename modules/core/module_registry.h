@@ -10,7 +10,7 @@ namespace gnomon {
 /// formats. EDITOR: panels; never reached by a game.
 enum class ModuleLevel { CORE, SERVERS, FEATURES, EDITOR };
 
-/// What a module says of itself (config.py), and its two functions.
+/// What a module declares (config.py), and its two functions.
 struct ModuleInfo {
 	std::string name;
 	std::string description;

@@ -124,7 +124,7 @@ struct EditorContext {
 	/// Where widgets are in the window, by name: left, top, right, bottom in pixels. For tests.
 	std::map<std::string, glm::vec4> items;
 
-	void say(std::string p_text) {
+	void set_status(std::string p_text) {
 		status = std::move(p_text);
 		is_status_error = false;
 	}

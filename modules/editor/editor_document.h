@@ -22,7 +22,7 @@ public:
 	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // the default
 
 	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
-	/// read opens empty and is said in the log, see get_failure. p_stage: see stage_scene; what is
+	/// read opens empty and is reported in the log, see get_failure. p_stage: see stage_scene; what is
 	/// added is no change.
 	explicit EditorDocument(
 			const std::filesystem::path &p_path, StageMode p_stage = StageMode::OFF);
@@ -65,7 +65,7 @@ public:
 	void remove(Node3D &r_node);
 	/// Next to the node, with a name of its own; it is selected then.
 	void duplicate(Node3D &r_node);
-	/// Selects what changed, and says what it was; empty: nothing to undo.
+	/// Selects what changed, and returns what it was; empty: nothing to undo.
 	std::string undo();
 	std::string redo();
 

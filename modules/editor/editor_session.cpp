@@ -95,7 +95,7 @@ void EditorSession::follow_file(Clock::time_point p_now) {
 		if (!was_read) {
 			look_as_scene();
 		}
-		context.say("The file has changed and was read again.");
+		context.set_status("The file has changed and was read again.");
 	});
 }
 
@@ -130,17 +130,17 @@ void EditorSession::run(EditorCommand p_command) {
 			break;
 		case EditorCommand::SAVE:
 			document.save();
-			context.say(text(
+			context.set_status(text(
 					"Saved ", document.get_path().filename().string(), ".", describe_staged()));
 			break;
 		case EditorCommand::UNDO:
 			if (const std::string name = document.undo(); !name.empty()) {
-				context.say("Undone: " + name);
+				context.set_status("Undone: " + name);
 			}
 			break;
 		case EditorCommand::REDO:
 			if (const std::string name = document.redo(); !name.empty()) {
-				context.say("Done again: " + name);
+				context.set_status("Done again: " + name);
 			}
 			break;
 		case EditorCommand::DUPLICATE:
@@ -162,7 +162,7 @@ void EditorSession::run(EditorCommand p_command) {
 			}
 			start_program({ program.string(), "run", document.get_path().string(), "--stage",
 					get_stage_mode_name(document.get_stage()) });
-			context.say(text("The game runs in a window of its own.", describe_staged()));
+			context.set_status(text("The game runs in a window of its own.", describe_staged()));
 			break;
 		case EditorCommand::PLAY_ANIMATION:
 			if (Timeline &timeline = document.get_timeline(); timeline.is_playing()) {
@@ -194,7 +194,7 @@ void EditorSession::read_page() {
 		fail("Page ", page, " is not there. It comes with the sources of the program.");
 	}
 	start_program({ "xdg-open", page.string() });
-	context.say(text("Opened ", page.string()));
+	context.set_status(text("Opened ", page.string()));
 }
 
 void EditorSession::recover() {

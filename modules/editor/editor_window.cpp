@@ -87,7 +87,7 @@ public:
 		context.requested_tab = settings.tab;
 		if (document.get_failure().empty()) {
 			const std::string &staged = document.get_staged();
-			context.say(text("Opened ", document.get_path().filename().string(),
+			context.set_status(text("Opened ", document.get_path().filename().string(),
 					staged.empty() ? "" : ". ", staged));
 		} else {
 			context.requested_tab = "Messages";
@@ -308,7 +308,7 @@ void run_editor(const EditorOptions &p_options) {
 		path = Editor(p_options, path, settings).run();
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 			if (!module.is_enabled && module.can_disable) {
-				ModuleRegistry::set_enabled(module.name, true); // each project says which it wants
+				ModuleRegistry::set_enabled(module.name, true); // each project lists which it wants
 			}
 		}
 	}

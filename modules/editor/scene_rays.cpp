@@ -19,7 +19,7 @@ void SceneRays::follow(const Scene &p_scene) {
 			try {
 				add_surface(*node, surface, world_from_node, world_from_nodes);
 			} catch (const Error &) {
-				// A pose that is refused: the scene cannot be drawn either, and the image says why.
+				// A pose that is refused: the scene cannot be drawn either, and the image shows why.
 			}
 		}
 	}

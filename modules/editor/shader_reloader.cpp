@@ -41,7 +41,7 @@ bool ShaderReloader::update(EditorContext &r_context, Clock::time_point p_now) {
 	}
 	r_context.viewport.needs_redraw = true;
 	if (errors.empty()) {
-		r_context.say(compiled.size() == 1
+		r_context.set_status(compiled.size() == 1
 						? text("Shader ", compiled.begin()->first, " was recompiled.")
 						: text(compiled.size(), " shaders were recompiled."));
 	}

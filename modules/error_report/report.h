@@ -119,7 +119,7 @@ struct ReportStability {
 	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more than a half.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // that the program gave
-	std::string refusal; // why it drew nothing: an error that says what to do; then no numbers
+	std::string refusal; // why it drew nothing: an error that states what to do; then no numbers
 	std::optional<VisibilityCondition> condition; // where the error is far above the centre's
 };
 

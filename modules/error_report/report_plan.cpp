@@ -228,7 +228,7 @@ private:
 				ExpensiveSettings::SKIPPED);
 	}
 
-	/// Fills in what the scene says, and plans the cells.
+	/// Fills in what the scene states, and plans the cells.
 	void add_configuration(ReportConfiguration p_configuration, ReportPlan::Ask p_ask,
 			ExpensiveSettings p_expensive) {
 		MaskQuestion question;

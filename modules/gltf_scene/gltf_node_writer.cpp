@@ -26,7 +26,7 @@ void GltfNodeWriter::write(const Scene &p_scene) {
 	std::vector<size_t> roots;
 	const Node3D &root = *p_scene.root;
 	if (typeid(root) != typeid(Node3D) || root.parent_from_node != glm::dmat4(1.0)) {
-		roots.push_back(*assign(root, nullptr)); // says something, so it becomes a node
+		roots.push_back(*assign(root, nullptr)); // has values of its own, so it becomes a node
 	} else {
 		for (const std::unique_ptr<Node3D> &child : root.children) {
 			if (is_saved(*child)) {

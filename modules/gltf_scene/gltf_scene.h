@@ -13,7 +13,7 @@
 namespace gnomon {
 
 struct GltfLoadOptions {
-	/// Files outside of it are refused, whatever a URI or a link says. Empty = the scene's folder.
+	/// Files outside of it are refused, whatever a URI or a link names. Empty = the scene's folder.
 	std::filesystem::path project_folder;
 	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
 	/// that are found are checked and converted; others are preserved as they stand. May be empty.
@@ -24,7 +24,7 @@ struct GltfLoadOptions {
 /// parent. Anything that cannot be drawn as meant is an Error of one line with file, JSON path,
 /// value, range and next step. A refused value of a light, camera or material is logged as an error
 /// in the same words, and its default used. KHR_animation_pointer is not
-/// read; one warning says so.
+/// read; one warning reports it.
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 /// The same for the bytes of a file. p_path: where it stands, for messages and the files that it

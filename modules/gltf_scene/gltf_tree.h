@@ -30,7 +30,7 @@ NodeTransform read_parts(const tinygltf::Node &p_node);
 glm::dmat4 read_transform(const tinygltf::Node &p_node);
 
 /// Writes a node's changed transform. Translation, rotation and scale stay apart where they can
-/// say it (animations and people need them), else it becomes a matrix. Not finite: an Error.
+/// express it (animations and people need them), else it becomes a matrix. Not finite: an Error.
 void write_transform(const Node3D &p_node, const glm::dmat4 &p_before, tinygltf::Node &r_written);
 
 constexpr char BLENDER_ORIENTATION[] = "_Orientation";

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// What the project's settings below rendering/gnomon say; defaults where it has none, and,
+/// What the project's settings below rendering/gnomon state; defaults where it has none, and,
 /// with one warning, where a value is refused. A game may change them while it runs.
 struct AddonSettings {
 	bool is_enabled = true;			 // false: all lights are Godot's

@@ -67,7 +67,7 @@ Material make_material(
 
 } // namespace
 
-/// Godot's materials do not say when they change: they are read each time.
+/// Godot's materials do not report when they change: they are read each time.
 std::shared_ptr<const Material> CutOutMaterials::read(const godot::BaseMaterial3D &p_material) {
 	using godot::BaseMaterial3D;
 	const godot::Ref<godot::Texture2D> texture =

@@ -7,7 +7,7 @@ namespace gnomon {
 namespace {
 
 /// Of what the viewport draws in 3D, but for its scaling. A window whose canvas is stretched alone
-/// says the canvas's size.
+/// returns the canvas's size.
 glm::vec2 read_size(const godot::Viewport &p_viewport) {
 	const auto window = godot::cast<godot::Window>(p_viewport);
 	if (window &&

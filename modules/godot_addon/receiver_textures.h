@@ -40,7 +40,7 @@ public:
 	/// where there is no receiver. Null: no room was made.
 	TextureRID get_masks() const { return masks.get(); }
 	glm::uvec2 get_size_px() const { return size_px; }
-	/// Says which view the masks are of, and its lights. Before its opaque objects are drawn.
+	/// Sets which view the masks are of, and its lights. Before its opaque objects are drawn.
 	void write_lights(const GodotView &p_view, std::span<const ReceiverLight> p_lights);
 
 	/// Materials take no mask until the next view's: those of this one could not be made.

@@ -41,7 +41,7 @@ private:
 	CutOutMaterials cut_outs;
 };
 
-/// What a shader's code says: the built-ins and render modes that decide it.
+/// What a shader's code contains: the built-ins and render modes that decide it.
 ShadowKind find_shadow_kind(const ShaderText &p_shader);
 
 } // namespace gnomon

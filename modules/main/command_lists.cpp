@@ -112,7 +112,7 @@ Json list_modules(bool p_as_text, const CommonOptions & /*p_common*/) {
 
 Json list_info(bool p_as_text, const CommonOptions &p_common) {
 	const std::vector<DeviceInfo> devices = find_rendering_devices();
-	// Creating it says which one a command would take, and why none can be.
+	// Creating it shows which one a command would take, and why none can be.
 	const std::unique_ptr<RenderingDevice> device = create_device(p_common);
 	const uint32_t chosen = device->get_info().index;
 	Json list = Json::array();

@@ -70,7 +70,7 @@ bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
 	}
 	if (comparison.only_old_count > 0) {
 		log_warning(comparison.only_old_count, " cells of ", p_arguments.against,
-				" are not in this report, so that nothing is said of them.");
+				" are not in this report, so that they are not compared.");
 	}
 	r_json["against"] = to_json(comparison);
 	return !comparison.has_regression() && comparison.compared_count > 0;
@@ -106,7 +106,7 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	const size_t failed_count = p_report.count(ReportStatus::FAILED);
 	const size_t missing_count = p_report.count(ReportStatus::MISSING);
 	if (failed_count > 0) {
-		fail(failed_count, " references or cells failed; the page says which and why. Mend that, then ",
+		fail(failed_count, " references or cells failed; the page lists which and why. Mend that, then ",
 				"go on with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
@@ -115,7 +115,7 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 	if (!is_no_worse) {
 		fail("Errors grew against ", p_arguments.against,
-				", or no cell is in both; the lines above ", "say which.");
+				", or no cell is in both; the lines above ", "list which.");
 	}
 }
 
@@ -148,7 +148,7 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	}
 	if (std::none_of(scenes.begin(), scenes.end(),
 				[](const ReportScene &p_scene) { return p_scene.scene != nullptr; })) {
-		fail("No scene of ", p_arguments.project, " can be loaded; the lines above say why.");
+		fail("No scene of ", p_arguments.project, " can be loaded; the lines above state why.");
 	}
 	const std::vector<TechniqueSource> techniques =
 			RenderedMasks::find_techniques(p_arguments.techniques);
@@ -225,7 +225,7 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	merge->add_option("--out", arguments.merge_out, "Folder of the whole report")->required();
 	for (CLI::App *any : { command, merge }) {
 		any->add_option("--against", arguments.against,
-				"An older report.json: says what changed; errors that grew end with 1");
+				"An older report.json: reports what changed; errors that grew end with 1");
 		any->add_option("--budget", arguments.budget_ms,
 				   "Milliseconds: names the technique of least error for each scene")
 				->check(CLI::PositiveNumber);

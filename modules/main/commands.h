@@ -34,7 +34,7 @@ glm::uvec2 parse_size(const std::string &p_text);
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
 /// From [defaults] of the project that a scene belongs to, or that the path is; nothing where that
-/// says nothing.
+/// has no value.
 std::optional<std::string> find_default(
 		const std::filesystem::path &p_scene_path, const std::string &p_key);
 /// As above: antialiasing, 1..4, else 2.
@@ -42,17 +42,17 @@ uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
-/// project's disabled modules are switched off. It is staged as the command line says, for an image
+/// project's disabled modules are switched off. It is staged as the command line states, for an image
 /// of that size.
 std::unique_ptr<Scene> load_scene(
 		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
 /// `--animation` and `--at`, for a command that draws scenes.
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
-/// Poses the scene as those say: at rest where neither is given.
+/// Poses the scene as those state: at rest where neither is given.
 void pose_as_asked(Scene &r_scene, const CommonOptions &p_common);
 /// `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
-/// The camera of that name, or the first. None: an Error that says how to add one.
+/// The camera of that name, or the first. None: an Error that states how to add one.
 Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name);
 /// The light of that name, or the first that casts shadows.
 Light3D &choose_light(const Scene &p_scene, const std::string &p_name);

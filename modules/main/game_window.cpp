@@ -37,7 +37,7 @@ struct GameState {
 	AnimationPlayback playback;
 	bool has_reference = false;
 	bool shows_text = true;
-	std::string shown; // instead of the lit image; empty: what --debug-view says
+	std::string shown; // instead of the lit image; empty: what --debug-view names
 
 	/// The light's own technique, then each of the registry's, then again.
 	void choose_next_technique() {

@@ -67,7 +67,7 @@ TracedReference RenderedMasks::trace_reference(const MaskQuestion &p_question, u
 	const std::string samples = reference.id + SAMPLES_ENDING;
 	if (!ShadowRegistry::get_light_properties(reference.id).find(samples)) {
 		fail("Technique \"", reference.id, "\" is the reference, but has no property ", samples,
-				" that says how many rays it takes. Declare it.");
+				" that states how many rays it takes. Declare it.");
 	}
 	auto scene = std::make_shared<SceneSnapshot>(*p_question.scene);
 	for (LightSnapshot &light : scene->lights) {

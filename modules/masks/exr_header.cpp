@@ -124,7 +124,7 @@ private:
 				++channel_count;
 			}
 			if (position != p_end) {
-				fail("Mask ", name, ": its list of channels is not as long as it says. ",
+				fail("Mask ", name, ": its list of channels is not as long as it states. ",
 						"Write it again.");
 			}
 		} else if (p_attribute == "dataWindow") {

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// OpenEXR 3.1 believes what a header says of sizes, and takes memory for it before it reads. This
+/// OpenEXR 3.1 believes what a header states about sizes, and takes memory for it before it reads. This
 /// walks the header first, and returns it as OpenEXR may see it: attributes that no mask needs have
 /// an unknown type, so that they are skipped by their length, which was checked. A header that goes
 /// beyond the bytes, contradicts itself or wants too much memory is an Error that begins with

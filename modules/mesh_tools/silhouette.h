@@ -30,7 +30,7 @@ struct Silhouette {
 std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 /// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
-/// else -1): 0, +-1 or +-2, for a closed part to be halved. The sign says whether the silhouette
+/// else -1): 0, +-1 or +-2, for a closed part to be halved. The sign shows whether the silhouette
 /// runs a -> b or b -> a.
 int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing);
 

@@ -63,7 +63,7 @@ const ShadowTechnique::DebugView *choose_debug_view(
 	}
 	if (ids.empty()) {
 		fail("Debug view \"", p_wish.id,
-				"\": no light in view has a shadow. `gnomon run --plan` says why; see "
+				"\": no light in view has a shadow. `gnomon run --plan` lists why; see "
 				"shadow_enabled, "
 				"intensity and range of the lights.");
 	}

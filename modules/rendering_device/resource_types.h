@@ -132,7 +132,7 @@ struct Binding {
 	uint32_t binding = 0;
 	BufferRID buffer;
 	TextureRID texture;
-	SamplerRID sampler;			 // with a texture: combined, when the shader says so
+	SamplerRID sampler;			 // with a texture: combined, when the shader declares it
 	uint32_t layer = ALL_LAYERS; // of the texture
 
 	static constexpr uint32_t ALL_LAYERS = ~0u;

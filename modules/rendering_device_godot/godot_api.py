@@ -2,7 +2,7 @@
 
 `godot --headless --dump-extension-api --dump-gdextension-interface` writes extension_api.json and
 gdextension_interface.h. USED names classes, their methods and enums; a name that this Godot does not have is an error
-that says which. Methods become members of a class of the same name in gnomon::godot, with Godot's names.
+that names it. Methods become members of a class of the same name in gnomon::godot, with Godot's names.
 """
 
 import json

@@ -218,7 +218,7 @@ std::vector<DeviceInfo> find_rendering_devices() {
 			infos.push_back(device.info);
 		}
 	} catch (...) {
-		// Without Vulkan there are none; create_rendering_device says what to install.
+		// Without Vulkan there are none; create_rendering_device reports what to install.
 	}
 	return infos;
 }

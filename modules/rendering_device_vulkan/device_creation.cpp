@@ -31,7 +31,7 @@ struct FeatureChain {
 };
 
 /// What Gnomon uses of what the device has; nothing else is enabled, so that the layers notice when
-/// a shader relies on more. p_features: what it says of itself.
+/// a shader relies on more. p_features: what it reports.
 void choose_features(
 		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_enabled) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;

@@ -1,4 +1,4 @@
-// What environment variables say of a device.
+// What environment variables state about a device.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"

@@ -40,7 +40,7 @@ struct TextureResource {
 	Allocation memory; // empty when placed, or the swapchain's
 	MemoryRID placed_in;
 	bool is_swapchain = false;
-	/// After the commands recorded so far. Lets an attachment be read-only without saying so twice.
+	/// After the commands recorded so far. Lets an attachment be read-only without declaring it twice.
 	VkImageLayout recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 	std::vector<TextureView> views; // made when first needed
 };

@@ -25,7 +25,7 @@ bool has_extension(
 		const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name);
 
 /// A messenger that counts what the layers report: warnings and errors of validation, not advice
-/// on speed and not what the loader says of the drivers it finds.
+/// on speed and not what the loader reports about the drivers it finds.
 VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
 /// From now on r_messages gets them instead, or nothing (null): for tests. Returns what got them.
 std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages);

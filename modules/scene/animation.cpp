@@ -37,7 +37,7 @@ glm::dvec3 to_vector(const std::vector<double> &p_values) {
 }
 
 /// The parts of a node's transform: those of its file unless the user has moved it since. Which
-/// axis mirrors no matrix says: as the file has it, or x.
+/// axis mirrors is not stored in a matrix: as the file has it, or x.
 NodeTransform choose_parts(const NodeTransform &p_of_file, const Node3D &p_node) {
 	return p_of_file.compose() == p_node.parent_from_node
 			? p_of_file

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// What `--set` says of a light.
+/// What `--set` sets of a light.
 struct LightSetting {
 	std::string light_name; // empty: the command's own light
 	std::string property;

@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// The image's first (-1) or last (1) column or row in place of all, where a part says so.
+/// The image's first (-1) or last (1) column or row in place of all, where a part requires it.
 std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_part_y) {
 	const glm::uvec2 size(
 			p_part_x == 0 ? p_image.size_px.x : 1, p_part_y == 0 ? p_image.size_px.y : 1);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const int GLSL_VERSION = 460; // where a file does not say it itself
+const int GLSL_VERSION = 460; // where a file does not state it itself
 const size_t DEEPEST_INCLUDE = 32;
 
 EShLanguage find_stage(const std::string &p_name) {
@@ -48,7 +48,7 @@ public:
 			const size_t length = text->size();
 			return new IncludeResult(p_name, data, length, text.release());
 		} catch (const Error &) {
-			return nullptr; // the compiler says where it is asked for
+			return nullptr; // the compiler reports where it is included
 		}
 	}
 	IncludeResult *includeSystem(const char *p_name, const char *p_by, size_t p_depth) override {
@@ -65,7 +65,7 @@ private:
 	fs::path folder;
 };
 
-/// The compiler's lines that say something, without its summary.
+/// The compiler's lines that have content, without its summary.
 std::string tidy_log(const std::string &p_log) {
 	std::istringstream lines(p_log);
 	std::string tidy;

@@ -13,7 +13,7 @@ namespace gnomon {
 struct ShaderChange {
 	std::string name; // as the build embeds it
 	std::vector<uint32_t> spirv;
-	std::string failure; // what the compiler says; empty: it compiled
+	std::string failure; // what the compiler reports; empty: it compiled
 };
 
 /// Follows the sources of the shaders that this build embeds.

@@ -55,7 +55,7 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
-/// A pass over the blocks of one kind, of as many work groups as the dispatches say.
+/// A pass over the blocks of one kind, of as many work groups as the dispatches state.
 void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, const std::string &p_name, const std::string &p_shader,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {

@@ -15,7 +15,7 @@ public:
 	static constexpr uint32_t OFFSET_COUNT = 64;
 
 	/// Hammersley's set of 64 p_turn_count points on a disc: in the order of their angles, which
-	/// are even, and as far from the centre as the bits of their numbers read backwards say. Of
+	/// are even, and as far from the centre as the bits of their numbers read backwards. Of
 	/// these every p_turn_count-th from p_turn on. p_turn_count: a power of two.
 	explicit DiscMasks(uint32_t p_turn = 0, uint32_t p_turn_count = 1);
 

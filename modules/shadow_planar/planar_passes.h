@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// What shadows are drawn into: a mask, R16_SFLOAT, and a stencil that says where the plane in hand
+/// What shadows are drawn into: a mask, R16_SFLOAT, and a stencil that marks where the plane in hand
 /// is seen and not yet dark.
 struct PlanarTargets {
 	RGTexture mask;

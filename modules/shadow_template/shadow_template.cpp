@@ -24,7 +24,7 @@ void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightSc
 	r_views = build_light_views(p_light, p_scene, size_px, 1);
 }
 
-// Before anything is recorded: say what this frame does not need. The template needs all of it.
+// Before anything is recorded: declare what this frame does not need. The template needs all of it.
 void ShadowTemplate::plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {
 	map = {};
 }

@@ -9,7 +9,7 @@ namespace gnomon {
 /// shares the frame's.
 class CachedEdges {
 public:
-	/// Says whether edges are found this frame. p_are_all_drawn: false where words on the GPU
+	/// Reports whether edges are found this frame. p_are_all_drawn: false where words on the GPU
 	/// decide which casters are, so that the lists lack those that are not.
 	void plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
 			bool p_are_all_drawn, TechniquePlan &r_plan);

@@ -30,7 +30,7 @@ public:
 	/// casters, and not for 60 frames after less than a tenth was hidden.
 	std::vector<uint32_t> plan(const ShadowTechnique::Inputs &p_inputs, Wish p_wish,
 			const std::vector<uint32_t> &p_instances, TechniquePlan &r_plan);
-	/// Says what add_passes will do, where it is called.
+	/// Reports in the plan what add_passes will do, where it is called.
 	void report(TechniquePlan &r_plan) const;
 	/// After plan: words that add_passes makes will decide which casters are drawn.
 	bool decides_draws(const ShadowTechnique::Inputs &p_inputs) const {

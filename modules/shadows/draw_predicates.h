@@ -20,7 +20,7 @@ struct DrawPredicates {
 	std::optional<uint64_t> find_offset_bytes(uint32_t p_instance_index) const;
 	/// Declares the use of the words in a pass.
 	void add_to(PassBuilder &r_pass) const;
-	/// Records what p_record does, to happen only where the instance's word says so.
+	/// Records what p_record does, to happen only where the instance's word is set.
 	template <typename Record>
 	void record(PassContext &r_context, uint32_t p_instance_index, Record p_record) const {
 		const std::optional<uint64_t> offset = find_offset_bytes(p_instance_index);

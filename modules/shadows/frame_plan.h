@@ -25,7 +25,7 @@ public:
 	void skip(const std::string &p_pass, const std::string &p_reason);
 
 	const std::vector<FramePlanEntry> &get_entries() const { return entries; }
-	/// True when a line says that the pass of that light was skipped.
+	/// True when a line states that the pass of that light was skipped.
 	bool is_skipped(const std::string &p_light, const std::string &p_pass) const;
 	/// One line per entry: "Lamp: light view 0: skipped, no casters".
 	std::string to_text() const;

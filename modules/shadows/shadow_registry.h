@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-/// What a module says of a technique when it registers it.
+/// What a module declares for a technique when it registers it.
 struct ShadowTechniqueInfo {
 	std::string id; // stored in scene files; never changes
 	std::string name;

@@ -47,7 +47,7 @@ private:
 	using SlotKey = std::pair<std::string, size_t>;
 	Slot &get_slot(const SlotKey &p_key, const ShadowTechniqueInfo &p_info);
 	void warn_once(const std::string &p_warning); // empty: nothing
-	/// Not again for the same key, whatever the warning says.
+	/// Not again for the same key, whatever the warning states.
 	void warn_once(const std::string &p_key, const std::string &p_warning);
 	/// Drops techniques of lights that are gone or were not asked for in many frames, and all when
 	/// a registry changed. Once a frame.

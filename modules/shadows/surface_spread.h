@@ -2,7 +2,7 @@
 
 namespace gnomon {
 
-/// What a receiver's material says of the light below its surface.
+/// What a receiver's material defines of the light below its surface.
 struct SurfaceMaterial {
 	float scatter = 0.0f;			 // s in 0..1
 	float scatter_distance_m = 0.0f; // 0: not given

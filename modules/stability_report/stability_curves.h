@@ -13,7 +13,7 @@ enum class StabilityState {
 	OK,
 	DOUBLED,  // the error is more than twice the centre's
 	NONSENSE, // light where all is dark or shadow where all is lit, on more than the odd pixel
-	REFUSED,  // nothing was drawn, and an error said why
+	REFUSED,  // nothing was drawn, and an error stated why
 	FAILED,	  // not finite, outside 0..1, a validation message, or anything else that must not be
 };
 /// "missing", "ok", "doubled", "nonsense", "refused", "failed".

@@ -50,7 +50,7 @@ struct SHARED_ALIGN TexturePlace {
 };
 SHARED_SIZE(TexturePlace, 32);
 
-/// What a material says in addition to InstancePush.
+/// What a material defines in addition to InstancePush.
 struct SHARED_ALIGN MaterialConstants {
 	TexturePlace base_color;
 	TexturePlace metallic_roughness;

@@ -27,7 +27,7 @@ void main() {
 	const vec4 plane = make_count_plane(a, b, c);
 	const bool is_mirrored = (push.flags & EDGE_COUNT_CASTER_MIRRORED) != 0u;
 	planes[push.first_face + index] = is_mirrored ? -plane : plane;
-	// The corners wind as the plane's side says.
+	// The corners wind as the plane's side requires.
 	faces[push.first_face + index] = CountFaceRecord(uvec4(floatBitsToUint(a), face.kind),
 			uvec4(floatBitsToUint(is_mirrored ? c : b), 0u), uvec4(floatBitsToUint(is_mirrored ? b : c), 0u));
 }

@@ -38,7 +38,7 @@ int count_find_light_side(bool p_is_directional, float p_radius, float p_toleran
 	return side > reach ? 1 : (side < -reach ? -1 : 0);
 }
 
-/// What an edge's word for its first face says; see CountEdgeRecord.
+/// What an edge's word for its first face holds; see CountEdgeRecord.
 struct CountEdgeKind {
 	bool is_double_sided;
 	bool is_inconsistent;

@@ -204,7 +204,7 @@ bool has_overlap(CountState p_state, int p_added) {
 
 /// Visibility from all that was counted, 0..1. Where no more than one solid hides the light, the areas alone
 /// are exact. Else the share of hidden points is corrected by what the areas know better than the points, the
-/// mean of the counts; as much of it as neighbouring points say, by least squares, that a change of the count is a
+/// mean of the counts; as much of it as neighbouring points show, by least squares, that a change of the count is a
 /// change between hidden and visible.
 float count_resolve(CountState p_state) {
 	const float share = 1.0 / float(EDGE_COUNT_SAMPLE_COUNT * COUNT_TURN_COUNT);

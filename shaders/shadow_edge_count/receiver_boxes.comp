@@ -27,7 +27,7 @@ const uint PIXELS_PER_INVOCATION = (PIXEL_COUNT + GROUP_SIZE - 1u) / GROUP_SIZE;
 const uint NO_VIEW = 0xffffffffu;
 
 /// The receiver of one of the block's pixels. Its view is NO_VIEW where there is none, or none that a caster
-/// can hide; then r_is_lit says which.
+/// can hide; then r_is_lit states which.
 CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	const ivec2 pixel = ivec2(uvec2(gl_WorkGroupID.x, find_work_row()) * uint(EDGE_COUNT_BLOCK_PX) +
 			find_pixel_in_block(p_index));

@@ -37,7 +37,7 @@ vec3 find_homogeneous(CountLightConstants p_light, CountViewConstants p_view, ve
 /// p_level: the map's size is halved so often.
 TexelRows make_texel_rows(CountLightConstants p_light, CountViewConstants p_view, uint p_level, vec3 p_a,
 		vec3 p_b, vec3 p_c) {
-	const float SMALLEST_DEPTH = 1e-6; // of a point's distance: nearer to the light's plane, bounds say nothing
+	const float SMALLEST_DEPTH = 1e-6; // of a point's distance: nearer to the light's plane, bounds are useless
 	const vec3 a = find_homogeneous(p_light, p_view, p_a);
 	const vec3 b = find_homogeneous(p_light, p_view, p_b);
 	const vec3 c = find_homogeneous(p_light, p_view, p_c);

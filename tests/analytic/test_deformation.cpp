@@ -85,7 +85,7 @@ struct RawFile {
 	}
 };
 
-/// What an animation's channel says at a time.
+/// The value of an animation's channel at a time.
 std::vector<double> evaluate(
 		const RawFile &p_file, const Json &p_sampler, double p_time, size_t p_width) {
 	const auto times = p_file.read(p_sampler["input"]);

@@ -6,7 +6,7 @@
     compare_masks.py compare BEFORE AFTER
 
 For a change that must leave every mask as it is: store with the program before the change and with the one after it, on
-the same machine, then compare. The last line says how many masks differ; exit code 1 when any does.
+the same machine, then compare. The last line states how many masks differ; exit code 1 when any does.
 """
 
 import argparse

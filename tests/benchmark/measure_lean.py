@@ -55,7 +55,7 @@ RULES = (
 
 
 def measure(scene, folder, size_px, technique=None, settings=(), words=()):
-    """The frame's plan, and what --time says."""
+    """The frame's plan, and what --time prints."""
     times = os.path.join(folder, "time.json")
     command = [PROGRAM, "run", scene, "--headless", "--size", "%dx%d" % (size_px, size_px), "--plan", "--antialiasing", "1"]
     # What is cached is in the plan of a later frame, what is drawn in the first one's.

@@ -88,7 +88,7 @@ def measure_time(scene, light, folder, settings, *more, technique="shadow_volume
 
 
 def count_hidden(scene, folder):
-    """Casters that others hide from the light, as the second frame's plan says."""
+    """Casters that others hide from the light, as the second frame's plan lists."""
     words = [word for setting in POINT for word in ("--set", setting)]
     plan = run([GNOMON, "visibility", scene, "--technique", "shadow_volume", "--size", SIZE, "--frames", "2", "--plan",
                 "--out", os.path.join(folder, "mask.exr"), *words])  # fmt: skip

@@ -174,10 +174,10 @@ class BadInput(BlenderTest):
         blend, _ = self.call("save_instances", "area.blend", area_is_hidden=False)
         self.assert_refused(blend, "area.glb", '"Area"', "AREA", "spot light", "hide")
 
-    def test_a_scene_without_light_says_so(self):
+    def test_a_scene_without_light_is_reported(self):
         self.assert_refused(self.build("dark.blend", lights=()), "dark.glb", '"Scene"', "no light", "Add")
 
-    def test_a_scene_whose_lights_are_hidden_says_so(self):
+    def test_a_scene_whose_lights_are_hidden_is_reported(self):
         blend = self.build("off.blend", lights=("Key",), changes=[["Key", "hide_viewport", True]])
         self.assert_refused(blend, "off.glb", "no light", "outliner")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens a page of `gnomon report` in headless chromium and says what is wrong with it.
+"""Opens a page of `gnomon report` in headless chromium and reports what is wrong with it.
 
     check_report_page.py index.html [--plots N] [--screenshot-folder DIR]
 
@@ -144,7 +144,7 @@ class Browser:
         return result["result"].get("value")
 
     def open(self, url, width_px, height_px, is_phone=False, scheme="light"):
-        """Waits until the page says that it is ready, or failed, or the time is over."""
+        """Waits until the page states that it is ready, or failed, or the time is over."""
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width_px,

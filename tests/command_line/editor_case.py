@@ -1,6 +1,6 @@
 """`gnomon edit` as a user drives it: mouse and keys under Xvfb.
 
-Where widgets are, and what the editor says, comes from the file of --items.
+Where widgets are, and what the editor reports, comes from the file of --items.
 """
 
 import json

@@ -65,7 +65,7 @@ class AnimationTest(CommandLineTest):
         self.assertEqual(self.draw("--frames", "1", scene=self.make_project('animation=""')), still)
         self.assertEqual(self.draw("--animation", "Walk", "--at", "1.5", scene=self.folder), walk)
 
-    def test_the_plan_says_what_is_deformed(self):
+    def test_the_plan_lists_what_is_deformed(self):
         result = run("visibility", COURTYARD, "--technique", self.get_fallback(), *SMALL, "--at", "1", "--frames", "2", "--plan",
                      "--out", self.path("mask.exr"))
         self.assertEqual(result.returncode, 0, result.stderr)

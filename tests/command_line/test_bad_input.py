@@ -74,19 +74,19 @@ class BadScenes(CommandLineTest):
         self.find_node("Box")["translation"] = ["a", "b", "c"]
         self.assert_refused(self.compute_mask(self.write_scene(self.scene)), "changed.gltf")
 
-    def test_a_scene_without_camera_says_so(self):
+    def test_a_scene_without_camera_is_refused(self):
         del self.find_node("Camera")["camera"]
         del self.scene["cameras"]
         result = self.compute_mask(self.write_scene(self.scene), "--stage", "off")
         self.assert_refused(result, "changed.gltf", "camera", "--stage auto")
 
-    def test_a_scene_without_light_says_so(self):
+    def test_a_scene_without_light_is_refused(self):
         del self.find_node("Light")["extensions"]
         del self.scene["extensions"]
         result = self.compute_mask(self.write_scene(self.scene), "--stage", "off")
         self.assert_refused(result, "changed.gltf", "light", "--stage auto")
 
-    def test_a_scene_without_meshes_says_so(self):
+    def test_a_scene_without_meshes_is_refused(self):
         for node in self.scene["nodes"]:
             node.pop("mesh", None)
         for member in ("meshes", "materials", "accessors", "bufferViews", "buffers"):
@@ -99,7 +99,7 @@ class BadScenes(CommandLineTest):
         self.assert_mask(result)
         self.assertIn("materials[0] has alphaMode BLEND", result.stderr)
 
-    def test_a_light_that_lights_nothing_in_view_says_so(self):
+    def test_a_light_that_lights_nothing_in_view_is_reported(self):
         self.find_node("Light")["translation"] = [0, -50, 0]
         self.find_node("Light").pop("rotation", None)
         result = self.compute_mask(self.write_scene(self.scene))
@@ -307,7 +307,7 @@ class MissingDevices(CommandLineTest):
         nowhere = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
         self.assert_refused(run("run", CONTACT_BOX, **nowhere), "--headless")
 
-    def test_without_a_display_the_editor_says_so(self):
+    def test_without_a_display_the_editor_is_refused(self):
         result = run("edit", os.path.join(ROOT, "demo_project"), DISPLAY=None, WAYLAND_DISPLAY=None)
         if "editor" in [item["name"] for item in load_json("modules", "--json")]:
             self.assert_refused(result, "display")

@@ -189,7 +189,7 @@ class GoodCommands(CommandLineTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(read_png_size(path), (48, 32))
 
-    def test_images_are_antialiased_as_the_project_or_the_option_says(self):
+    def test_images_are_antialiased_as_the_project_or_the_option_states(self):
         folder = self.path("project")
         os.makedirs(folder)
         for name in ("contact_box.gltf", "contact_box.bin"):

@@ -1,6 +1,6 @@
 """Programs that are killed while they write, at random times and as soon as a file appears: nothing is lost or left.
 
-A few times each, the editor not at all; GNOMON_KILL_COUNT says how often, as tests/run_tests.sh --full does.
+A few times each, the editor not at all; GNOMON_KILL_COUNT sets how often, as tests/run_tests.sh --full does.
 """
 
 import glob

@@ -1,4 +1,4 @@
-"""Scenes of cut-out casters are made from a seed alone, and their textures cut what their formulas say."""
+"""Scenes of cut-out casters are made from a seed alone, and their textures cut what their formulas define."""
 
 import os
 import random

@@ -1,4 +1,4 @@
-"""The demo page shows what was measured, and says what failed."""
+"""The demo page shows what was measured, and lists what failed."""
 
 import json
 import os

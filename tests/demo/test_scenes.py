@@ -1,4 +1,4 @@
-"""The demo scenes are what their generator writes, and what the study says they are."""
+"""The demo scenes are what their generator writes, and what the study defines."""
 
 import json
 import math

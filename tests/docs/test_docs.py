@@ -103,7 +103,7 @@ class TechniquePageTest(unittest.TestCase):
                 for item in technique["properties"]:
                     self.assertTrue("`%s`" % item["name"] in text, "describe `%s`" % item["name"])
 
-    def test_every_technique_page_says_the_same_things(self):
+    def test_every_technique_page_has_the_same_parts(self):
         for technique in load_techniques():
             path = os.path.join(DOC, "techniques", technique["id"] + ".md")
             if os.path.isfile(path):

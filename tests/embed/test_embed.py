@@ -105,7 +105,7 @@ class EmbedTest(unittest.TestCase):
         for name in ("glfw", "OpenEXR", "embree", "X11", "imgui"):
             self.assertNotIn(name, libraries)
 
-    def test_the_program_is_as_short_as_its_page_says(self):
+    def test_the_program_is_as_short_as_its_page_states(self):
         with open(os.path.join(ROOT, "tests", "embed", "embed.cpp"), encoding="utf-8") as file:
             self.assertLessEqual(len(file.readlines()), 200)
 

@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size);
 
 namespace gnomon {
 
-/// Calls a reader. An Error is the documented answer to bad input, and log lines may say anything;
+/// Calls a reader. An Error is the documented answer to bad input, and log lines may hold anything;
 /// every other exception is a finding and ends the program.
 template <typename Read> int run_reader(const Read &p_read) {
 	static const LogSink before = set_log_sink([](LogLevel, const std::string &) {});

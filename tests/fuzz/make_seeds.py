@@ -7,7 +7,7 @@
     make_seeds.py cut_mesh FOLDER          of cut_mesh: meshes, materials and masks
 
 Each .gltf or .glb scene becomes FOLDER/<name>.gltf, with its buffer inside, and FOLDER/<name>.glb: all that the file
-says, but no accessor of more than a few elements, so that mutations hit what matters. Images are skipped; the cards
+states, but no accessor of more than a few elements, so that mutations hit what matters. Images are skipped; the cards
 have them.
 """
 

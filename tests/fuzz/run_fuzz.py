@@ -19,7 +19,7 @@ import sys
 import fuzz_targets
 
 MAX_INPUT_BYTES = 1 << 16
-LIMIT_S = 10  # of one input, unless --limit-s says otherwise
+LIMIT_S = 10  # of one input, unless --limit-s is given
 MEMORY_MIB = 2048
 GRACE_S = 120
 

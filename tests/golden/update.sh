@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Re-renders golden images: the only way to change them. Say why in the commit.
+# Re-renders golden images: the only way to change them. State why in the commit.
 set -euo pipefail
 
 usage() {

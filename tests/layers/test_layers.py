@@ -195,7 +195,7 @@ def check_backends(tree):
 
 
 def check_test_headers(tree):
-    """What lies in a folder of tests is included by tests: what they may do to a device, say."""
+    """What lies in a folder of tests is included by tests: such as what they may do to a device."""
     for path in tree.find_sources(CPP):
         if path.startswith("tests/") or "/tests/" in path:
             continue
@@ -275,7 +275,7 @@ def check_shader_includes(tree):
 
 
 def check_file_names(tree):
-    """No file is named utils, helpers, misc or manager: the name says nothing."""
+    """No file is named utils, helpers, misc or manager: the name has no meaning."""
     for path in tree.find_sources(SOURCES):
         stem = os.path.basename(path).split(".")[0]
         if VAGUE_NAMES.search(stem):
@@ -289,7 +289,7 @@ def check_file_lengths(tree):
         if count > REFUSED_LINES:
             yield "%s: %d lines, split it (at most %d)" % (path, count, REFUSED_LINES)
         elif count > NOTED_LINES:
-            print("note: %s has %d lines; above %d, say why in the review" % (path, count, NOTED_LINES))
+            print("note: %s has %d lines; above %d, give a reason in the review" % (path, count, NOTED_LINES))
 
 
 def check_top_level(tree):

@@ -112,7 +112,7 @@ def build_cases(report, sweep):
 
 
 def build_causes(report):
-    """How often each technique breaks, and what the path in double says of it."""
+    """How often each technique breaks, and what the path in double finds."""
     rows = []
     points = [
         (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))

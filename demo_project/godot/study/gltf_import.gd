@@ -1,6 +1,6 @@
 class_name GltfImport
 extends RefCounted
-## Loads glTF files of `gnomon` while the project runs: what their lights' extras say of the size, and a GnomonShadow3D for
+## Loads glTF files of `gnomon` while the project runs: what their lights' extras define of the size, and a GnomonShadow3D for
 ## each.
 
 

@@ -17,7 +17,7 @@ void draw_module(EditorContext &r_context, const ModuleInfo &p_module) {
 		const std::string name = p_module.name; // the list may change
 		r_context.attempt([&] {
 			r_context.document.set_module_enabled(name, is_enabled);
-			r_context.say((is_enabled ? "Enabled " : "Disabled ") + name);
+			r_context.set_status((is_enabled ? "Enabled " : "Disabled ") + name);
 		});
 	}
 	for (const std::string *words :

@@ -19,7 +19,7 @@ double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
 	const ImGuiIO &io = ImGui::GetIO();
 	const glm::dvec2 moved(io.MouseDelta.x, io.MouseDelta.y);
-	const double SHORTEST_PX = 4.0; // below, the line says nothing: to the right is larger
+	const double SHORTEST_PX = 4.0; // below, the line gives no direction: to the right is larger
 	const glm::dvec2 way = p_center ? glm::dvec2(p_handle.x - p_center->x, p_handle.y - p_center->y)
 									: glm::dvec2(0.0);
 	const double length_px = glm::length(way);

@@ -113,7 +113,7 @@ TEST_CASE("[UndoHistory] it knows when the scene is as it was saved") {
 	CHECK(tree.history.is_saved());
 }
 
-TEST_CASE("[UndoHistory] a change of a second material is a step, though the first says what is "
+TEST_CASE("[UndoHistory] a change of a second material is a step, though the first decides what is "
 		  "shown") {
 	auto grey = std::make_shared<Material>();
 	auto shiny = std::make_shared<Material>();

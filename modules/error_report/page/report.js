@@ -176,7 +176,7 @@
 	const DEFINITIONS = [
 		["Visibility", "The share of the light that a receiver sees: 0 hidden, 1 lit. Penumbra pixels are those with a reference visibility between 0.002 and 0.998."],
 		["Error", "Visibility of the technique minus that of the reference, a ray-traced area light. Negative: too dark. Positive: too light."],
-		["MAE, RMSE", "Mean absolute error; root of the mean squared error. Over penumbra pixels if nothing else is said."],
+		["MAE, RMSE", "Mean absolute error; root of the mean squared error. Over penumbra pixels if nothing else is stated."],
 		["Bias", "Mean signed error. Near 0 does not mean correct: too dark and too light cancel."],
 		["p99", "99 of 100 pixels have a smaller absolute error."],
 		["Wrong", "The share of the pixels whose absolute error exceeds 0.2."],

@@ -145,7 +145,7 @@ TEST_CASE("[ErrorReport] a cell that fails now is a regression, one that failed 
 			"worse status: sphere/Spot/0.4, soft, 32 taps: fails now: no memory\n");
 	CHECK_FALSE(find_difference(failed, make_report()).is_worse);
 	CHECK(count_differences(failed, failed) == 0);
-	// What was not run says nothing.
+	// What was not run is not reported.
 	Report missing = make_report();
 	missing.cells[1].status = ReportStatus::MISSING;
 	CHECK(count_differences(make_report(), missing) == 0);

@@ -158,7 +158,7 @@ TEST_CASE("[ErrorReport] a cell that fails is marked, the rest goes on, a resume
 			[](const ReportCell &p_cell) { return p_cell.message.empty(); }));
 }
 
-TEST_CASE("[ErrorReport] a cell without enough memory says what to do, and the rest goes on") {
+TEST_CASE("[ErrorReport] a cell without enough memory states what to do, and the rest goes on") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);
@@ -188,7 +188,7 @@ TEST_CASE("[ErrorReport] a lost device ends the run, and a resume measures all t
 	CHECK(rest.measure_count == plan.report.cells.size() - 5);
 }
 
-TEST_CASE("[ErrorReport] cells of a reference that failed say so") {
+TEST_CASE("[ErrorReport] cells of a reference that failed report it") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);

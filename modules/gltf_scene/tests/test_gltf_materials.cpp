@@ -43,7 +43,7 @@ TEST_CASE("[GltfMaterials] transmission and volume are read, and what they leave
 	CHECK(wax.thickness_m == 0.5f);
 	CHECK(wax.attenuation_distance_m == 0.25f);
 	CHECK(wax.attenuation_color == glm::vec3(0.5f, 1, 0.25f));
-	CHECK(wax.scatter_distance_m == 0.25f); // the volume says it where the extras do not
+	CHECK(wax.scatter_distance_m == 0.25f); // the volume states it where the extras do not
 	const glm::vec3 left = wax.compute_transmittance(1.0f);
 	CHECK(left.x == doctest::Approx(0.75 * 0.5 * 0.25));
 	CHECK(left.y == doctest::Approx(0.75 * 0.25));
@@ -139,7 +139,7 @@ TEST_CASE("[GltfMaterials] a node whose material changes leaves those that share
 	CHECK(alike["meshes"] == before["meshes"]);
 }
 
-TEST_CASE("[GltfMaterials] a new scene's materials say all that they are") {
+TEST_CASE("[GltfMaterials] a new scene's materials are written in full") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Scene scene;

@@ -94,7 +94,7 @@ TEST_CASE("gltf motion: a skin, a morph target and an animation are read") {
 	CHECK(scene->animations[0]->name == "Walk");
 	CHECK(scene->animations[0]->duration_s == 3);
 	Camera3D camera;
-	// The node's own scale says nothing; the target lifts z by its weight.
+	// The node's own scale has no effect; the target lifts z by its weight.
 	auto snapshot = build_snapshot(*scene, camera);
 	CHECK(snapshot->instances[0].world_from_node[3].y == 5);
 	auto mesh = snapshot->instances[0].get_posed_mesh();

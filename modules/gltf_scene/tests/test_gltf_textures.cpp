@@ -129,7 +129,7 @@ std::vector<uint8_t> encode_wide_png(
 		png_set_PLTE(png, info, palette, 2);
 		png_set_tRNS(png, info, alphas, 1, nullptr);
 	}
-	png_set_gAMA(png, info, 1.0); // ignored, as glTF says
+	png_set_gAMA(png, info, 1.0); // ignored, as glTF requires
 	png_write_info(png, info);
 	png_write_row(png, p_row.data());
 	png_write_end(png, info);

@@ -194,13 +194,13 @@ TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whateve
 	CHECK(decode_mask_exr(bytes, "with preview").visibility == image.visibility);
 }
 
-TEST_CASE("[MaskImage] a list of channels that is not as long as it says is refused") {
+TEST_CASE("[MaskImage] a list of channels that is not as long as it states is refused") {
 	std::vector<uint8_t> bytes = encode_mask_exr(make_image(16, 16), "whole");
 	const size_t length = 8 + 9 + 7; // behind the names "channels" and "chlist"
 	for (const int change : { -18, -1, 1 }) {
 		std::vector<uint8_t> changed = bytes;
 		changed[length] = static_cast<uint8_t>(changed[length] + change);
 		CHECK_THROWS_WITH_AS(decode_mask_exr(changed, "list"),
-				doctest::Contains("not as long as it says"), Error);
+				doctest::Contains("not as long as it states"), Error);
 	}
 }

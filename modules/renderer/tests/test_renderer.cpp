@@ -155,7 +155,7 @@ TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that 
 }
 
 TEST_CASE(
-		"[GPU][Renderer] a light whose technique is missing takes the fallback and says so once") {
+		"[GPU][Renderer] a light whose technique is missing takes the fallback and warns once") {
 	const ShadowTechniqueInfo *fallback = ShadowRegistry::find_fallback();
 	RenderFixture fixture;
 	SmallScene scene;

@@ -304,7 +304,7 @@ TEST_CASE("[GPU][RenderingDevice] fragments can be counted without any target") 
 	CHECK(found <= 136);
 }
 
-TEST_CASE("[GPU][RenderingDevice] copies and clears give what they say") {
+TEST_CASE("[GPU][RenderingDevice] copies and clears give what they specify") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	const TextureDesc desc = { .name = "target",

@@ -250,7 +250,7 @@ TEST_CASE("skin: a mesh is where its joints are, wherever its node is") {
 	REQUIRE(before->instances.size() == 1);
 	CHECK(before->instances[0].bounds_world.minimum.x == doctest::Approx(1e6));
 	CHECK(before->instances[0].bounds_world.maximum.x == doctest::Approx(1e6 + 2));
-	node.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0)); // says nothing
+	node.parent_from_node = glm::scale(glm::dmat4(1.0), glm::dvec3(0)); // has no effect
 	const auto same = build_snapshot(scene, camera);
 	CHECK(same->instances[0].pose == before->instances[0].pose);
 	CHECK(node.compute_bounds().minimum.x == doctest::Approx(1e6));

@@ -107,7 +107,7 @@ TEST_CASE("[NodeProperties] what means nothing to a light is not there") {
 	CHECK(light.inner_cone_rad < light.outer_cone_rad);
 }
 
-TEST_CASE("[NodeProperties] a refused value and an unknown name are errors that say what is "
+TEST_CASE("[NodeProperties] a refused value and an unknown name are errors that state what is "
 		  "allowed") {
 	Light3D light;
 	light.name = "Lamp";

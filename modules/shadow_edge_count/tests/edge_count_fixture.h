@@ -136,7 +136,7 @@ inline MaskResult count_in_double(const SmallScene &p_scene, const MaskResult &p
 	return result;
 }
 
-/// False, and says so, in a build without the reference.
+/// False, with a message, in a build without the reference.
 inline bool has_reference() {
 	if (ShadowRegistry::find_reference() == nullptr) {
 		MESSAGE("No reference technique in this build: there is nothing to compare with.");

@@ -203,7 +203,7 @@ TEST_CASE("[EdgeCount] nothing between receiver and light is exactly 1, a solid 
 	CHECK(scene.count({ 0.0, 1.8, 0.0 }, UP) == 1.0); // on top of it
 }
 
-TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays say") {
+TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays find") {
 	const auto quad = make_mesh("quad",
 			{ { -0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, -0.5f }, { 0.5f, 0.0f, 0.5f },
 					{ -0.5f, 0.0f, 0.5f } },

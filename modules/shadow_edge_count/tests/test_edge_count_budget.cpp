@@ -62,7 +62,7 @@ TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at 
 }
 
 TEST_CASE(
-		"[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan says") {
+		"[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan reports") {
 	MaskFixture fixture;
 	const FrameWishes wishes;
 	for (const LightType type : ALL_TYPES) {

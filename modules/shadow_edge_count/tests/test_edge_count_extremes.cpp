@@ -179,7 +179,7 @@ TEST_CASE("[GPU][EdgeCount] a caster that crosses the plane of the light is cut,
 }
 
 TEST_CASE(
-		"[GPU][EdgeCount] a caster that cuts the light's disc hides what rays say, mirrored too") {
+		"[GPU][EdgeCount] a caster that cuts the light's disc hides what rays find, mirrored too") {
 	MaskFixture fixture;
 	const auto rod = make_box_mesh("rod", { 0.05f, 0.3f, 0.08f });
 	const auto triangle = make_mesh("triangle",

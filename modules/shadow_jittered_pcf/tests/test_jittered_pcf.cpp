@@ -58,7 +58,7 @@ TEST_CASE("[GPU][JitteredPcf] the early out changes only what is smaller than th
 	for (size_t pixel = 0; pixel < with.visibility.size(); ++pixel) {
 		const bool is_same = with.visibility[pixel] == without.visibility[pixel];
 		different_count += !is_same;
-		// Where it stopped it said all or nothing.
+		// Where it stopped it returned all or nothing.
 		CHECK((is_same || with.visibility[pixel] == 0.0f || with.visibility[pixel] == 1.0f));
 	}
 	CHECK(different_count < with.visibility.size() / 20);

@@ -63,7 +63,7 @@ std::optional<glm::dvec3> find_top(const SceneSnapshot &p_scene, glm::uvec2 p_pi
 }
 
 struct Expected {
-	int case_number = 0; // 0: too near to a border to say
+	int case_number = 0; // 0: too near to a border to decide
 	double visibility = 0;
 };
 
@@ -229,7 +229,7 @@ TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside 
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan says so") {
+TEST_CASE("[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan reports it") {
 	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::SPOT);
 	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })

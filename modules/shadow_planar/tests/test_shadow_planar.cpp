@@ -76,7 +76,7 @@ TEST_CASE("[GPU][ShadowPlanar] casters behind the plane and above the light hide
 	check_floor(scene, render_planar(fixture, scene));
 }
 
-TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit says so") {
+TEST_CASE("[GPU][ShadowPlanar] a scene that does not fit is reported") {
 	MaskFixture fixture;
 	SmallScene undeclared;
 	undeclared.ground->is_planar_receiver = false;

@@ -1,5 +1,5 @@
 // fuzz: modules=core sources=modules/shadow_reference/reference_entry.cpp
-// Any bytes as a cached reference. The first nine say what is asked for: the pixels, and with colours?
+// Any bytes as a cached reference. The first nine state what is requested: the pixels, and with colours?
 #include "modules/shadow_reference/reference_entry.h"
 
 #include "tests/fuzz/fuzz_target.h"

@@ -16,7 +16,7 @@ double draw(std::mt19937 &r_random, double p_least, double p_greatest) {
 	return std::uniform_real_distribution<double>(p_least, p_greatest)(r_random);
 }
 
-/// The number before " casters" in the plan's line that says so; 0 without one.
+/// The number before " casters" in the plan's line that reports it; 0 without one.
 size_t read_hidden_count(const MaskResult &p_frame) {
 	const std::string plan = p_frame.plan.to_text();
 	const size_t reason = plan.find(HIDDEN);

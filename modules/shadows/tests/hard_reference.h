@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// How a mask differs from what rays to the light's centre say, over receivers.
+/// How a mask differs from what rays to the light's centre find, over receivers.
 struct HardDifference {
 	size_t receiver_count = 0;
 	size_t hidden_count = 0;

@@ -56,7 +56,7 @@ TEST_CASE("[GPU] The reference traced in parallel with the frames is the techniq
 	}
 }
 
-TEST_CASE("[GPU] A cancelled reference says that it is not complete, and a later one is") {
+TEST_CASE("[GPU] A cancelled reference reports that it is not complete, and a later one is") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return;

@@ -99,7 +99,7 @@ TEST_CASE("[Renderer] bounds of what is visible hold every point of the box in t
 	CHECK(smaller_count > 300); // a rule that skips nothing would hold every point too
 }
 
-TEST_CASE("[Renderer] a light is said to miss a box only when it lights no point of it") {
+TEST_CASE("[Renderer] a light is reported to miss a box only when it lights no point of it") {
 	Random random(5);
 	size_t lit_count = 0;
 	size_t missed_count = 0;

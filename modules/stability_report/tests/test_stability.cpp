@@ -193,7 +193,7 @@ TEST_CASE("[Stability] a run measures every point, and keeps what it found") {
 		CHECK(cell.stability->warnings == masks.warnings);
 		CHECK(cell.stability->temporal_rmse == 0.0); // scripted: nothing moves
 	}
-	// The file says the same, and is read again.
+	// The file holds the same, and is read again.
 	const TemporaryFolder folder;
 	const auto path = folder.path / "report.json";
 	save_file_atomically(path, dump_json(to_json(report)));

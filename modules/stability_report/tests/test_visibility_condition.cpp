@@ -74,7 +74,7 @@ TEST_CASE("[Condition] the number is the slope of visibility, and separates roun
 	CHECK(stiff.number > 1e5);
 	CHECK(stiff.rounding == 1.0);
 	CHECK(stiff.cause == ErrorCause::ROUNDING);
-	// A reference that says dark where all is lit.
+	// A reference that is dark where all is lit.
 	const ConditionPoint lied = { { -1.0f, 0, 0 }, UP, 0.0, 1.0 };
 	CHECK(compute_visibility_condition(soft.scene, soft.get_light(), { &lied, 1 }).cause ==
 			ErrorCause::REFERENCE);

@@ -1,5 +1,5 @@
 extends Node
-## Frames of room/room.tscn, as a game draws them; the first argument says how many. Prints what Godot holds every 100.
+## Frames of room/room.tscn, as a game draws them; the first argument is their number. Prints what Godot holds every 100.
 
 const LOOP_FRAMES := 200  # in which everything was seen once
 const STEP_S := 0.1

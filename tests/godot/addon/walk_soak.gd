@@ -1,5 +1,5 @@
 extends Node
-## Frames of a glTF file with an animation: the first argument says how many, the second which. Prints what Godot holds every 100.
+## Frames of a glTF file with an animation: the first argument is their number, the second the file. Prints what Godot holds every 100.
 
 const FRAMES_PER_S := 30.0
 
