@@ -44,7 +44,7 @@ def add_bindings(env):
     described = env.Command(
         [folder + "extension_api.json", folder + "gdextension_interface.h"],
         env.Value(env["GODOT"]),
-        Action(_dump, "Asking $GODOT for its API"),
+        Action(_dump, "Dumping the API of $GODOT"),
     )
     env.Precious(described)
 

@@ -62,7 +62,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 
-# is_requested PART: those of Godot are asked for together.
+# is_requested PART: those of Godot are requested together.
 is_requested() {
     local requested=$1 name
     case $requested in
@@ -370,7 +370,7 @@ if is_requested build; then
     run_check build scons -Q -j"$jobs" || finish
 fi
 run_lanes "docs engine" "godot_set_up embed command_line template" "demo stability removal"
-# Not without being asked for: the package is large.
+# Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender
 fi

@@ -259,7 +259,7 @@ def adopt_values(light, owners):
 
 
 def repair_numpy():
-    """Blender 3.4's importer asks for numpy.bool, which Debian 12's numpy 1.24 no longer has.
+    """Blender 3.4's importer needs numpy.bool, which Debian 12's numpy 1.24 no longer has.
 
     github.com/KhronosGroup/glTF-Blender-IO/issues/1844; Blender 3.5 does without.
     """
@@ -282,7 +282,7 @@ def import_scene(path):
 
 
 class ProgramList:
-    """The techniques of the program `gnomon`, asked when the list opens.
+    """The techniques of the program `gnomon`, queried when the list opens.
 
     A list in this file would grow stale with every technique, so the program is the only source. Without the
     program one types the id; a file keeps any id, and the engine warns of one that it does not have.

@@ -11,7 +11,7 @@ def get_description():
 
 
 def can_disable():
-    return False  # it runs only when it is asked for, and then it cannot end itself
+    return False  # it runs only on request, and then it cannot end itself
 
 
 def get_doc():

@@ -68,10 +68,10 @@ struct ErrorState {
 	void *error_texture = nullptr;
 };
 
-/// What a button or a key asks for; done once a frame, after the panels.
+/// What a button or a key requests; done once a frame, after the panels.
 enum class EditorCommand {
 	NONE,
-	ASK_TO_OPEN,
+	SHOW_OPEN_MENU,
 	OPEN,
 	SAVE,
 	UNDO,
@@ -115,7 +115,7 @@ struct EditorContext {
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
 	std::string requested_page;		 // of EditorCommand::READ_PAGE, from the program's folder
-	bool asks_to_open = false;		 // opens the menu of scenes
+	bool shows_open_menu = false;		 // opens the menu of scenes
 	std::filesystem::path open_path; // of EditorCommand::OPEN
 	std::vector<std::string> recent; // scenes that were open, the newest first
 	std::string shown_tab;			 // of the bar below the viewport
@@ -152,7 +152,7 @@ struct EditorContext {
 			const std::string &p_addition = {});
 	/// These places, and what tests and benchmarks wait for, as JSON.
 	std::string describe_items(const EditorProgress &p_progress) const;
-	/// Runs what a user asked for; an Error becomes the status.
+	/// Runs what a user requested; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
 		viewport.needs_redraw = true; // also of what was done half
 		try {

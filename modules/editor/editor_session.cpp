@@ -27,7 +27,7 @@ struct EditorSession::Question {
 	const char *no = "";
 	std::function<void()> on_yes;
 	std::function<void()> on_no;
-	bool may_cancel = false; // Escape and a third button: as if it had not been asked
+	bool may_cancel = false; // Escape and a third button: as if there had been no question
 };
 
 /// Draws the question over everything. True once it is answered; the answer was done then.
@@ -63,7 +63,7 @@ bool EditorSession::draw_question(const Question &p_question) {
 
 EditorSession::EditorSession(EditorContext &r_context, std::filesystem::path p_program) :
 		context(r_context), document(r_context.document), program(std::move(p_program)),
-		asks_to_recover(r_context.document.has_recovery()) {}
+		prompts_recovery(r_context.document.has_recovery()) {}
 
 void EditorSession::look_as_scene() {
 	const std::vector<Camera3D *> cameras = document.get_scene().find_nodes<Camera3D>();
@@ -86,7 +86,7 @@ void EditorSession::follow_file(Clock::time_point p_now) {
 	}
 	next_file_check = p_now + FILE_CHECK_INTERVAL;
 	if (!document.is_file_newer() || document.is_changed()) {
-		asks_to_reload |= document.is_file_newer();
+		prompts_reload |= document.is_file_newer();
 		return;
 	}
 	context.attempt([&] {
@@ -111,15 +111,15 @@ void EditorSession::run(EditorCommand p_command) {
 	const bool saves = p_command == EditorCommand::SAVE ||
 			(p_command == EditorCommand::PLAY && document.is_changed());
 	if (saves && document.is_file_newer()) {
-		asks_to_reload = true;
+		prompts_reload = true;
 		return;
 	}
 	Node3D *selected = document.get_selected();
 	switch (p_command) {
 		case EditorCommand::NONE:
 			break;
-		case EditorCommand::ASK_TO_OPEN:
-			context.asks_to_open = true;
+		case EditorCommand::SHOW_OPEN_MENU:
+			context.shows_open_menu = true;
 			break;
 		case EditorCommand::OPEN:
 			next_path = find_project_scene(context.open_path).scene_path;
@@ -215,12 +215,12 @@ void EditorSession::draw_questions() {
 		if (!is_closing && !is_done) {
 			next_path.clear(); // cancelled
 		}
-	} else if (asks_to_recover) {
-		asks_to_recover = !draw_question({ "Recover changes?",
+	} else if (prompts_recovery) {
+		prompts_recovery = !draw_question({ "Recover changes?",
 				"The editor ended without saving. What was changed was saved aside.", "Recover",
 				"Discard", [&] { recover(); }, [&] { document.discard_recovery(); } });
-	} else if (asks_to_reload) {
-		asks_to_reload = !draw_question({ "Read the file again?",
+	} else if (prompts_reload) {
+		prompts_reload = !draw_question({ "Read the file again?",
 				"Another program has written the file, and there are changes here.",
 				"Read it, drop the changes", "Keep the changes",
 				[&] { context.attempt([&] { document.reload(); }); },
@@ -231,7 +231,7 @@ void EditorSession::draw_questions() {
 EditorSession::Question EditorSession::make_closing_question() {
 	const auto save = [&] {
 		if (document.is_file_newer()) {
-			asks_to_reload = true; // first: which of both is to be saved
+			prompts_reload = true; // first: which of both is to be saved
 			return;
 		}
 		context.attempt([&] {

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Does what keys and buttons ask for, asks what must be answered first, and follows the file on
+/// Does what keys and buttons request, asks what must be answered first, and follows the file on
 /// disk: all between opening a scene and closing it that is not drawing.
 class EditorSession {
 public:
@@ -20,15 +20,15 @@ public:
 	void look_as_scene();
 	/// Another program, such as Blender, may have written the file.
 	void follow_file(Clock::time_point p_now);
-	/// What the panels and keys of this frame have asked for.
+	/// What the panels and keys of this frame have requested.
 	void run_command();
 	void draw_questions();
-	/// Asks what is to become of changes, if need be.
+	/// Prompts for what is to become of changes, if need be.
 	void close() { is_closing = true; }
 
-	bool is_asking() const { return is_closing || asks_to_recover || asks_to_reload; }
+	bool is_prompting() const { return is_closing || prompts_recovery || prompts_reload; }
 	bool is_closed() const { return is_done; }
-	/// Of a window that cannot be seen: closes if nothing is to be asked.
+	/// Of a window that cannot be seen: closes if there is no question.
 	void close_unseen() { is_done |= is_closing && !document.is_changed(); }
 	/// To be opened once this one is closed; empty: nothing.
 	const std::filesystem::path &get_next_path() const { return next_path; }
@@ -47,8 +47,8 @@ private:
 	std::filesystem::path program;
 	Clock::time_point next_file_check;
 	std::filesystem::path next_path;
-	bool asks_to_recover = false;
-	bool asks_to_reload = false;
+	bool prompts_recovery = false;
+	bool prompts_reload = false;
 	bool is_closing = false;
 	bool is_done = false;
 };

@@ -33,13 +33,13 @@ using Clock = EditorDocument::Clock;
 const std::chrono::milliseconds FRAME{ 16 };
 const uint32_t QUIET_FRAME_COUNT = 3; // after which the window shows all that there is
 
-/// What a key asks for, as in Godot and Blender; see doc/editor.md.
+/// What a key requests, as in Godot and Blender; see doc/editor.md.
 EditorCommand find_command(const Window::KeyPress &p_press) {
 	const bool has_control = (p_press.modifiers & GLFW_MOD_CONTROL) != 0;
 	const bool has_shift = (p_press.modifiers & GLFW_MOD_SHIFT) != 0;
 	switch (p_press.key) {
 		case GLFW_KEY_O:
-			return has_control ? EditorCommand::ASK_TO_OPEN : EditorCommand::NONE;
+			return has_control ? EditorCommand::SHOW_OPEN_MENU : EditorCommand::NONE;
 		case GLFW_KEY_S:
 			return has_control ? EditorCommand::SAVE : EditorCommand::NONE;
 		case GLFW_KEY_Z:
@@ -255,7 +255,7 @@ private:
 	}
 
 	void read_shortcuts() {
-		if (ImGui::GetIO().WantTextInput || session.is_asking()) {
+		if (ImGui::GetIO().WantTextInput || session.is_prompting()) {
 			return;
 		}
 		for (const Window::KeyPress &press : window.get_key_presses()) {

@@ -59,8 +59,8 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 			if (state.refusal.empty() && !background_reference.is_running()) { // while it runs all is slower
 				measure_cost(r_context);
 			}
-		} else if (asked_reference && !state.is_stopped) {
-			background_reference.start(std::exchange(asked_reference, nullptr), state.sample_count);
+		} else if (requested_reference && !state.is_stopped) {
+			background_reference.start(std::exchange(requested_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
 		// Restarted, it has to become better first than what is known.
@@ -88,7 +88,7 @@ bool ErrorMeter::has_cost() const {
 
 void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 	background_reference.stop();
-	asked_reference = nullptr;
+	requested_reference = nullptr;
 	r_state.refusal = std::move(p_text);
 	is_error_stale |= r_state.reference != nullptr; // once: without one there is nothing to take back
 	r_state.reference_hash = 0;
@@ -141,18 +141,18 @@ void ErrorMeter::measure_mask(EditorContext &r_context) {
 		state.reference.reset();
 		state.metrics.reset();
 		state.reference_hash = 0;
-		asked_reference = nullptr;
+		requested_reference = nullptr;
 	}
 	if (needs_reference) {
 		state.reference_hash = hash;
 		traced_sample_count = state.sample_count;
-		ask_reference(r_context, std::move(result));
+		request_reference(r_context, std::move(result));
 	} else if (state.reference) {
 		compare(state);
 	}
 }
 
-void ErrorMeter::ask_reference(EditorContext &r_context, RenderResult p_result) {
+void ErrorMeter::request_reference(EditorContext &r_context, RenderResult p_result) {
 	background_reference.stop();
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr || !reference->make_reference_source) {
@@ -163,7 +163,7 @@ void ErrorMeter::ask_reference(EditorContext &r_context, RenderResult p_result) 
 	}
 	ReferenceQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
 		std::move(p_result.receiver), find_surface_spread() };
-	asked_reference = [make = reference->make_reference_source, question = std::move(question)] {
+	requested_reference = [make = reference->make_reference_source, question = std::move(question)] {
 		return make(question);
 	};
 }

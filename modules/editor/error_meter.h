@@ -28,7 +28,7 @@ private:
 	void measure_mask(EditorContext &r_context);
 	void measure_cost(EditorContext &r_context);
 	bool has_cost() const;
-	void ask_reference(EditorContext &r_context, RenderResult p_result);
+	void request_reference(EditorContext &r_context, RenderResult p_result);
 	void compare(ErrorState &r_state);
 	void refuse(ErrorState &r_state, std::string p_text);
 	OwnedTexture upload_texture(const std::string &p_name, glm::uvec2 p_size_px,
@@ -45,7 +45,7 @@ private:
 	double timed_ms = 0;		 // by those frames
 	bool is_error_stale = false; // the viewport may show an error that is none
 	/// Traced once the cost is known: both at once would slow each other.
-	std::function<std::unique_ptr<ReferenceSource>()> asked_reference;
+	std::function<std::unique_ptr<ReferenceSource>()> requested_reference;
 	OwnedTexture mask_texture;
 	OwnedTexture reference_texture;
 	OwnedTexture error_texture;

@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-// Dear ImGui, of which there is one, asks for the mouse's place once a frame, and gets the one that
+// Dear ImGui, of which there is one, reads the mouse's place once a frame, and gets the one that
 // it has by then, ahead of the events that were read. During a long frame a mouse that went on at
 // once would click on nothing, or drag on what it had let go. So the events' own places count.
 std::optional<ImVec2> last_position;

@@ -16,7 +16,7 @@ public:
 	explicit UiRenderer(RenderingDevice &p_device);
 
 	using GetTexture = std::function<TextureRID()>;
-	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. It is asked for when
+	/// A texture that ImGui::Image may show this frame: RGBA8_UNORM, SAMPLED. It is fetched when
 	/// it is drawn, so that an image may show what the panels have just changed; an empty one is
 	/// not shown. Returns its ImTextureID.
 	void *add_texture(GetTexture p_get_texture);

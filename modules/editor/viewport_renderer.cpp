@@ -35,10 +35,10 @@ void ViewportRenderer::update(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const Clock::time_point now = Clock::now();
 	const bool is_slow = r_context.device.type == "CPU";
-	const bool asks_for_light =
+	const bool needs_light =
 			!viewport.debug_view.empty() || !viewport.compared_technique.empty();
 	const std::string light = r_context.find_light_name();
-	viewport.needs_redraw |= asks_for_light && !light.empty() && light != drawn_light;
+	viewport.needs_redraw |= needs_light && !light.empty() && light != drawn_light;
 	if (viewport.needs_redraw) {
 		last_change = now;
 	}
@@ -141,7 +141,7 @@ RenderResult ViewportRenderer::draw_into(
 	return result;
 }
 
-/// Techniques make their intermediate images only when one is asked for: a tiny frame asks.
+/// Techniques make their intermediate images only when one is requested: a tiny frame requests it.
 void ViewportRenderer::list_debug_views(EditorContext &r_context) {
 	const glm::uvec2 LIST_SIZE_PX(32);
 	r_context.viewport.wants_debug_views = false;

@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// What a technique is asked: one light's mask as the camera sees it.
+/// What a technique is to compute: one light's mask as the camera sees it.
 struct MaskQuestion {
 	std::shared_ptr<const SceneSnapshot> scene;
 	std::string light; // name; empty: all lights at once, for their cost only
@@ -48,7 +48,7 @@ struct DrawnMasks {
 	unsigned validation_message_count = 0; // where the layers are on
 };
 
-/// A technique that the report can ask for, or a mask filter behind one.
+/// A technique that the report can measure, or a mask filter behind one.
 struct TechniqueSource {
 	ReportTechnique info;
 	std::function<std::vector<QualitySetting>(const LightSnapshot &)> get_settings;

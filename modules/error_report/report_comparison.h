@@ -28,7 +28,7 @@ struct ReportDifference {
 struct ReportComparison {
 	std::vector<ReportDifference> differences; // worse ones first
 	size_t compared_count = 0;				   // cells that both have measured
-	size_t only_old_count = 0;				   // cells that this report does not ask for
+	size_t only_old_count = 0;				   // cells that this report does not measure
 	size_t only_new_count = 0;
 	bool has_same_machine = true;
 

@@ -12,7 +12,7 @@ namespace gnomon {
 // Where in a report's folder its plan and its records lie.
 std::filesystem::path get_plan_path(const std::filesystem::path &p_folder);
 std::filesystem::path get_record_folder(const std::filesystem::path &p_folder);
-/// Names of all records that the plan asks for.
+/// Names of all records that the plan needs.
 std::vector<std::string> list_records(const Report &p_plan);
 
 void save_plan(const std::filesystem::path &p_folder, const Report &p_plan);

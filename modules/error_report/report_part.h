@@ -19,7 +19,7 @@ namespace gnomon {
 /// id.
 class ReportPart {
 public:
-	using Add = std::function<void(ReportConfiguration, ReportPlan::Ask)>;
+	using Add = std::function<void(ReportConfiguration, ReportPlan::MakeQuestion)>;
 
 	virtual ~ReportPart() = default;
 	/// What ReportOptions::sweeps may name, in the order of the report.

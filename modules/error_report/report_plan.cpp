@@ -14,7 +14,7 @@ namespace gnomon {
 
 namespace {
 
-/// R in S where no sizes are asked for: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4
+/// R in S where no sizes are requested: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4
 /// m.
 const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
 const char *const SCALING_SCENE_NAME = "torus_knot, generated";
@@ -122,8 +122,8 @@ public:
 	void add_parts() {
 		for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
 			info.part->plan(
-					options, [this](ReportConfiguration p_configuration, ReportPlan::Ask p_ask) {
-						add_configuration(std::move(p_configuration), std::move(p_ask),
+					options, [this](ReportConfiguration p_configuration, ReportPlan::MakeQuestion p_make_question) {
+						add_configuration(std::move(p_configuration), std::move(p_make_question),
 								ExpensiveSettings::SKIPPED);
 					});
 		}
@@ -229,11 +229,11 @@ private:
 	}
 
 	/// Fills in what the scene states, and plans the cells.
-	void add_configuration(ReportConfiguration p_configuration, ReportPlan::Ask p_ask,
+	void add_configuration(ReportConfiguration p_configuration, ReportPlan::MakeQuestion p_make_question,
 			ExpensiveSettings p_expensive) {
 		MaskQuestion question;
 		try {
-			question = p_ask(derive_widths());
+			question = p_make_question(derive_widths());
 		} catch (const Error &error) {
 			add_failure(std::move(p_configuration), error.what());
 			return;
@@ -265,7 +265,7 @@ private:
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);
-		plan.questions.push_back(p_ask);
+		plan.questions.push_back(p_make_question);
 		for (const TechniqueSource &technique : techniques) {
 			if (technique.applies && !technique.applies(question)) {
 				continue;

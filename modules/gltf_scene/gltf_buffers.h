@@ -29,7 +29,7 @@ std::filesystem::path resolve_uri(
 /// A file name as a URI.
 std::string encode_uri(std::string_view p_file_name);
 
-/// The bytes of a document's buffers, loaded when first asked for: a file that only images need
+/// The bytes of a document's buffers, loaded on first use: a file that only images need
 /// may be missing.
 class GltfBuffers {
 public:

@@ -30,9 +30,9 @@ public:
 	const std::vector<ReadSurface> &read(const godot::Mesh &p_mesh, const std::string &p_name);
 	/// False while the worker thread finds its edges: until then it can cast no shadow.
 	bool is_ready(const ReadSurface &p_surface) { return worker.is_ready(p_surface.mesh); }
-	/// As above of what is left of a surface; it may be asked for in each frame.
+	/// As above of what is left of a surface; it may be queried in each frame.
 	bool is_cut_ready(const std::shared_ptr<const Mesh> &p_cut);
-	/// Forgets meshes that were not asked for in many frames, or are gone. Once a frame.
+	/// Forgets meshes that were not queried in many frames, or are gone. Once a frame.
 	void forget_unused();
 
 private:

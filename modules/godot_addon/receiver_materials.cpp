@@ -159,23 +159,23 @@ ReceiverKind ReceiverMaterials::use_bare(const godot::Mesh &p_mesh, int64_t p_su
 }
 
 void ReceiverMaterials::take_answers() {
-	if (answers.size() == asked.size()) { // else one of them has no shader yet
+	if (answers.size() == queried.size()) { // else one of them has no shader yet
 		silent_frames = 0;
-		for (size_t index = 0; index < asked.size(); ++index) {
-			const auto known = materials.find(asked[index]);
+		for (size_t index = 0; index < queried.size(); ++index) {
+			const auto known = materials.find(queried[index]);
 			if (known != materials.end()) {
 				known->second.original = answers[index];
 			}
 		}
 	} else if (++silent_frames == MOST_SILENT_FRAMES) {
-		log_warning("Godot returned the shaders of ", answers.size(), " of ", asked.size(),
+		log_warning("Godot returned the shaders of ", answers.size(), " of ", queried.size(),
 				" materials in ", MOST_SILENT_FRAMES,
 				" frames, must return all: such materials stay in "
 				"Godot's light and shadow. Use Godot 4.6, or ShaderMaterials that include "
 				"gnomon.gdshaderinc.");
 	}
 	answers.clear();
-	asked.clear();
+	queried.clear();
 }
 
 void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree) {
@@ -199,7 +199,7 @@ void ReceiverMaterials::end_frame(const godot::Node &p_node, const godot::SceneT
 	for (auto &[id, known] : materials) {
 		if (known.is_used && known.is_generated) {
 			godot::Material(godot::get_instance(id)).inspect_native_shader_code();
-			asked.push_back(id);
+			queried.push_back(id);
 		} else if (!known.is_used) {
 			restore(id, known);
 			known.applied = {};
@@ -238,7 +238,7 @@ void ReceiverMaterials::clear() {
 		free(copy.shader);
 	}
 	copies.clear();
-	asked.clear();
+	queried.clear();
 	answers.clear();
 	for (const uint64_t id : bare_meshes) {
 		restore_bare(id);

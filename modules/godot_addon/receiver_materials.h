@@ -28,7 +28,7 @@ public:
 	ReceiverKind use(const godot::Material &p_material, const godot::Node &p_owner);
 	/// Of a surface of p_mesh that has no material.
 	ReceiverKind use_bare(const godot::Mesh &p_mesh, int64_t p_surface);
-	/// Once all materials of a frame are used: asks for their shaders, and gives those that it does
+	/// Once all materials of a frame are used: queries their shaders, and gives those that it does
 	/// not use their own back. p_node: of the class GnomonShadow3D.
 	void end_frame(const godot::Node &p_node, const godot::SceneTree &p_tree);
 	/// Takes everything back: all looks as without the add-on.
@@ -61,7 +61,7 @@ private:
 	godot::RenderingServer server;
 	std::map<uint64_t, Known> materials; // by id
 	std::map<godot::RID, Copy> copies;	 // by original
-	std::vector<uint64_t> asked;		 // materials, in the order of the answers
+	std::vector<uint64_t> queried;		 // materials, in the order of the answers
 	std::vector<godot::RID> answers;
 	int silent_frames = 0; // in a row, in which not all answered
 	godot::RID bare_shader;

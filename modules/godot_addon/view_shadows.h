@@ -57,7 +57,7 @@ public:
 	/// Makes room for the masks of the frame about to be drawn: each is as large as the largest
 	/// view.
 	void reserve(glm::uvec2 p_size_px, uint32_t p_mask_count);
-	/// Whether masks could not be made of a view since it was last asked. On any thread.
+	/// Whether masks could not be made of a view since the last query. On any thread.
 	bool take_failure() { return has_failed.exchange(false); }
 	/// Frees all. The next frame makes it again.
 	void clear();

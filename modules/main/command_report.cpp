@@ -31,7 +31,7 @@ using Json = nlohmann::ordered_json;
 
 enum class MissingCells { ALLOWED, REFUSED };
 
-/// Prints what the user asks for in addition to the files, and adds it to the report's JSON.
+/// Prints what the user requests in addition to the files, and adds it to the report's JSON.
 bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
 		const std::optional<Report> &p_old, Json &r_json) {
 	if (p_arguments.budget_ms) {

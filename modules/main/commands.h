@@ -49,7 +49,7 @@ std::unique_ptr<Scene> load_scene(
 /// `--animation` and `--at`, for a command that draws scenes.
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
 /// Poses the scene as those state: at rest where neither is given.
-void pose_as_asked(Scene &r_scene, const CommonOptions &p_common);
+void pose_as_requested(Scene &r_scene, const CommonOptions &p_common);
 /// `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
 /// The camera of that name, or the first. None: an Error that states how to add one.
@@ -59,7 +59,7 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name);
 /// Applies "prop=value" (to p_light) or "light.Name.prop=value". Unknown lights and properties and
 /// values out of range are an Error.
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting);
-/// Creates the device that the command line asks for, with what else the caller needs of it.
+/// Creates the device that the command line requests, with what else the caller needs of it.
 std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options = {});
 /// The processor's name as the system knows it.

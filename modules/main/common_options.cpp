@@ -124,7 +124,7 @@ void add_animation_options(CLI::App &r_command, CommonOptions &r_common) {
 			"again");
 }
 
-void pose_as_asked(Scene &r_scene, const CommonOptions &p_common) {
+void pose_as_requested(Scene &r_scene, const CommonOptions &p_common) {
 	if (!p_common.at_s && p_common.animation.empty()) {
 		return;
 	}
@@ -154,7 +154,7 @@ std::unique_ptr<Scene> load_scene(
 		fail("Scene ", place.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
 				". Add some in the program that wrote the file.");
 	}
-	pose_as_asked(*scene, p_common);
+	pose_as_requested(*scene, p_common);
 	const std::string staged = stage_scene(
 			*scene, parse_stage_mode(p_common.stage, "--stage"), double(p_size_px.x) / p_size_px.y);
 	if (!staged.empty()) {

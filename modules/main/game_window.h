@@ -31,7 +31,7 @@ struct RunOptions {
 };
 
 /// Shows the scene in a window until it is closed or frame_count is reached. Returns the last
-/// frame, with its image when options ask for a capture (r_size_px: its size).
+/// frame, with its image when options request a capture (r_size_px: its size).
 RenderResult run_in_window(Scene &r_scene, glm::uvec2 &r_size_px, const RunOptions &p_options,
 		const CommonOptions &p_common);
 

@@ -42,7 +42,7 @@ std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mes
 		}
 		entry = slot;
 	}
-	// Outside the lock: a large mesh must not hold up the threads that ask for another.
+	// Outside the lock: a large mesh must not hold up the threads that need another.
 	std::call_once(entry->once, [&] {
 		entry->topology = std::make_shared<const MeshTopology>(build_topology(*p_mesh));
 	});

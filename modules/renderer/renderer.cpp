@@ -55,8 +55,8 @@ struct Renderer::Frame {
 	RenderGraph graph;
 	ShadowFrame shadows;
 	LitImage image;
-	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is asked for
-	bool has_asked_for_debug_view = false;
+	std::vector<ShadowTechnique::DebugView> debug_views; // those there are, when one is requested
+	bool has_debug_view = false;
 	MaskReadback mask;
 	std::vector<uint8_t> material_texels;
 
@@ -70,8 +70,8 @@ struct Renderer::Frame {
 				compute_exposure(*request.scene) } {}
 
 	/// The light whose intermediate images are shown: nothing of it is skipped.
-	bool asks_for_debug_view(const LightSnapshot &p_light) const {
-		return !request.debug_view.empty() && !has_asked_for_debug_view && p_light.casts_shadow &&
+	bool shows_debug_view(const LightSnapshot &p_light) const {
+		return !request.debug_view.empty() && !has_debug_view && p_light.casts_shadow &&
 				(p_light.name == request.debug_light || !has_debug_light(request));
 	}
 };
@@ -97,10 +97,10 @@ Renderer::~Renderer() = default;
 
 LightShadow Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light) {
 	const RenderRequest &request = r_frame.request;
-	const bool asks = r_frame.asks_for_debug_view(p_light);
-	r_frame.has_asked_for_debug_view |= asks;
-	const LightShadow shadow = r_frame.shadows.add_light(p_light, asks);
-	if (asks) {
+	const bool is_shown = r_frame.shows_debug_view(p_light);
+	r_frame.has_debug_view |= is_shown;
+	const LightShadow shadow = r_frame.shadows.add_light(p_light, is_shown);
+	if (is_shown) {
 		r_frame.debug_views = shadow.debug_views;
 		if (request.reference) {
 			r_frame.debug_views.push_back(add_error_view(r_frame.image, shadow, *request.reference));
@@ -142,7 +142,7 @@ void Renderer::add_image(Frame &r_frame) {
 	plan.run("ambient");
 	for (const LightSnapshot &light : request.scene->lights) {
 		plan.set_light(light.name);
-		const bool may_skip = request.may_skip && !r_frame.asks_for_debug_view(light);
+		const bool may_skip = request.may_skip && !r_frame.shows_debug_view(light);
 		const std::string unlit = r_frame.shadows.describe_unlit(light);
 		if (may_skip && !unlit.empty()) {
 			plan.skip("light", unlit);

@@ -63,20 +63,20 @@ struct RenderRequest {
 	bool has_depth_alone = false;
 };
 
-/// The mask's values are there when they were asked for.
+/// The mask's values are there when they were requested.
 struct RenderResult : MaskValues {
 	FramePlan plan;
 	std::vector<PassTiming> timings;	  // QUEUE: of an earlier frame
 	double gpu_ms = 0;					  // sum of the passes
 	double wall_ms = 0;					  // of the frame's submission
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
-	std::vector<std::string> debug_views; // that there are, when one was asked for
+	std::vector<std::string> debug_views; // that there are, when one was requested
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
 	std::vector<uint8_t> depth_texels;	  // as HostSurfaces has them, with the surfaces
 	std::vector<uint8_t> normal_texels;
 	CommandCounts commands;		  // draws and dispatches of the frame
-	std::string dot;			  // the frame's graph for Graphviz, when it was asked for
+	std::string dot;			  // the frame's graph for Graphviz, when it was requested
 	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 

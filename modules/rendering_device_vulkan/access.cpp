@@ -16,7 +16,7 @@ struct AccessScope {
 
 constexpr VkPipelineStageFlags2 DEPTH_STAGES =
 		VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-// Covers the geometry stage where the device has one, without asking for the feature.
+// Covers the geometry stage where the device has one, without enabling the feature.
 constexpr VkPipelineStageFlags2 VERTEX_STAGES = VK_PIPELINE_STAGE_2_PRE_RASTERIZATION_SHADERS_BIT;
 constexpr VkAccessFlags2 SHADER_ACCESS = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
 constexpr VkAccessFlags2 WRITES = VK_ACCESS_2_SHADER_WRITE_BIT |

@@ -9,7 +9,7 @@ namespace {
 VkImageSubresourceLayers make_layers(
 		const TextureDesc &p_desc, uint32_t p_layer, uint32_t p_layer_count) {
 	GNOMON_ASSERT(p_layer + p_layer_count <= p_desc.layer_count, "texture '", p_desc.name, "' has ",
-			p_desc.layer_count, " layers, ", p_layer, " was asked for");
+			p_desc.layer_count, " layers, ", p_layer, " was requested");
 	GNOMON_ASSERT(!has_stencil(p_desc.format), "texture '", p_desc.name, "' is ",
 			get_format_name(p_desc.format), ", which is not copied");
 	return { get_aspect(p_desc.format), 0, p_layer, p_layer_count };

@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// The feature structures that Gnomon asks for, chained.
+/// The feature structures that Gnomon enables, chained.
 struct FeatureChain {
 	VkPhysicalDeviceConditionalRenderingFeaturesEXT conditional = {
 		.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT

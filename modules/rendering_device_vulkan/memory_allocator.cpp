@@ -138,7 +138,7 @@ Allocation MemoryAllocator::allocate(const MemoryRequest &p_request) {
 			return take(*block, p_request);
 		}
 	}
-	// Large, or the driver has no room for a whole block: exactly what is asked for.
+	// Large, or the driver has no room for a whole block: exactly what is requested.
 	MemoryBlock *block = create_block(p_request, type, size_bytes);
 	if (!block) {
 		return {};

@@ -56,7 +56,7 @@ public:
 	void free(Allocation &r_allocation);
 
 	/// The best type for the kind among those allowed. Vulkan guarantees that there is one for
-	/// the bits that buffers and images ask for.
+	/// the bits that buffers and images require.
 	uint32_t find_memory_type(uint32_t p_type_bits, MemoryKind p_kind) const;
 	MemoryUse get_use() const { return use; }
 	uint64_t compute_budget_bytes(uint32_t p_memory_type);

@@ -64,7 +64,7 @@ VkImageView VulkanDevice::get_view(
 	const TextureDesc &desc = r_texture.desc;
 	const bool has_all_layers = p_layer == Binding::ALL_LAYERS;
 	GNOMON_ASSERT(has_all_layers || p_layer < desc.layer_count, "texture '", desc.name, "' has ",
-			desc.layer_count, " layers, ", p_layer, " was asked for");
+			desc.layer_count, " layers, ", p_layer, " was requested");
 	GNOMON_ASSERT(p_is_arrayed || !has_all_layers || desc.layer_count == 1, "texture '", desc.name,
 			"' has ", desc.layer_count, " layers where the shader expects one");
 	for (const TextureView &view : r_texture.views) {

@@ -26,7 +26,7 @@ public:
 	/// The coarsest level that suits penumbrae up to p_radius, half as wide: in metres of the
 	/// node's space, on the mesh. The finest where none does; BASE where there is no penumbra.
 	uint32_t choose_level(double p_radius) const;
-	/// Made when first asked for, from any thread; null where nothing is left, or the mesh is gone.
+	/// Made on first use, from any thread; null where nothing is left, or the mesh is gone.
 	std::shared_ptr<const Mesh> get_mesh(uint32_t p_level) const;
 
 private:

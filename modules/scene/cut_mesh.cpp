@@ -330,10 +330,10 @@ uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 
 struct CacheEntry {
 	std::weak_ptr<const Mesh> source;
-	std::weak_ptr<const Material> material; // of the one that asked first
+	std::weak_ptr<const Material> material; // of the one that requested it first
 	CutMesh cut;
 
-	/// Whether a later snapshot may ask again.
+	/// Whether a later snapshot may request it again.
 	bool is_used() const {
 		return !source.expired() && (!material.expired() || cut.mesh.use_count() > 1);
 	}

@@ -56,8 +56,8 @@ LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_w
 	return snapshot;
 }
 
-/// Fills the snapshot from the tree, with the transform to the world carried along: asking every
-/// node to compute its own would cost the square of the depth.
+/// Fills the snapshot from the tree, with the transform to the world carried along: letting every
+/// node compute its own would cost the square of the depth.
 class TreeReader {
 public:
 	/// p_is_posed: false = as it would be without its animations, for its size alone.

@@ -17,7 +17,7 @@ public:
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
-	bool asks_receivers_alone() const override { return true; }
+	bool queries_receivers_only() const override { return true; }
 	ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const override {
 		return { .least_caster_distance_radii = 0 }; // a caster may cut the disc
 	}

@@ -19,7 +19,7 @@ public:
 			uint32_t p_view_count, uint32_t p_layer_count, bool p_has_fins);
 	void reset();
 
-	/// This frame's handles, imported when first asked for.
+	/// This frame's handles, imported on first use.
 	void import(RenderGraph &r_graph);
 	bool is_imported() const { return !frame_layers.empty(); }
 	void forget_frame();

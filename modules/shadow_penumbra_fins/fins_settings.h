@@ -20,7 +20,7 @@ struct FinsSettings {
 	float inner_width_m = 0; // t
 	float beta_m = 0;
 	uint32_t map_size_px = 1024;
-	uint32_t layer_count = 1; // as asked for; 1 without an inner half
+	uint32_t layer_count = 1; // as requested; 1 without an inner half
 	uint32_t curve = FINS_CURVE_SINE;
 	bool has_inner_half = true;		// false: the technique has outer fins only
 	std::optional<Peeling> peeling; // none: whichever is faster, see choose_peeling

@@ -26,7 +26,7 @@ public:
 			const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const override;
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
-	bool asks_receivers_alone() const override { return true; }
+	bool queries_receivers_only() const override { return true; }
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	void before_light_view(
 			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;

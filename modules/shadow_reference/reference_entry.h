@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// A computed mask and what is known of its precision.
 struct ReferenceVisibility {
-	/// v in 0..1, one per pixel. 0 where nothing was asked.
+	/// v in 0..1, one per pixel. 0 where nothing was computed.
 	std::vector<float> visibility;
 	/// Where casters are translucent: of each colour; visibility is then its luminance. Else empty.
 	std::vector<glm::vec3> colors;

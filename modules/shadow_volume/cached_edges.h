@@ -5,7 +5,7 @@
 namespace gnomon {
 
 /// Silhouette edges that compute shaders found, cached while neither the light nor a caster moves.
-/// They get memory of their own in the second frame that asks for the same, so that what moves
+/// They get memory of their own in the second frame that needs the same, so that what moves
 /// shares the frame's.
 class CachedEdges {
 public:

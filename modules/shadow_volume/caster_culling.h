@@ -14,13 +14,13 @@ namespace gnomon {
 /// light into a coarse map, which the boxes of a tree over all casters are compared with on the
 /// GPU.
 ///
-/// Where the chapter asks occlusion queries, a compute shader compares: a query sees only the
+/// Where the chapter uses occlusion queries, a compute shader compares: a query sees only the
 /// centres of texels, so that a box between them counts as hidden, and the image would change.
 /// Here a texel counts only where all its rays are stopped, and a box only with every texel that it
 /// touches: what is culled is hidden with certainty.
 ///
 /// What was found comes back some frames later. While neither light nor casters have moved since,
-/// it holds, and hidden casters are culled without asking; otherwise it only leads the choice of
+/// it holds, and hidden casters are culled without a test; otherwise it only leads the choice of
 /// occluders, and this frame's words decide on the GPU.
 class CasterCulling {
 public:

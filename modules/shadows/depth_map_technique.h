@@ -14,7 +14,7 @@ class DepthMapTechnique : public ShadowTechnique {
 public:
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 			const PropertyValues &p_properties, std::vector<LightView> &r_views) const override;
-	bool asks_receivers_alone() const override { return true; }
+	bool queries_receivers_only() const override { return true; }
 	void plan(const Inputs &p_inputs, TechniquePlan &r_plan) override;
 	void at_light_view(
 			RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_view_index) override;

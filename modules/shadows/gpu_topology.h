@@ -31,7 +31,7 @@ constexpr TopologyPart operator~(TopologyPart p_parts) {
 }
 
 /// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them. Node space.
-/// Buffers are there once somebody asked for them, see MeshStore::get_topology.
+/// Buffers are there once they were requested, see MeshStore::get_topology.
 struct GpuTopology {
 	OwnedBuffer positions;			// VERTEX | STORAGE, vec4 per welded vertex, w = 1
 	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the faces cancel

@@ -30,7 +30,7 @@ struct ReferenceAnswer {
 	bool is_complete = false; // false when cancelled: of no use then
 };
 
-/// Answers one question, as often and as precisely as it is asked. One thread at a time.
+/// Answers one question, as often and as precisely as requested. One thread at a time.
 class ReferenceSource {
 public:
 	virtual ~ReferenceSource() = default;

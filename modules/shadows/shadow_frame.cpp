@@ -296,7 +296,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 			{ p_work.scene, compute_bounds(p_work.scene, p_casts) }, p_work.properties, views);
 	std::vector<CasterList> casters;
 	for (LightView &view : views) {
-		if (r_technique.asks_receivers_alone()) {
+		if (r_technique.queries_receivers_only()) {
 			fit_to_receivers(view, p_work.lit_receivers,
 					compute_fit_reach_m(view, p_work.light, p_work.scene));
 		}

@@ -31,7 +31,7 @@ struct LightShadow {
 	RGTexture mask;
 	RGTexture receivers; // R8_UNORM: 1 where the light can reach: faces it, inside cone and range
 	RGBuffer light_constants; // shader::LightConstants
-	/// Of the light's technique, when they were asked for.
+	/// Of the light's technique, when they were requested.
 	std::vector<ShadowTechnique::DebugView> debug_views;
 };
 
@@ -45,7 +45,7 @@ struct ShadowFrameOptions {
 };
 
 /// Makes the masks of one frame: records their passes in the host's graph, one light after the
-/// other, as often as the host asks.
+/// other, as often as the host calls it.
 ///
 /// Use: make it, draw (get_constants() is the camera), set_surfaces, add_light for each light, use
 /// the masks in passes of the same graph, execute the graph, end. A mask's memory is free again

@@ -67,10 +67,10 @@ extern const char *const TEST_SETTINGS_GROUP;
 /// only warns: the project must open everywhere.
 void apply_technique_settings(const Project &p_project);
 
-/// Which technique a light gets, and why another than it asks for.
+/// Which technique a light gets, and why another than it requests.
 struct TechniqueChoice {
 	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
-	std::string warning;					   // empty when the light gets what it asks for
+	std::string warning;					   // empty when the light gets what it requests
 };
 /// p_override: an id that replaces every light's own; must exist when not empty.
 TechniqueChoice choose_technique(const LightSnapshot &p_light, const std::string &p_override);

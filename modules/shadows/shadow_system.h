@@ -41,7 +41,7 @@ private:
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
 		LightLimits limits;
-		uint64_t last_frame = 0; // in which it was asked for
+		uint64_t last_frame = 0; // in which it was used
 	};
 	/// Of a light: 0, and 1 + i for its group i of translucent casters.
 	using SlotKey = std::pair<std::string, size_t>;
@@ -49,7 +49,7 @@ private:
 	void warn_once(const std::string &p_warning); // empty: nothing
 	/// Not again for the same key, whatever the warning states.
 	void warn_once(const std::string &p_key, const std::string &p_warning);
-	/// Drops techniques of lights that are gone or were not asked for in many frames, and all when
+	/// Drops techniques of lights that are gone or were not used in many frames, and all when
 	/// a registry changed. Once a frame.
 	void begin_frame(const SceneSnapshot &p_scene);
 

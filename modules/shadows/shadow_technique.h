@@ -134,8 +134,8 @@ public:
 	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
 			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
 	/// True: directional views may be narrowed to what the camera sees and what lies a penumbra
-	/// from it, since the technique asks its maps about receivers alone.
-	virtual bool asks_receivers_alone() const { return false; }
+	/// from it, since the technique queries its maps for receivers only.
+	virtual bool queries_receivers_only() const { return false; }
 	/// Called once a frame before any pass: what will run, what is skipped and why.
 	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}
 	/// Around each light view that was not skipped, in this order; record passes only.
@@ -146,7 +146,7 @@ public:
 	/// hidden, 1 = fully lit, one texel per camera pixel, ready to be sampled. Never NaN.
 	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
 	/// True: resolve() sees translucent casters itself and returns a mask of three colours where
-	/// there are any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: it is asked once for the opaque ones
+	/// there are any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: it runs once for the opaque ones
 	/// and once more for each group of others, as if they were opaque, and the mask is coloured
 	/// behind it.
 	virtual bool sees_translucent_casters() const { return false; }

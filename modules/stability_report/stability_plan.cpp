@@ -15,7 +15,7 @@ const char *const SCENE_NAME = "stability, generated";
 using QuestionCache =
 		LastValue<std::tuple<const StabilitySweep *, LightType, double>, MaskQuestion>;
 
-/// All techniques of a point ask the same question.
+/// All techniques of a point answer the same question.
 MaskQuestion get_question(QuestionCache &r_cache, const StabilitySweep &p_sweep, LightType p_type,
 		double p_value, const ReportOptions &p_options) {
 	return r_cache.get({ &p_sweep, p_type, p_value }, [&] {
@@ -83,7 +83,7 @@ void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const
 		std::stable_partition(values.begin(), values.end(),
 				[&](double p_value) { return p_value == sweep.center; });
 		for (const LightType type : sweep.types) {
-			// The other types' sweeps take their own time; of these the quick form asks the sizes.
+			// The other types' sweeps take their own time; of these the quick form measures the sizes.
 			if (is_quick && type != sweep.types.front() && &sweep != &get_stability_sweeps()[0]) {
 				continue;
 			}

@@ -53,7 +53,7 @@ double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask
 	return receiver_count == 0 ? 0.0 : double(wrong_count) / double(receiver_count);
 }
 
-/// The pixels that are worst, as points to be asked in double.
+/// The pixels that are worst, as points to be computed in double.
 std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference, const MaskImage &p_mask) {
 	std::vector<ConditionPoint> points;
 	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
@@ -73,7 +73,7 @@ std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference
 }
 
 /// The reference is traced in float32. Where that is not enough for the question, it is traced
-/// again in double; asked at some receivers, evenly spread. ALWAYS: as another frame's was.
+/// again in double; tested at some receivers, evenly spread. ALWAYS: as another frame's was.
 enum class DoubleReference { WHERE_NEEDED, ALWAYS };
 void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
 	MaskImage &mask = r_reference.mask;

@@ -26,8 +26,8 @@ float lookup_w(
 	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
 	// Beyond the side of one of six views another one goes on. A loop and no branch: software drivers
 	// run what a branch skips, but leave a loop.
-	[[dont_unroll]] for (bool is_asked = !is_inside && light_views.view_count > 1u; is_asked;
-			is_asked = false) {
+	[[dont_unroll]] for (bool is_needed = !is_inside && light_views.view_count > 1u; is_needed;
+			is_needed = false) {
 		const vec3 direction =
 				transpose(mat3(p_view.view_from_camera_relative)) * vec3(p_xy, 1.0);
 		const uint other_index =

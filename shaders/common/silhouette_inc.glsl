@@ -1,6 +1,6 @@
 // Is an edge a silhouette as seen from the light? One expression for every shader and for the CPU
 // (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h): float32, each product and sum rounded once,
-// corners in an order that does not depend on who asks. So all find the same edges, bit for bit.
+// corners in an order that does not depend on the caller. So all find the same edges, bit for bit.
 #ifndef SILHOUETTE_INC_GLSL
 #define SILHOUETTE_INC_GLSL
 
@@ -42,7 +42,7 @@ bool is_edge_silhouette(vec4 p_light, bool p_is_first_facing, uvec3 p_ids, vec3 
 			: p_is_first_facing != is_light_facing(p_light, p_ids.yxz, p_b, p_a, p_c);
 }
 
-/// The vertex of the edge's second face; of a boundary no vertex, to be asked for first.
+/// The vertex of the edge's second face; of a boundary no vertex, to be tested first.
 uint get_second_opposite(TopologyEdge p_edge) {
 	return p_edge.opposite1 & ~uint(TOPOLOGY_EDGE_INCONSISTENT | TOPOLOGY_EDGE_NOT_SOLID);
 }
@@ -57,7 +57,7 @@ bool is_edge_record_silhouette(
 			(p_edge.opposite1 & TOPOLOGY_EDGE_INCONSISTENT) != 0u);
 }
 
-/// Which edges of a face are silhouettes of its own, bit i for edge i, asked by a geometry shader:
+/// Which edges of a face are silhouettes of its own, bit i for edge i, for a geometry shader:
 /// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
 /// Each edge of the mesh belongs to one face, so that it is not drawn twice.
 uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {

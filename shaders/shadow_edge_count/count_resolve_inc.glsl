@@ -388,7 +388,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
 	do {
-		// Those of one part: what lies between parts would make them ask for edges that none of them needs.
+		// Those of one part: what lies between parts would make them read edges that none of them needs.
 		const uvec4 waiting = subgroup_ballot(waits);
 		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
 		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;

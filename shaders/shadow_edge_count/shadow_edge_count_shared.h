@@ -207,7 +207,7 @@ SHARED_SIZE(CountBlockBox, 32);
 // Blocks by what they have: neither edges nor faces, so that all receivers are lit, or all dark; no edges; a list
 // of edges; edges, but no room for a list; more edges than the budget; a list of edges that are all so far away that
 // the mask is smooth, see resolve_smooth.comp. For each kind the arguments of a dispatch
-// (blocks, 1, 1) and the blocks. Behind these arguments the number of chunks that were asked for, also those
+// (blocks, 1, 1) and the blocks. Behind these arguments the number of chunks that were requested, also those
 // without room.
 #define EDGE_COUNT_BLOCKS_EVEN 0
 #define EDGE_COUNT_BLOCKS_PLAIN 1

@@ -40,7 +40,7 @@ float find_visibility(ivec2 p_pixel) {
 				? 1u
 				: 0u;
 		tap += 2u;
-		// The outermost ring is neither all lit nor all hidden: the others are asked, too.
+		// The outermost ring is neither all lit nor all hidden: the others are tested, too.
 		end = tap == end && hidden_count != 0u && hidden_count != tap ? tap_count : end;
 	}
 	return 1.0 - float(hidden_count) / float(tap);

@@ -35,12 +35,12 @@ struct Neighbourhood {
 	bool has_hiding; // a texel outside every outer fin hides the receiver
 };
 
-/// Looks only where p_is_asked; elsewhere everything is false.
+/// Looks only where p_is_needed; elsewhere everything is false.
 Neighbourhood search_neighbourhood(
-		LightViewConstants p_view, MapPoint p_point, ivec2 p_texel, bool p_is_asked) {
+		LightViewConstants p_view, MapPoint p_point, ivec2 p_texel, bool p_is_needed) {
 	Neighbourhood found = Neighbourhood(false, false, false);
 	// A loop and no branch around it: software drivers run what a branch skips, but leave a loop.
-	[[dont_unroll]] for (int i = p_is_asked ? 0 : 9; i < 9; ++i) {
+	[[dont_unroll]] for (int i = p_is_needed ? 0 : 9; i < 9; ++i) {
 		const ivec2 texel = clamp(
 				p_texel + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(p_view.size_px) - 1);
 		const ivec3 place = ivec3(texel, p_view.layer);
@@ -71,7 +71,7 @@ FinsResult resolve_point(LightViewConstants p_view, MapPoint p_point) {
 	const bool is_before_layer_3 = !HAS_INNER || LAYER_COUNT < 3u ||
 			compare_texel(p_view, p_point, texel, texelFetch(layer_3_texture, fetched, 0).r) > 0.5;
 	// The class was interpolated between outer texels and others. Beyond the paper: it calls the lit
-	// ones of these lit, which leaves white specks along the silhouette, and does not ask for the
+	// ones of these lit, which leaves white specks along the silhouette, and does not use the
 	// third layer, which leaves grey lines in the umbra.
 	const bool is_undecided = !is_all_outer && color.g > PENUMBRA_CLASS_TOLERANCE;
 	const Neighbourhood around = search_neighbourhood(p_view, p_point, texel,

@@ -5,7 +5,7 @@
 #define LIGHT_TYPE_OMNI 0u
 #define LIGHT_TYPE_SPOT 1u
 #define LIGHT_TYPE_DIRECTIONAL 2u
-/// A receiver is moved along its normal by this part of S before anything asks what hides it: by
+/// A receiver is moved along its normal by this part of S before any test of what hides it: by
 /// the reference and by all techniques, so that all answer for one point.
 #define RECEIVER_OFFSET 5e-5f
 /// Cosine between a surface's normal and the way to the light below which it does not face the

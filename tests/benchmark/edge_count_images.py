@@ -45,7 +45,7 @@ class Image:
         return words + (["--light", self.light] if self.light else [])
 
     def draw(self, program, technique, settings, size, out, *more):
-        """Writes the mask; returns what `--time` writes, if asked to."""
+        """Writes the mask; returns what `--time` writes, if requested."""
         words = [word for setting in settings for word in ("--set", setting)]
         times = out + ".json"
         is_timed = "--timed-frames" in more

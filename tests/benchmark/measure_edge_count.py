@@ -380,7 +380,7 @@ def main():
         parser.error("--write needs all groups for %s, whose goals hold all of them. Leave --groups out" % ", ".join(over_all))
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
-    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() asks
+    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() runs
     with tempfile.TemporaryDirectory() as folder:
         images = make_images(groups, folder)
         for part in parts:

@@ -210,7 +210,7 @@ def main():
         parser.error("--rounds is %d, must be 1 or more" % arguments.rounds)
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
-    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() asks
+    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() runs
     load = os.getloadavg()[0]
     rounds = measure_rounds(arguments.rounds)
     machine = "%s Rounds: %d." % (describe_machine(load), arguments.rounds)

@@ -168,7 +168,7 @@ def measure_technique_build(jobs):
 
 
 def publish_tables(tables, measured, writes):
-    """Prints tables, lines by name, each with what was measured below it; writes them into the page if asked to."""
+    """Prints tables, lines by name, each with what was measured below it; writes them into the page if requested."""
     for name, lines in tables.items():
         lines += ["", measured]
         print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)

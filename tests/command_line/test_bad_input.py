@@ -300,7 +300,7 @@ class BadArguments(CommandLineTest):
 class MissingDevices(CommandLineTest):
     def test_without_a_vulkan_device_the_next_step_is_named(self):
         nowhere = {"VK_ICD_FILENAMES": "/nonexistent", "VK_DRIVER_FILES": "/nonexistent"}
-        self.get_fallback()  # asked while there is a device
+        self.get_fallback()  # queried while there is a device
         self.assert_refused(self.compute_mask(CONTACT_BOX, **nowhere), "Vulkan")
 
     def test_without_a_display_a_window_names_headless(self):

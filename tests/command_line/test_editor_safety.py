@@ -71,7 +71,7 @@ class EditorSafetyTest(EditorCase):
         self.wait_for(lambda state: not state["is_changed"])
         self.finish()
 
-    def test_closing_asks_and_what_was_changed_is_saved(self):
+    def test_closing_prompts_and_what_was_changed_is_saved(self):
         self.open_editor()
         self.change_light()
         self.press("key", "ctrl+q")

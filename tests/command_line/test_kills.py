@@ -122,7 +122,7 @@ class KilledReports(ReportCase):
         self.assertEqual(list_unfinished(self.path("cache")), [])
 
     def trace(self, sample_count):
-        """A reference that no other command asks for."""
+        """A reference that no other command needs."""
         reference = find_technique("is_reference")
         settings = ("--set", "%s_samples=%d" % (reference, sample_count))
         scene = os.path.join(SCENES, "sphere.gltf")

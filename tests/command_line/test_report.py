@@ -75,7 +75,7 @@ class Reports(ReportCase):
         result = self.report("report", "--techniques", self.get_fallback(), project=scene)
         self.assertEqual(len(self.load_done("report", result)["configurations"]), 3)
 
-    def test_light_types_and_scaling_curves_are_measured_when_asked_for(self):
+    def test_light_types_and_scaling_curves_are_measured_when_requested(self):
         fallback = ("--techniques", self.get_fallback(), "--scenes", "sphere", "--sizes", "0.4")
         result = self.report("report", *fallback, "--light-types", "spot,omni,directional")
         types = [item["light_type"] for item in self.load_done("report", result)["configurations"]]

@@ -67,7 +67,7 @@ class FoliageScenes(unittest.TestCase):
         _size, rows = decode_png(foliage_shapes.make_stone_png(random.Random(1), 32))
         self.assertTrue(all(row[3::4] == b"\xff" * 32 for row in rows))
 
-    def test_leaves_have_as_many_cards_as_asked_for(self):
+    def test_leaves_have_as_many_cards_as_requested(self):
         mesh = foliage_shapes.make_leaves(random.Random(2), 50, 0.1, (0.0, 1.0, 0.0), 0.7)
         self.assertEqual(len(mesh.triangles), 100)
         self.assertEqual(len(mesh.uvs), 200)

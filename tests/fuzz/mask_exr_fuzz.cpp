@@ -10,7 +10,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Encoding takes its time; a few rows ask as much as many.
+/// Encoding takes its time; a few rows test as much as many.
 constexpr size_t MAX_WRITTEN_PIXELS = 1 << 16;
 
 bool is_same(const std::vector<float> &p_first, const std::vector<float> &p_second) {

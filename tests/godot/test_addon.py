@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the tests of tests/godot/addon, GDScript, inside $GODOT with the add-on of demo_project/godot.
 
-Arguments are names of tests. Warnings and errors that Godot logs fail the run, but for those that tests ask for. Last line:
+Arguments are names of tests. Warnings and errors that Godot logs fail the run, but for those that tests expect. Last line:
 N passed, N failed, N skipped.
 """
 
@@ -11,7 +11,7 @@ import sys
 import addon_project
 import godot_project
 
-# (what a message has, how often it is logged): asked for by tests.
+# (what a message has, how often it is logged): expected by tests.
 EXPECTED = (
     ("technique is no such technique, must be", 1),
     ("rendering/gnomon/default_technique is nothing, must be", 1),
@@ -36,14 +36,14 @@ EXPECTED = (
 
 
 def find_unexpected(output, is_whole):
-    """Messages that no test asked for, and those asked for that did not come as often as they should."""
+    """Messages that no test expects, and expected ones that did not come as often as they should."""
     unexpected = []
     counts = dict.fromkeys((text for text, _count in EXPECTED), 0)
     for line in godot_project.find_messages(output):
-        asked = [text for text in counts if text in line]
-        for text in asked:
+        matching = [text for text in counts if text in line]
+        for text in matching:
             counts[text] += 1
-        if not asked:
+        if not matching:
             unexpected.append("Godot logged " + line)
     for text, count in EXPECTED:
         if counts[text] > count or (is_whole and counts[text] < count):

@@ -2,7 +2,7 @@
 """Builds without modules. The smallest game: a program that loads a scene and draws it headless, without editor,
 report and window; and programs that lack the report or parts of it.
 
-    test_minimal.py --plan           asks scons what it would build and from which files; compiles nothing
+    test_minimal.py --plan           queries scons for what it would build and from which files; compiles nothing
     test_minimal.py [--jobs N]       builds them in a copy of the tree and runs them
     test_minimal.py --write-sizes    builds it and writes the table of sizes in doc/getting_started.md
 

@@ -109,7 +109,7 @@ private:
 		return { ids.begin(), ids.end() };
 	}
 
-	/// Few rays, taps and texels: the test asks for rules, not for precision.
+	/// Few rays, taps and texels: the test checks rules, not precision.
 	void make_cheap(Light3D &r_light) {
 		for (const std::string &id : list_techniques()) {
 			for (const PropertyInfo &property :

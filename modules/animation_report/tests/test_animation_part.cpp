@@ -51,7 +51,7 @@ size_t count_points(const ReportPlan &p_plan) {
 } // namespace
 
 TEST_CASE(
-		"[AnimationPart] each light of an animated scene is asked at times within the animation") {
+		"[AnimationPart] each light of an animated scene is measured at times within the animation") {
 	const std::vector<ReportScene> scenes = make_animated_scenes();
 	const size_t light_count = find_report_view(scenes[0]).lights.size();
 	CHECK(count_points(make_plan(ReportExtent::NONE, scenes, {})) == 0);
@@ -76,7 +76,7 @@ TEST_CASE(
 		CHECK(get_x(*question.scene) == doctest::Approx(configuration.value / 2));
 		CHECK(get_x(*question.next_scene) == doctest::Approx(configuration.value / 2 + 1.0 / 60));
 	}
-	// Asking leaves the scene at rest.
+	// Measuring leaves the scene at rest.
 	CHECK_FALSE(scenes[0].scene->find_nodes<MeshInstance3D>().front()->posed_parent_from_node);
 }
 

@@ -147,7 +147,7 @@ void draw_label(const PropertyInfo &p_info) {
 	}
 }
 
-/// What the widgets of one frame ask for; done after all are drawn, since a change may declare
+/// What the widgets of one frame request; done after all are drawn, since a change may declare
 /// other properties.
 struct PropertyEdit {
 	bool is_requested = false;

@@ -27,7 +27,7 @@ void draw_button(EditorContext &r_context, const char *p_label, EditorCommand p_
 	ImGui::SameLine();
 }
 
-void ask_to_open(EditorContext &r_context, const std::filesystem::path &p_path) {
+void request_open(EditorContext &r_context, const std::filesystem::path &p_path) {
 	r_context.open_path = p_path;
 	r_context.command = EditorCommand::OPEN;
 	ImGui::CloseCurrentPopup();
@@ -39,7 +39,7 @@ void draw_scenes(EditorContext &r_context, const char *p_heading,
 	ImGui::PushID(p_heading); // the same scene may stand in both lists
 	for (const std::filesystem::path &scene : p_scenes) {
 		if (ImGui::Selectable(scene.string().c_str(), scene == r_context.document.get_path())) {
-			ask_to_open(r_context, scene);
+			request_open(r_context, scene);
 		}
 		r_context.note_item("open " + scene.filename().string());
 	}
@@ -56,7 +56,7 @@ void draw_open_menu(EditorContext &r_context) {
 	if (ImGui::InputTextWithHint("##path", "A project's folder, or a .gltf or .glb file", path,
 				sizeof(path), ImGuiInputTextFlags_EnterReturnsTrue) &&
 			path[0] != 0) {
-		ask_to_open(r_context, path);
+		request_open(r_context, path);
 	}
 	r_context.note_item("open path");
 	draw_scenes(r_context, "In this project", r_context.document.get_project().scenes);
@@ -71,8 +71,8 @@ void draw_toolbar(EditorContext &r_context) {
 	if (ImGui::Begin("Toolbar", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
 		draw_button(
-				r_context, "Open", EditorCommand::ASK_TO_OPEN, "Ctrl+O: another scene or project");
-		if (std::exchange(r_context.asks_to_open, false)) {
+				r_context, "Open", EditorCommand::SHOW_OPEN_MENU, "Ctrl+O: another scene or project");
+		if (std::exchange(r_context.shows_open_menu, false)) {
 			ImGui::OpenPopup("open");
 		}
 		draw_open_menu(r_context);

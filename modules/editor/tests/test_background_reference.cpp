@@ -11,7 +11,7 @@ using namespace gnomon;
 
 namespace {
 
-/// What was asked of it; a round lasts until it is let go on or cancelled.
+/// What was requested of it; a round lasts until it is let go on or cancelled.
 struct Script {
 	std::vector<uint32_t> sample_counts;
 	std::atomic<bool> blocks = false;

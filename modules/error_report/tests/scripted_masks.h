@@ -31,7 +31,7 @@ public:
 	std::optional<float> spoiled_value; // of a pixel of what is drawn
 	size_t reference_count = 0;
 	size_t measure_count = 0;
-	std::vector<PropertyValues> asked; // properties of the light, as measure got them
+	std::vector<PropertyValues> requested; // properties of the light, as measure got them
 
 	ReportMachine get_machine() const override { return { device, "driver", "cpu", 2 }; }
 
@@ -57,7 +57,7 @@ public:
 			throw DeviceLost("The device was lost. Restart it.");
 		}
 		++measure_count;
-		asked.push_back(p_question.scene->lights.front().properties);
+		requested.push_back(p_question.scene->lights.front().properties);
 		if (p_technique == failing_technique && runs_out_of_memory) {
 			throw std::bad_alloc();
 		}

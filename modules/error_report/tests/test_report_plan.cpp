@@ -18,7 +18,7 @@ size_t count_cells(const ReportPlan &p_plan, const std::string &p_setting) {
 
 } // namespace
 
-TEST_CASE("[ErrorReport] every scene is asked at 0.02, 0.1 and 0.3 S of its own size") {
+TEST_CASE("[ErrorReport] every scene is measured at 0.02, 0.1 and 0.3 S of its own size") {
 	const ReportPlan plan = make_scripted_plan(1);
 	REQUIRE(plan.report.configurations.size() == 3);
 	CHECK(plan.report.configurations[0].light_size_m == doctest::Approx(0.08));
@@ -42,7 +42,7 @@ TEST_CASE("[ErrorReport] an expensive setting is measured at the middle size onl
 	}
 }
 
-TEST_CASE("[ErrorReport] sizes and light types that are asked for replace the scene's own") {
+TEST_CASE("[ErrorReport] sizes and light types that are requested replace the scene's own") {
 	ReportOptions options = make_scripted_options();
 	options.sizes_m = { 0.5 };
 	options.light_types = { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL };

@@ -82,7 +82,7 @@ TEST_CASE("[ErrorReport] a run that is killed at any place and resumed gives the
 	}
 }
 
-TEST_CASE("[ErrorReport] a finished run that is resumed asks for nothing") {
+TEST_CASE("[ErrorReport] a finished run that is resumed measures nothing") {
 	TemporaryFolder folder;
 	QuietLog quiet;
 	const ReportPlan plan = make_scripted_plan(1);

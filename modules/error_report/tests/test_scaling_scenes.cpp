@@ -36,14 +36,14 @@ const double EXACT = 1e-9; // of lengths in metres, computed in double
 
 } // namespace
 
-TEST_CASE("[ErrorReport] the generated scene has the triangles asked for within 2 %") {
-	for (const uint32_t asked : { 1000u, 1234u, 2000u, 3000u, 5000u, 8000u, 12345u, 30000u, 77777u,
+TEST_CASE("[ErrorReport] the generated scene has the triangles requested within 2 %") {
+	for (const uint32_t requested : { 1000u, 1234u, 2000u, 3000u, 5000u, 8000u, 12345u, 30000u, 77777u,
 				 120000u, 500000u, 1000000u }) {
-		CAPTURE(asked);
+		CAPTURE(requested);
 		ScalingScene description;
-		description.triangle_count = asked;
+		description.triangle_count = requested;
 		const uint32_t found = count_triangles(*build(*make_scaling_scene(description)));
-		CHECK(std::abs(double(found) - asked) <= 0.02 * asked);
+		CHECK(std::abs(double(found) - requested) <= 0.02 * requested);
 	}
 }
 
@@ -58,10 +58,10 @@ TEST_CASE("[ErrorReport] at 30000 triangles the knot is the study's, 500 times 3
 }
 
 TEST_CASE("[ErrorReport] generated meshes are closed and wind outwards") {
-	for (const uint32_t asked : { 1000u, 2000u, 30000u, 120000u }) {
-		CAPTURE(asked);
+	for (const uint32_t requested : { 1000u, 2000u, 30000u, 120000u }) {
+		CAPTURE(requested);
 		ScalingScene description;
-		description.triangle_count = asked;
+		description.triangle_count = requested;
 		const auto scene = build(*make_scaling_scene(description));
 		for (const InstanceSnapshot &instance : scene->instances) {
 			CAPTURE(instance.mesh->name);

@@ -1,4 +1,4 @@
-// The views of their work that techniques show, asked of each one that is registered.
+// The views of their work that techniques show, checked for each one that is registered.
 
 #include "modules/core/error.h"
 #include "modules/renderer/tests/render_fixture.h"

@@ -1,4 +1,4 @@
-// What a frame does not need is not run: asked of every technique that is registered; none is
+// What a frame does not need is not run: checked for every technique that is registered; none is
 // named here.
 
 #include "modules/renderer/tests/lean_fixture.h"
@@ -79,7 +79,7 @@ TEST_CASE("[GPU][Lean] a light that reaches no surface in view is skipped, the i
 	}
 }
 
-TEST_CASE("[GPU][Lean] the light whose debug view is asked for is drawn wherever it shines") {
+TEST_CASE("[GPU][Lean] the light whose debug view is requested is drawn wherever it shines") {
 	RenderFixture fixture;
 	TwoLights lights;
 	lights.turn({ 1, 3, 0 }, { 1.2, 9, 0 });

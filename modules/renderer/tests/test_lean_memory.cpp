@@ -1,4 +1,4 @@
-// What a frame does not need is not compiled and not cached: asked of every technique that is
+// What a frame does not need is not compiled and not cached: checked for every technique that is
 // registered; none is named here.
 
 #include "modules/core/error.h"

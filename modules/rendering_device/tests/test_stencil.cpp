@@ -40,7 +40,7 @@ struct StencilFixture : DeviceFixture {
 	}
 
 	/// Texels that are drawn after the triangle was counted so often with that pipeline, wound
-	/// both ways when asked.
+	/// both ways when requested.
 	size_t count_drawn(const RasterPipelineDesc &p_counting, uint32_t p_times,
 			bool p_is_turned = false, uint32_t p_reference = 0) {
 		RasterPipelineDesc counting = p_counting;

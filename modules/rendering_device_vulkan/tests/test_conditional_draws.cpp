@@ -35,7 +35,7 @@ TEST_CASE("[GPU][RenderingDevice] conditional draws happen only while the predic
 	}
 }
 
-TEST_CASE("[GPU][RenderingDevice] conditional dispatches ask the word at their offset") {
+TEST_CASE("[GPU][RenderingDevice] conditional dispatches read the word at their offset") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;
 	if (!device.get_features().conditional_rendering) {

@@ -149,7 +149,7 @@ TEST_CASE("mesh pose: a slot keeps a pose that rests, and its meshes") {
 	CHECK(deformed->id != mesh->id);
 	CHECK(other->get_mesh(mesh) == other->get_mesh(mesh));
 	CHECK(other->get_mesh(mesh)->positions_node != mesh->positions_node);
-	for (int round = 0; round < 300; ++round) { // a mesh that nothing asks for is dropped
+	for (int round = 0; round < 300; ++round) { // a mesh that nothing uses is dropped
 		slot.make_pose(make_bend(round), {}, "Node");
 		if (round == 50) {
 			CHECK(slot.get_deformed(mesh) == deformed);

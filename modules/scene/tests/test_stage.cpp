@@ -135,7 +135,7 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 	}
 }
 
-TEST_CASE("[Stage] what a file has is not added, unless all is asked for") {
+TEST_CASE("[Stage] what a file has is not added, unless all is requested") {
 	const auto scene = make_model();
 	add<Camera3D>(*scene, "Eye");
 	add<Light3D>(*scene, "Lamp");

@@ -40,7 +40,7 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
 }
 
-/// Meshes, a light, and both ways to ask what a point sees: counted, and by rays.
+/// Meshes, a light, and both ways to compute what a point sees: counted, and by rays.
 class CountScene {
 public:
 	glm::dvec3 light = glm::dvec3(1.8, 6.0, 1.2);

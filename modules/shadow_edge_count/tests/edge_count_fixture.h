@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// What a frame is asked for, apart from its scene.
+/// What a frame is to render, apart from its scene.
 struct FrameWishes {
 	glm::uvec2 size_px = glm::uvec2(96);
 	std::string technique = "edge_count";

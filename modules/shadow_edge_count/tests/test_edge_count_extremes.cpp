@@ -116,7 +116,7 @@ TEST_CASE("[GPU][EdgeCount] a light without size casts shadows of 0 and 1") {
 		CHECK(between_count == 0);
 		CHECK(dark_count > 120);
 		CHECK(frame.plan.is_skipped("Light", "edges"));
-		// The reference asks with one ray.
+		// The reference tests with one ray.
 		const MaskDifference difference = compare_with_reference(fixture, scene);
 		CHECK(difference.apart_count <= 2);
 	}

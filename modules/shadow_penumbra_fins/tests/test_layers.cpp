@@ -117,7 +117,7 @@ TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped
 
 TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2, with the same mask") {
 	MaskFixture fixture;
-	const auto is_asked = [&](const SmallScene &p_scene) {
+	const auto is_conditional = [&](const SmallScene &p_scene) {
 		const MaskResult lean = fixture.render_mask(p_scene, "penumbra_fins");
 		const MaskResult all = fixture.render_mask(p_scene, "penumbra_fins", glm::uvec2(64), false);
 		CHECK(lean.visibility == all.visibility);
@@ -129,7 +129,7 @@ TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2,
 	const SettingScope scope("penumbra_fins", "peeling", "passes");
 	add_mesh(square.scene, "Floor", make_box_mesh("floor", { 3, 0.1f, 3 }), { 0, -0.2, 0 })
 			.casts_shadow = false;
-	CHECK(is_asked(square) == fixture.device->get_features().conditional_rendering);
-	SmallScene solid; // a box has a back: nothing is asked
-	CHECK_FALSE(is_asked(solid));
+	CHECK(is_conditional(square) == fixture.device->get_features().conditional_rendering);
+	SmallScene solid; // a box has a back: nothing is conditional
+	CHECK_FALSE(is_conditional(solid));
 }

@@ -217,7 +217,7 @@ TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a
 	const MaskResult first = render_culled(fixture, scene, "auto");
 	CHECK(first.plan.to_text().find("needs conditional rendering") != std::string::npos);
 	check_same(first, all);
-	check_same(render_culled(fixture, scene, "auto"), all); // nothing moved: it is worth asking
+	check_same(render_culled(fixture, scene, "auto"), all); // nothing moved: a test is worth its cost
 	const MaskResult known = render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(known) > 0);
 	check_same(known, all);

@@ -1,4 +1,4 @@
-// What tests ask of each registered technique, without naming one.
+// What tests require of each registered technique, without naming one.
 
 #pragma once
 
@@ -27,7 +27,7 @@ template <typename Function> void for_each_technique_and_type(Function p_functio
 	});
 }
 
-/// Few reference rays and small maps, where tests ask for rules and not for precision: cheap
+/// Few reference rays and small maps, where tests check rules and not precision: cheap
 /// settings for properties that make a technique slow; by name's ending, not by technique.
 inline void make_cheap(Light3D &r_light) {
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {

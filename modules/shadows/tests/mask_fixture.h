@@ -88,7 +88,7 @@ struct SmallScene {
 	std::shared_ptr<const SceneSnapshot> snap() const { return build_snapshot(scene, *camera); }
 };
 
-/// What a test asks for.
+/// What a test requests.
 struct MaskRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(64);

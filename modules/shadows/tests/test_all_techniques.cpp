@@ -1,4 +1,4 @@
-// What every technique must do, asked of each one that is registered; none is named here.
+// What every technique must do, checked for each one that is registered; none is named here.
 
 #include "modules/core/embedded_shaders.h"
 #include "modules/core/error.h"

@@ -90,23 +90,23 @@ TEST_CASE("[LightLimits] a caster is searched again only when it or the light mo
 	MeshInstance3D &shade = add_mesh(
 			scene.scene, "Shade", make_box_mesh("shade", glm::vec3(0.5f)), { 1.2, 4.0, 0.8 });
 	LightLimits limits; // the light is in the middle of the shade
-	const auto ask = [&](const ShadowLimits &p_limits) {
+	const auto count_broken = [&](const ShadowLimits &p_limits) {
 		const auto snapshot = scene.snap();
 		return limits.find_broken(*snapshot, snapshot->lights[0], "some", p_limits).size();
 	};
-	CHECK(ask({}) == 0);
+	CHECK(count_broken({}) == 0);
 	CHECK(limits.get_search_count() == 1);
-	CHECK(ask({}) == 0);
-	scene.box->parent_from_node[3].y += 0.1; // far away: not asked at all
-	CHECK(ask({}) == 0);
+	CHECK(count_broken({}) == 0);
+	scene.box->parent_from_node[3].y += 0.1; // far away: not searched at all
+	CHECK(count_broken({}) == 0);
 	CHECK(limits.get_search_count() == 1);
 	shade.parent_from_node[3].y += 0.4;
-	CHECK(ask({}) == 1);
+	CHECK(count_broken({}) == 1);
 	CHECK(limits.get_search_count() == 2);
 	scene.light->parent_from_node[3].y += 0.4;
-	CHECK(ask({}) == 0);
+	CHECK(count_broken({}) == 0);
 	CHECK(limits.get_search_count() == 3);
-	CHECK(ask({ .least_caster_distance_radii = 3 }) == 1); // 0.6 m
+	CHECK(count_broken({ .least_caster_distance_radii = 3 }) == 1); // 0.6 m
 	CHECK(limits.get_search_count() == 4);
 }
 

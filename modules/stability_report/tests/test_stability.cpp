@@ -301,7 +301,7 @@ TEST_CASE("[Stability] scenes of the project are drawn with each of their lights
 	CHECK(json[0]["series"][1]["points"][2]["label"] == "hall/Light 1");
 }
 
-TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is asked for") {
+TEST_CASE("[Stability] scenes of the project are drawn only where their sweep is requested") {
 	ReportOptions options = make_options({ "scale" });
 	options.stability_scenes = { { "yard", make_scaling_scene({ 1000, 2, 0.4 }), {} } };
 	for (const ReportConfiguration &configuration :
