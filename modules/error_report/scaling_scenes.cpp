@@ -12,7 +12,7 @@ namespace gnomon {
 
 namespace {
 
-// Numbers of the study's torus_knot (DESIGN, section 7), in metres.
+// Numbers of the study's torus_knot (doc/benchmarks.md, scaling), in metres.
 const double KNOT_SCALE_M = 0.36;
 const glm::dvec3 KNOT_MIDDLE(0.0, 1.4, 0.0);
 const double TUBE_RADIUS_M = 0.16;

@@ -1,4 +1,4 @@
-// `gnomon compare`: the metrics of TECHNIQUES.md section 0, as JSON.
+// `gnomon compare`: the metrics of doc/glossary.md, as JSON.
 
 #include "modules/masks/command_compare.h"
 

@@ -156,7 +156,7 @@ public:
 	std::unique_ptr<Node3D> copy() const override;
 	void assign(const Node3D &p_other) override;
 	/// light_size, light_angular_distance, shadow_enabled, shadow_technique, penumbra_outer_width,
-	/// penumbra_inner_width: what every technique must answer for (DESIGN, scene files).
+	/// penumbra_inner_width: what every technique must answer for (doc/scene_files.md).
 	static const PropertyList &get_property_list();
 };
 
@@ -181,7 +181,7 @@ public:
 	/// Other files that its content was read from.
 	std::vector<std::filesystem::path> side_files;
 	std::unique_ptr<Node3D> root = std::make_unique<Node3D>();
-	/// S in metres (TECHNIQUES, section 0): extras.scene_size. 0 = the diagonal of the casters.
+	/// S in metres (doc/glossary.md): extras.scene_size. 0 = the diagonal of the casters.
 	double scene_size_m = 0;
 	std::vector<std::shared_ptr<const Animation>> animations;
 	std::shared_ptr<SceneDocument> document;

@@ -15,7 +15,7 @@ struct FramePlanEntry {
 	std::string reason; // empty when it runs
 };
 
-/// What a frame does and does not do (DESIGN, one frame). Built before any pass is recorded.
+/// What a frame does and does not do (doc/architecture.md). Built before any pass is recorded.
 /// Everything that is skipped leaves the image bit for bit as it was.
 class FramePlan {
 public:

@@ -17,7 +17,7 @@ class Mask:
         self.receiver = array.array("f", bytes(4 * width * height))
 
     def find_penumbra(self):
-        """Indices of receivers that are neither lit nor hidden (TECHNIQUES, section 0)."""
+        """Indices of receivers that are neither lit nor hidden (doc/glossary.md)."""
         return [i for i, v in enumerate(self.visibility) if self.receiver[i] >= 0.5 and 0.002 < v < 0.998]
 
 

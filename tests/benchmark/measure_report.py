@@ -23,7 +23,7 @@ import check_report_page  # noqa: E402
 from run_benchmarks import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
 
 IMAGES = os.path.join(ROOT, "doc", "images")
-# DESIGN, section 7: the study's scenes; TECHNIQUES, section 0: the population of its figures.
+# The study's scenes and the population of its figures: doc/benchmarks.md.
 STUDY_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
 SHOWN_SCENE = "torus_knot"
 SCENE = "[...document.querySelectorAll('section.scene')].find((item) => item.querySelector('h2').textContent == '%s')" % SHOWN_SCENE

@@ -30,7 +30,7 @@ double compute_miss(
 	return glm::length(glm::cross(p_point - p_origin, p_direction));
 }
 
-// DESIGN, section 7.
+// The study's light, see doc/benchmarks.md.
 const glm::dvec3 LIGHT_TARGET(0, 0.4, 0);
 const double EXACT = 1e-9; // of lengths in metres, computed in double
 

@@ -1,4 +1,4 @@
-// TECHNIQUES, section 6, and what materials and images may be at worst.
+// The hostile cases of doc/stability.md, and what materials and images may be at worst.
 
 #include "modules/receiver_scatter/tests/scatter_fixture.h"
 
