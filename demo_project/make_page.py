@@ -135,19 +135,19 @@ class Page:
         low_y, high_y = min(p[1] for p in points) / 1.3, max(p[1] for p in points) * 1.3
         width, height, left, right, top, bottom = 640, 420, 64, 16, 14, 46
 
-        def place_x(value):
+        def find_x(value):
             return left + (width - left - right) * math.log(value / low_x) / math.log(high_x / low_x)
 
-        def place_y(value):
+        def find_y(value):
             return height - bottom - (height - top - bottom) * math.log(value / low_y) / math.log(high_y / low_y)
 
         parts = ['<svg viewBox="0 0 %d %d" role="img" aria-label="Error against time of every technique">' % (width, height)]
         for tick in choose_ticks(low_x, high_x):
-            x = place_x(tick)
+            x = find_x(tick)
             parts.append('<line class="axis" x1="%.1f" x2="%.1f" y1="%d" y2="%d"/>' % (x, x, top, height - bottom))
             parts.append('<text class="tick" x="%.1f" y="%d" text-anchor="middle">%g</text>' % (x, height - bottom + 18, tick))
         for tick in choose_ticks(low_y, high_y):
-            y = place_y(tick)
+            y = find_y(tick)
             parts.append('<line class="axis" x1="%d" x2="%d" y1="%.1f" y2="%.1f"/>' % (left, width - right, y, y))
             parts.append('<text class="tick" x="%d" y="%.1f" text-anchor="end">%g</text>' % (left - 7, y + 4, tick))
         parts.append('<text class="tick" x="%d" y="%d" text-anchor="end">GPU time of one mask, ms</text>' % (width - right, height - 8))
@@ -155,12 +155,12 @@ class Page:
         for name, error, milliseconds in points:
             parts.append(
                 '<circle cx="%.1f" cy="%.1f" r="2.6" fill="%s" opacity="0.4"/>'
-                % (place_x(milliseconds), place_y(error), self.colors[name])
+                % (find_x(milliseconds), find_y(error), self.colors[name])
             )
         # A label avoids the other labels and the large dots: (left, middle, width) of each.
-        taken = [(place_x(item[2]) - 8, place_y(max(item[1], 1e-5)) + 4, 16) for item in means]
+        taken = [(find_x(item[2]) - 8, find_y(max(item[1], 1e-5)) + 4, 16) for item in means]
         for name, error, milliseconds, _ in means:
-            x, y = place_x(milliseconds), place_y(max(error, 1e-5))
+            x, y = find_x(milliseconds), find_y(max(error, 1e-5))
             parts.append(
                 '<circle cx="%.1f" cy="%.1f" r="7" fill="%s" stroke="var(--card)" stroke-width="2"/>'
                 % (x, y, self.colors[name])
@@ -170,7 +170,7 @@ class Page:
             label_x = x - 12 - label_width if to_left else x + 12
             label_y = y + 4
             for step in range(24):
-                # Down, up, farther down ...: the first place where no label is yet.
+                # Down, up, farther down ...: the first position where no label is yet.
                 offset = (step + 1) // 2 * 8 * (1 if step % 2 else -1)
                 label_y = y + 4 + offset
                 inside = top + 8 < label_y < height - bottom

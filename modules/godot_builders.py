@@ -74,9 +74,9 @@ def add_zip(env):
     """bin/gnomon_godot_addon.zip: the add-on's folder with its library, without debug information, and the licence."""
     folder = env.Dir("#demo_project/godot/" + ZIP_FOLDER).abspath
     files = []
-    for place, _folders, names in os.walk(folder):
-        if place != os.path.join(folder, "bin"):
-            files += [os.path.join(place, name) for name in names if not name.endswith(SKIPPED)]
+    for root, _folders, names in os.walk(folder):
+        if root != os.path.join(folder, "bin"):
+            files += [os.path.join(root, name) for name in names if not name.endswith(SKIPPED)]
 
     def pack(target, source, env):
         with tempfile.TemporaryDirectory() as work, zipfile.ZipFile(str(target[0]), "w", zipfile.ZIP_DEFLATED) as archive:

@@ -62,7 +62,7 @@ class BlenderValue(NamedTuple):
         return value if isinstance(value, bool) else float("%.7g" % (value / self.factors[self.name]))
 
     def find_names(self, owner):
-        """Custom properties of the light or object that stand in Blender's place."""
+        """Custom properties of the light or object that replace Blender's values."""
         return [name for name in self.factors if name in owner]
 
 
@@ -97,7 +97,7 @@ def is_exported(item):
     """As Blender's exporter decides with "Visible Objects" and "Renderable Objects" ticked.
 
     Without the former it also writes what is excluded from the view layer, and objects that Blender does not
-    evaluate, at wrong places.
+    evaluate, at wrong positions.
     """
     return (
         item.visible_get()
@@ -152,7 +152,7 @@ def check_lights(lights, scene):
                 )
 
 
-def find_places(value, light, objects):
+def find_owners(value, light, objects):
     """Where Blender's value goes. One that the user typed wins; the engine reads the light before the object."""
     if value.find_names(light):
         return []
@@ -167,7 +167,7 @@ def filled_properties(lights):
     try:
         for light, objects in lights.items():
             for value in get_values(light):
-                for owner in find_places(value, light, objects):
+                for owner in find_owners(value, light, objects):
                     owner[value.name] = value.compute(light)
                     filled.append((owner, value.name))
         yield
@@ -248,13 +248,13 @@ def export_scene(context, path, is_embedded=False):
 def adopt_values(light, owners):
     """Moves custom properties of the light and its object into Blender's own values."""
     for value in get_values(light):
-        places = [(owner, name) for owner in owners for name in value.find_names(owner)]
-        if not places or read_number(*places[0]) is None:
+        properties = [(owner, name) for owner in owners for name in value.find_names(owner)]
+        if not properties or read_number(*properties[0]) is None:
             continue
-        owner, name = places[0]
+        owner, name = properties[0]
         number = owner[name] * value.factors[name]
         setattr(light, value.attribute, bool(number) if value.attribute == "use_shadow" else number)
-        for owner, name in places:
+        for owner, name in properties:
             del owner[name]
 
 
@@ -429,7 +429,7 @@ class GNOMON_OT_export(bpy.types.Operator, ExportHelper):
     filter_glob: StringProperty(default="*.gltf;*.glb", options={"HIDDEN"})
     is_embedded: BoolProperty(
         name="Embedded",
-        description="For .gltf: one file with everything in it, in place of a .bin next to it",
+        description="For .gltf: one file with everything in it, instead of a .bin next to it",
         default=False,
     )
 

@@ -83,7 +83,7 @@ def make_kitbash(generator, part_count):
         distance = 1.55 * math.sqrt(generator.random())
         angle = 2.0 * math.pi * generator.random()
         height = (1.75 - distance) * generator.random()
-        place = (distance * math.cos(angle), height, distance * math.sin(angle))
+        position = (distance * math.cos(angle), height, distance * math.sin(angle))
         if index < part_count // 20:
             tilt = generator.uniform(-0.3, 0.3)
             if index % 2:
@@ -94,7 +94,7 @@ def make_kitbash(generator, part_count):
         else:
             part, turn = make_kitbash_part(generator), pick_turn(generator)
         first_vertex = len(mesh.positions)
-        mesh.add_mesh(part, turn, place)
+        mesh.add_mesh(part, turn, position)
         if index % DUPLICATE_STEP == 0:
             mesh.triangles += [tuple(corner + first_vertex for corner in triangle) for triangle in part.triangles]
         if index % FIN_STEP == 0:

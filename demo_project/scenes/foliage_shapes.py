@@ -21,7 +21,7 @@ def make_card(half_x, half_y, repeats=(1.0, 1.0)):
 
 
 def get_leaf_depth(shape, x, y):
-    """How deep a place lies in a leaf, in widths of the image: below 0 outside. x, y: -0.5 .. 0.5."""
+    """How deep a point lies in a leaf, in widths of the image: below 0 outside. x, y: -0.5 .. 0.5."""
     if shape == "oval":  # a lens: where two discs meet
         radius, offset = 0.52, 0.28
         return radius - max(math.hypot(x - offset, y), math.hypot(x + offset, y))
@@ -30,7 +30,7 @@ def get_leaf_depth(shape, x, y):
 
 
 def get_chain_depth(u, v):
-    """How deep a place lies in a wire of chain link, in tiles; both wires of a tile go from corner to corner."""
+    """How deep a point lies in a wire of chain link, in tiles; both wires of a tile go from corner to corner."""
     distance = min(abs((along + 0.5) % 1.0 - 0.5) for along in (u + v, u - v)) / math.sqrt(2.0)
     return CHAIN_WIRE - distance
 
@@ -100,7 +100,7 @@ def make_leaves(generator, count, half_size_m, center, radius_m):
     for _leaf in range(count):
         direction = normalize([generator.gauss(0.0, 1.0) for _axis in range(3)])
         distance = radius_m * generator.random() ** 0.4
-        place = add(center, scale((direction[0], 0.8 * direction[1], direction[2]), distance))
+        position = add(center, scale((direction[0], 0.8 * direction[1], direction[2]), distance))
         normal = add(scale(direction, 0.7), (generator.gauss(0.0, 0.4), 0.7 + generator.gauss(0.0, 0.4), generator.gauss(0.0, 0.4)))
-        add_turned_card(mesh, card, place, normal, generator.uniform(0.0, 2.0 * math.pi))
+        add_turned_card(mesh, card, position, normal, generator.uniform(0.0, 2.0 * math.pi))
     return mesh

@@ -371,7 +371,7 @@ class Document:
 
 
 def save_files(files, folder):
-    """Each file is written next to its place and renamed, so that none is ever half there."""
+    """Each file is written next to its target and renamed, so that none is ever half there."""
     os.makedirs(folder, exist_ok=True)
     for name, data in sorted(files.items()):
         path = os.path.join(folder, name)

@@ -29,10 +29,10 @@ def add_cut_out(document, name, file_name, png, roughness=0.7):
     return material
 
 
-def add_tree(document, generator, count, place, stem, height_m=1.55, radius_m=0.75, leaf_m=0.075):
+def add_tree(document, generator, count, position, stem, height_m=1.55, radius_m=0.75, leaf_m=0.075):
     """A trunk, and leaves of three textures."""
     bark = document.add_material("Bark", BARK, roughness=0.9)
-    x, y, z = place
+    x, y, z = position
     document.add_object("Trunk", make_cylinder(0.07, 0.5 * height_m, 24), bark, (x, y + 0.5 * height_m, z))
     center = (x, y + height_m + 0.2, z)
     for index, (shape, hue) in enumerate(LEAVES):

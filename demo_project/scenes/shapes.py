@@ -180,14 +180,14 @@ def make_cylinder(radius, half_height, side_count):
 
 
 def make_clutter(count, half, center, ball_radius, seed):
-    """Boxes at seeded random places in a ball, each turned at random (uniform over all turns)."""
+    """Boxes at seeded random positions in a ball, each turned at random (uniform over all turns)."""
     generator = random.Random(seed)
     box = make_box(half)
     mesh = Mesh()
     for _ in range(count):
         while True:
-            place = tuple(2.0 * generator.random() - 1.0 for _ in range(3))
-            if sum(value * value for value in place) <= 1.0:
+            offset = tuple(2.0 * generator.random() - 1.0 for _ in range(3))
+            if sum(value * value for value in offset) <= 1.0:
                 break
         # Shoemake 1992, "Uniform random rotations".
         u, v, w = (generator.random() for _ in range(3))
@@ -197,7 +197,7 @@ def make_clutter(count, half, center, ball_radius, seed):
             math.sqrt(u) * math.sin(2.0 * math.pi * w),
             math.sqrt(u) * math.cos(2.0 * math.pi * w),
         )
-        mesh.add_mesh(box, turn, add(center, scale(place, ball_radius)))
+        mesh.add_mesh(box, turn, add(center, scale(offset, ball_radius)))
     return mesh
 
 

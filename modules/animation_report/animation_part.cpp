@@ -126,13 +126,13 @@ Json AnimationPart::to_json(const Report &p_report) const {
 				!cell.stability || !cell.stability->temporal_rmse) {
 			continue;
 		}
-		const auto [place, is_new] =
+		const auto [entry, is_new] =
 				plots.try_emplace({ configuration.scene, configuration.light }, json.size());
 		if (is_new) {
 			json.push_back({ { "scene", configuration.scene }, { "light", configuration.light },
 					{ "series", Json::array() } });
 		}
-		Json &series = json[place->second]["series"];
+		Json &series = json[entry->second]["series"];
 		auto found = std::find_if(series.begin(), series.end(),
 				[&](const Json &p_one) { return p_one["technique"] == cell.technique; });
 		if (found == series.end()) {

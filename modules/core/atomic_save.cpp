@@ -67,7 +67,7 @@ public:
 			::close(file);
 		}
 		fail("Cannot write ", target, ": another program removes the files next to it. End that ",
-				"program, or choose another place.");
+				"program, or choose another location.");
 	}
 	~UnfinishedFile() {
 		if (!is_renamed) {
@@ -88,7 +88,7 @@ public:
 			}
 			if (count <= 0) {
 				fail("Cannot write ", target, ": ", std::strerror(errno),
-						". Free some space or choose another place.");
+						". Free some space or choose another location.");
 			}
 			written += static_cast<size_t>(count);
 			end_step();
@@ -99,11 +99,11 @@ public:
 		::fchmod(file, 0644);
 		if (::fsync(file) != 0) {
 			fail("Cannot write ", target, ": ", std::strerror(errno),
-					". Free some space or choose another place.");
+					". Free some space or choose another location.");
 		}
 		end_step();
 		if (::rename(path.c_str(), target.c_str()) != 0) {
-			fail("Cannot write ", target, ": ", std::strerror(errno), ". Choose another place.");
+			fail("Cannot write ", target, ": ", std::strerror(errno), ". Choose another location.");
 		}
 		is_renamed = true;
 		end_step();

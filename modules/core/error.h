@@ -34,7 +34,7 @@ template <typename... Arguments> [[noreturn]] void fail(const Arguments &...p_ar
 	throw Error(text(p_arguments...));
 }
 
-/// Prints the message with its place and aborts. Called by GNOMON_ASSERT only.
+/// Prints the message with its location and aborts. Called by GNOMON_ASSERT only.
 [[noreturn]] void abort_with_message(
 		const char *p_file, int p_line, const char *p_condition, const std::string &p_message);
 

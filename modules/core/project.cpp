@@ -222,18 +222,18 @@ fs::path Project::find_folder(const fs::path &p_scene_path) {
 }
 
 ProjectScene find_project_scene(const fs::path &p_path) {
-	ProjectScene place;
-	place.project.folder = Project::find_folder(p_path);
-	place.scene_path = p_path;
+	ProjectScene found;
+	found.project.folder = Project::find_folder(p_path);
+	found.scene_path = p_path;
 	std::error_code code;
 	const bool is_project = fs::is_directory(p_path, code) || p_path.extension() == ".cfg";
-	if (is_project || fs::exists(place.project.folder / "project.cfg", code)) {
-		place.project = Project::load(is_project ? p_path : place.project.folder);
+	if (is_project || fs::exists(found.project.folder / "project.cfg", code)) {
+		found.project = Project::load(is_project ? p_path : found.project.folder);
 		if (is_project) {
-			place.scene_path = choose_start_scene(place.project);
+			found.scene_path = choose_start_scene(found.project);
 		}
 	}
-	return place;
+	return found;
 }
 
 void disable_modules(const Project &p_project) {

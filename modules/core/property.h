@@ -50,7 +50,7 @@ struct QualitySetting {
 /// A property of earlier versions: files may still hold it, nothing reads it, a save keeps it.
 struct RemovedProperty {
 	std::string name;
-	std::string advice; // a sentence: what took its place
+	std::string advice; // a sentence: what replaced it
 };
 
 /// The properties of one kind of object, in the order in which they are shown.
@@ -58,7 +58,7 @@ class PropertyList {
 public:
 	/// A name that is present already, or a default that its own range refuses, is a programming error.
 	void add(PropertyInfo p_info);
-	/// Declares a property again, at its place. A name that the list lacks is a programming error.
+	/// Declares a property again, at its position. A name that the list lacks is a programming error.
 	void replace(PropertyInfo p_info);
 	void add_removed(RemovedProperty p_removed) { removed.push_back(std::move(p_removed)); }
 	const PropertyInfo *find(std::string_view p_name) const;

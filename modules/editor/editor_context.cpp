@@ -33,7 +33,7 @@ std::shared_ptr<const SceneSnapshot> EditorContext::build_viewport_snapshot() co
 
 void EditorContext::note_item(const std::string &p_name) {
 	if (ImGui::IsWindowAppearing()) {
-		return; // what has just opened finds its place in the next frame
+		return; // what has just opened finds its position in the next frame
 	}
 	const ImVec2 least = ImGui::GetItemRectMin();
 	const ImVec2 greatest = ImGui::GetItemRectMax();
@@ -66,15 +66,15 @@ void EditorContext::draw_tab(
 }
 
 std::string EditorContext::describe_items(const EditorProgress &p_progress) const {
-	nlohmann::json places = nlohmann::json::object();
+	nlohmann::json positions = nlohmann::json::object();
 	for (const auto &[name, rectangle] : items) {
-		places[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
+		positions[name] = { rectangle.x, rectangle.y, rectangle.z, rectangle.w };
 	}
 	const Node3D *selected = document.get_selected();
 	const Timeline &timeline = document.get_timeline();
 	const Animation *animation = timeline.get_animation();
 	return nlohmann::json(
-			{ { "items", places }, { "selected", selected ? selected->name : "" },
+			{ { "items", positions }, { "selected", selected ? selected->name : "" },
 					{ "status", status }, { "is_changed", document.is_changed() },
 					{ "pictures", p_progress.image_count },
 					{ "is_resting", p_progress.is_resting },

@@ -150,7 +150,7 @@ struct EditorContext {
 	/// As begin_tab, with all that p_draw shows.
 	void draw_tab(const char *p_name, const std::function<void()> &p_draw,
 			const std::string &p_addition = {});
-	/// These places, and what tests and benchmarks wait for, as JSON.
+	/// These positions, and what tests and benchmarks wait for, as JSON.
 	std::string describe_items(const EditorProgress &p_progress) const;
 	/// Runs what a user requested; an Error becomes the status.
 	template <typename Action> void attempt(const Action &p_action) {
@@ -163,7 +163,7 @@ struct EditorContext {
 	}
 };
 
-/// ImGuiWindowFlags of every panel: the layout gives it its place.
+/// ImGuiWindowFlags of every panel: the layout gives it its position.
 extern const int PANEL_FLAGS;
 
 struct EditorLayout;

@@ -52,9 +52,9 @@ std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, Node3D &r_root) {
 } // namespace
 
 EditorDocument::EditorDocument(const fs::path &p_path, StageMode p_stage) : stage(p_stage) {
-	const ProjectScene place = find_project_scene(p_path);
-	project = place.project;
-	path = fs::absolute(place.scene_path);
+	const ProjectScene found = find_project_scene(p_path);
+	project = found.project;
+	path = fs::absolute(found.scene_path);
 	if (const auto name = project.defaults.find("animation"); name != project.defaults.end()) {
 		timeline = Timeline(name->second);
 	}
@@ -137,10 +137,10 @@ Bounds EditorDocument::compute_selected_bounds() const {
 	}
 	Bounds bounds = selected->compute_bounds();
 	// A skinned mesh is where its joints are, wherever its node is.
-	const glm::dvec3 place = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
+	const glm::dvec3 center = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
 											   : 0.5 * (bounds.minimum + bounds.maximum);
-	bounds.add(place - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
-	bounds.add(place + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
+	bounds.add(center - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
+	bounds.add(center + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
 	return bounds;
 }
 

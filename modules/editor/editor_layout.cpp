@@ -13,7 +13,7 @@ const int PANEL_FLAGS = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
 
 namespace {
 
-void place_next(ImVec2 p_position, ImVec2 p_size) {
+void set_next_window(ImVec2 p_position, ImVec2 p_size) {
 	ImGui::SetNextWindowPos(p_position);
 	ImGui::SetNextWindowSize(p_size);
 }
@@ -21,7 +21,7 @@ void place_next(ImVec2 p_position, ImVec2 p_size) {
 /// A line that can be dragged; changes a share of the window.
 void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is_vertical,
 		float p_window, float p_sign, float &r_share) {
-	place_next(p_position, p_size);
+	set_next_window(p_position, p_size);
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
 	ImGui::Begin(p_id, nullptr,
@@ -56,21 +56,21 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	const bool has_timeline = !r_context.document.get_scene().animations.empty();
 	const float viewport = height - bottom - line - (has_timeline ? bar : 0.0f);
 	ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(16, 16));
-	place_next(ImVec2(0, 0), ImVec2(window.x, bar));
+	set_next_window(ImVec2(0, 0), ImVec2(window.x, bar));
 	draw_toolbar(r_context);
-	place_next(ImVec2(0, bar), ImVec2(left, height));
+	set_next_window(ImVec2(0, bar), ImVec2(left, height));
 	draw_scene_tree(r_context);
 	draw_splitter(
 			"##left", ImVec2(left, bar), ImVec2(line, height), true, window.x, 1.0f, r_layout.left);
-	place_next(ImVec2(left + line, bar), ImVec2(middle, viewport));
+	set_next_window(ImVec2(left + line, bar), ImVec2(middle, viewport));
 	draw_viewport(r_context);
 	if (has_timeline) {
-		place_next(ImVec2(left + line, bar + viewport), ImVec2(middle, bar));
+		set_next_window(ImVec2(left + line, bar + viewport), ImVec2(middle, bar));
 		draw_timeline(r_context);
 	}
 	draw_splitter("##bottom", ImVec2(left + line, bar + height - bottom - line),
 			ImVec2(middle, line), false, height, -1.0f, r_layout.bottom);
-	place_next(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));
+	set_next_window(ImVec2(left + line, bar + height - bottom), ImVec2(middle, bottom));
 	if (ImGui::Begin("Frame", nullptr, PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar) &&
 			ImGui::BeginTabBar("bottom")) {
 		draw_plan(r_context);
@@ -82,9 +82,9 @@ void draw_layout(EditorContext &r_context, EditorLayout &r_layout) {
 	ImGui::End();
 	draw_splitter("##right", ImVec2(left + line + middle, bar), ImVec2(line, height), true,
 			window.x, -1.0f, r_layout.right);
-	place_next(ImVec2(window.x - right, bar), ImVec2(right, height));
+	set_next_window(ImVec2(window.x - right, bar), ImVec2(right, height));
 	draw_inspector(r_context);
-	place_next(ImVec2(0, window.y - bar), ImVec2(window.x, bar));
+	set_next_window(ImVec2(0, window.y - bar), ImVec2(window.x, bar));
 	draw_status(r_context);
 	ImGui::PopStyleVar();
 }

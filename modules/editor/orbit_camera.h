@@ -24,7 +24,7 @@ public:
 	void move(const glm::dvec3 &p_way_m);
 	/// Shows all of it.
 	void frame(const Bounds &p_bounds_world);
-	/// Writes place and field of view into a camera whose parent is the root.
+	/// Writes position and field of view into a camera whose parent is the root.
 	void apply(Camera3D &r_camera) const;
 
 	double get_distance_m() const { return distance_m; }

@@ -81,8 +81,8 @@ public:
 		if (!hit) {
 			return std::nullopt;
 		}
-		const glm::dvec3 place = p_end + hit->t * turned;
-		return is_lit(place) && !is_hidden_from_camera(place) ? std::optional(place) : std::nullopt;
+		const glm::dvec3 position = p_end + hit->t * turned;
+		return is_lit(position) && !is_hidden_from_camera(position) ? std::optional(position) : std::nullopt;
 	}
 
 	/// How much longer than itself an edge's image on the receiver may be at most.
@@ -96,23 +96,23 @@ public:
 
 private:
 	/// From the light's centre; of a sun, a unit vector.
-	glm::dvec3 get_way(const glm::dvec3 &p_place) const {
-		return is_directional ? light.get_direction_world() : p_place - light.position_world;
+	glm::dvec3 get_way(const glm::dvec3 &p_position) const {
+		return is_directional ? light.get_direction_world() : p_position - light.position_world;
 	}
-	bool is_hidden_from_light(const glm::dvec3 &p_place, const glm::dvec3 &p_way) {
+	bool is_hidden_from_light(const glm::dvec3 &p_position, const glm::dvec3 &p_way) {
 		if (is_directional) {
-			return rays.find_nearest(p_place, -p_way, AT_EDGE * scene.scene_size_m).has_value();
+			return rays.find_nearest(p_position, -p_way, AT_EDGE * scene.scene_size_m).has_value();
 		}
 		const std::optional<SceneRays::Hit> hit = rays.find_nearest(light.position_world, p_way);
 		return hit && hit->t < 1.0 - AT_EDGE;
 	}
-	bool is_hidden_from_camera(const glm::dvec3 &p_place) {
+	bool is_hidden_from_camera(const glm::dvec3 &p_position) {
 		const glm::dvec3 &eye = scene.camera.position_world;
-		const std::optional<SceneRays::Hit> hit = rays.find_nearest(eye, p_place - eye);
+		const std::optional<SceneRays::Hit> hit = rays.find_nearest(eye, p_position - eye);
 		return hit && hit->t < 1.0 - AT_RECEIVER;
 	}
-	bool is_lit(const glm::dvec3 &p_place) const {
-		const glm::dvec3 way = get_way(p_place);
+	bool is_lit(const glm::dvec3 &p_position) const {
+		const glm::dvec3 way = get_way(p_position);
 		const double distance_m = glm::length(way);
 		if (is_directional || distance_m == 0.0) {
 			return true;

@@ -41,22 +41,22 @@ void SceneRays::add_surface(MeshInstance3D &r_node, const MeshInstance3D::Surfac
 	if (!mesh || mesh->bounds_node.is_empty()) {
 		return;
 	}
-	SkinPlaces places =
-			place_surface(r_node, *p_surface.mesh, p_world_from_node, p_world_from_nodes);
-	const double determinant = glm::determinant(places.world_from_mesh);
+	SkinTransforms transforms =
+			compute_surface_transforms(r_node, *p_surface.mesh, p_world_from_node, p_world_from_nodes);
+	const double determinant = glm::determinant(transforms.world_from_mesh);
 	if (!(std::abs(determinant) > 0.0 && std::isfinite(determinant))) {
 		return;
 	}
 	if (p_surface.mesh->attributes.rig) {
 		// The pose that the snapshot has too.
 		mesh = r_node.get_pose_slot(p_surface.mesh)
-					   ->make_pose(std::move(places.joints), r_node.get_morph_weights(),
+					   ->make_pose(std::move(transforms.joints), r_node.get_morph_weights(),
 							   text("Node \"", r_node.name, "\""))
 					   ->get_mesh(mesh);
 	}
-	instances.push_back({ &r_node, mesh, places.world_from_mesh,
-			glm::inverse(places.world_from_mesh),
-			transform_bounds(mesh->bounds_node, places.world_from_mesh), r_node.casts_shadow });
+	instances.push_back({ &r_node, mesh, transforms.world_from_mesh,
+			glm::inverse(transforms.world_from_mesh),
+			transform_bounds(mesh->bounds_node, transforms.world_from_mesh), r_node.casts_shadow });
 }
 
 std::optional<SceneRays::Hit> SceneRays::find_nearest(const glm::dvec3 &p_origin_world,

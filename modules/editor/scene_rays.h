@@ -2,7 +2,7 @@
 
 #include "modules/mesh_tools/ray_tree.h"
 #include "modules/scene/nodes.h"
-#include "modules/scene/skin_places.h"
+#include "modules/scene/skin_transforms.h"
 
 #include <map>
 #include <memory>
@@ -17,7 +17,7 @@ public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
 		std::shared_ptr<const Mesh> mesh;			  // what is there of it, see CutMesh; as posed
-		glm::dmat4 world_from_node = glm::dmat4(1.0); // of a skin: from the mesh, see place_skin
+		glm::dmat4 world_from_node = glm::dmat4(1.0); // of a skin: from the mesh, see compute_skin_transforms
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
 		bool casts_shadow = true;

@@ -11,9 +11,9 @@ namespace gnomon {
 
 namespace {
 
-// Dear ImGui, of which there is one, reads the mouse's place once a frame, and gets the one that
+// Dear ImGui, of which there is one, reads the mouse's position once a frame, and gets the one that
 // it has by then, ahead of the events that were read. During a long frame a mouse that went on at
-// once would click on nothing, or drag on what it had let go. So the events' own places count.
+// once would click on nothing, or drag on what it had let go. So the events' own positions count.
 std::optional<ImVec2> last_position;
 std::optional<ImVec2> button_position; // when a button went down or up since the last frame
 
@@ -32,7 +32,7 @@ UiContext::UiContext(Window &p_window) {
 	IMGUI_CHECKVERSION();
 	ImGui::CreateContext();
 	ImGuiIO &io = ImGui::GetIO();
-	io.IniFilename = nullptr; // the panels have fixed places
+	io.IniFilename = nullptr; // the panels have fixed positions
 	io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
 	const float scale = p_window.get_scale();
 	ImFontConfig font;

@@ -36,10 +36,10 @@ bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
 } // namespace
 
 void UndoHistory::push(Step p_step) {
-	steps.resize(place);
+	steps.resize(step_index);
 	p_step.serial = next_serial++;
 	steps.push_back(std::move(p_step));
-	place = steps.size();
+	step_index = steps.size();
 }
 
 void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::string &p_key,
@@ -54,7 +54,7 @@ void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::s
 	if (is_same_state(*before, r_node)) {
 		return;
 	}
-	const bool joins = !p_key.empty() && p_key == open_key && place == steps.size() && place > 0 &&
+	const bool joins = !p_key.empty() && p_key == open_key && step_index == steps.size() && step_index > 0 &&
 			steps.back().node == &r_node && steps.back().key == p_key;
 	open_key = p_key;
 	if (joins) {
@@ -111,13 +111,13 @@ Node3D *UndoHistory::apply(Step &r_step, const Node3D *p_state, bool p_is_put_in
 
 Node3D *UndoHistory::undo() {
 	GNOMON_ASSERT(can_undo(), "nothing to undo");
-	Step &step = steps[--place];
+	Step &step = steps[--step_index];
 	return apply(step, step.before.get(), step.is_removal);
 }
 
 Node3D *UndoHistory::redo() {
 	GNOMON_ASSERT(can_redo(), "nothing to redo");
-	Step &step = steps[place++];
+	Step &step = steps[step_index++];
 	return apply(step, step.after.get(), !step.is_removal);
 }
 

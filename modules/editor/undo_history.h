@@ -22,11 +22,11 @@ public:
 	void add(Node3D &r_parent, std::unique_ptr<Node3D> p_node, const std::string &p_name);
 	void remove(Node3D &r_node, const std::string &p_name);
 
-	bool can_undo() const { return place > 0; }
-	bool can_redo() const { return place < steps.size(); }
+	bool can_undo() const { return step_index > 0; }
+	bool can_redo() const { return step_index < steps.size(); }
 	/// What the next undo or redo takes back or does again: "Set light_size of Spot".
-	const std::string &get_undo_name() const { return steps[place - 1].name; }
-	const std::string &get_redo_name() const { return steps[place].name; }
+	const std::string &get_undo_name() const { return steps[step_index - 1].name; }
+	const std::string &get_redo_name() const { return steps[step_index].name; }
 	/// Returns the node that changed.
 	Node3D *undo();
 	Node3D *redo();
@@ -35,7 +35,7 @@ public:
 	void set_saved() { saved_serial = get_serial(); }
 	bool is_saved() const { return saved_serial == get_serial(); }
 	/// Another number whenever the scene is another.
-	uint64_t get_serial() const { return place == 0 ? 0 : steps[place - 1].serial; }
+	uint64_t get_serial() const { return step_index == 0 ? 0 : steps[step_index - 1].serial; }
 
 private:
 	struct Step {
@@ -58,7 +58,7 @@ private:
 	Node3D *apply(Step &r_step, const Node3D *p_state, bool p_is_put_in);
 
 	std::vector<Step> steps;
-	size_t place = 0; // steps before it are done
+	size_t step_index = 0; // steps before it are done
 	std::string open_key;
 	uint64_t next_serial = 1;
 	uint64_t saved_serial = 0;

@@ -16,23 +16,23 @@ ViewportProjection::ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_lea
 }
 
 std::optional<ImVec2> ViewportProjection::project(const glm::dvec3 &p_world) const {
-	const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
-	if (-place.z < near_m) {
+	const glm::dvec3 position(camera_from_world * glm::dvec4(p_world, 1.0));
+	if (-position.z < near_m) {
 		return std::nullopt;
 	}
 	const glm::dvec2 px =
-			least + 0.5 * size + glm::dvec2(place.x, -place.y) * (focal_px / -place.z);
+			least + 0.5 * size + glm::dvec2(position.x, -position.y) * (focal_px / -position.z);
 	return ImVec2(float(px.x), float(px.y));
 }
 
 bool ViewportProjection::is_inside(const ImVec2 &p_point) const {
-	const glm::dvec2 place = glm::dvec2(p_point.x, p_point.y) - least;
-	return place.x >= 0.0 && place.y >= 0.0 && place.x < size.x && place.y < size.y;
+	const glm::dvec2 position = glm::dvec2(p_point.x, p_point.y) - least;
+	return position.x >= 0.0 && position.y >= 0.0 && position.x < size.x && position.y < size.y;
 }
 
 double ViewportProjection::compute_metres_per_px(const glm::dvec3 &p_world) const {
-	const glm::dvec3 place(camera_from_world * glm::dvec4(p_world, 1.0));
-	return std::max(-place.z, near_m) / focal_px;
+	const glm::dvec3 position(camera_from_world * glm::dvec4(p_world, 1.0));
+	return std::max(-position.z, near_m) / focal_px;
 }
 
 glm::dvec3 ViewportProjection::compute_direction(const ImVec2 &p_point) const {

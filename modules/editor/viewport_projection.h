@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// Where places of the world are in the viewport's image, in the window's pixels.
+/// Where points of the world are in the viewport's image, in the window's pixels.
 class ViewportProjection {
 public:
 	ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size);
@@ -16,7 +16,7 @@ public:
 	/// None for what is behind the camera.
 	std::optional<ImVec2> project(const glm::dvec3 &p_world) const;
 	bool is_inside(const ImVec2 &p_point) const;
-	/// Metres at that place across the view for each pixel.
+	/// Metres at that point across the view for each pixel.
 	double compute_metres_per_px(const glm::dvec3 &p_world) const;
 	glm::dvec3 get_eye() const { return glm::dvec3(world_from_camera[3]); }
 	/// From the eye through a pixel; at unit depth.

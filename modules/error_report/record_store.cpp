@@ -35,7 +35,7 @@ RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
 	fs::create_directories(folder, code);
 	if (code || !fs::is_directory(folder)) {
 		fail("Folder ", folder, " cannot be made: ", code.message(),
-				". Choose another place with --out.");
+				". Choose another location with --out.");
 	}
 }
 

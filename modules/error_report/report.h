@@ -102,7 +102,7 @@ const char *get_name(ErrorCause p_cause);
 
 /// How sensitive visibility is at some points, in double precision: means over the points.
 struct VisibilityCondition {
-	/// Change of v over the relative change of the receiver's place that makes it: |dv| rho / |dP|,
+	/// Change of v over the relative change of the receiver's position that makes it: |dv| rho / |dP|,
 	/// rho the distance to the light (directional: S).
 	double number = 0;
 	double rounding = 0;	// change of v when P moves by what float32 rounds away
@@ -114,7 +114,7 @@ struct VisibilityCondition {
 /// What else a point of a stability sweep or of an animation has; a part of the report (ReportPart) fills it in.
 struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
-	/// plays on for a frame: see TemporalMetrics. None where the light has no place to move to.
+	/// plays on for a frame: see TemporalMetrics. None where the light has no position to move to.
 	std::optional<double> temporal_rmse;
 	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more than a half.
 	double wrong_share = 0;

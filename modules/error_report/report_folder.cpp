@@ -114,7 +114,7 @@ Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_o
 	GNOMON_ASSERT(!p_folders.empty(), "nothing to merge");
 	const Report plan = load_report(get_plan_path(p_folders.front()));
 	std::vector<RecordStore> parts;
-	bool is_in_place = false; // the whole is one of the parts
+	bool is_one_of_parts = false; // the whole is one of the parts
 	for (const fs::path &folder : p_folders) {
 		if (dump_json(to_json(load_report(get_plan_path(folder)))) != dump_json(to_json(plan))) {
 			fail("Reports ", p_folders.front(), " and ", folder,
@@ -122,14 +122,14 @@ Report merge_reports(const std::vector<fs::path> &p_folders, const fs::path &p_o
 					"options.");
 		}
 		parts.emplace_back(get_record_folder(folder));
-		is_in_place = is_in_place || is_same_folder(folder, p_out);
+		is_one_of_parts = is_one_of_parts || is_same_folder(folder, p_out);
 	}
 	RecordStore merged(get_record_folder(p_out));
 	for (const std::string &name : list_records(plan)) {
 		const RecordStore *part = choose_store(parts, name);
 		if (part && !is_same_folder(part->get_folder(), merged.get_folder())) {
 			merged.copy_from(*part, name);
-		} else if (!part && !is_in_place) {
+		} else if (!part && !is_one_of_parts) {
 			merged.remove(name); // of an earlier merge
 		}
 	}

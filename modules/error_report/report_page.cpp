@@ -39,9 +39,9 @@ std::string encode_base64(std::span<const uint8_t> p_bytes) {
 std::string replace_all(std::string_view p_text, std::string_view p_old, std::string_view p_new) {
 	std::string replaced;
 	size_t begin = 0;
-	for (size_t place; (place = p_text.find(p_old, begin)) != std::string_view::npos;
-			begin = place + p_old.size()) {
-		replaced.append(p_text, begin, place - begin).append(p_new);
+	for (size_t found; (found = p_text.find(p_old, begin)) != std::string_view::npos;
+			begin = found + p_old.size()) {
+		replaced.append(p_text, begin, found - begin).append(p_new);
 	}
 	return replaced.append(p_text, begin);
 }

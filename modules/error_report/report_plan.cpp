@@ -59,7 +59,7 @@ uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 }
 
 /// 64 bits that change when anything changes that the mask could depend on: the casters and their
-/// places, what scatters, the camera, the light (all lights where the question names none) with all
+/// positions, what scatters, the camera, the light (all lights where the question names none) with all
 /// its properties, and the size of the image.
 uint64_t compute_question_hash(const MaskQuestion &p_question) {
 	const SceneSnapshot &scene = *p_question.scene;

@@ -107,10 +107,10 @@ std::vector<RankingRow> rank_best_settings(const Report &p_report) {
 		if (!is_comparable(cell) || !is_in_matrix(p_report, cell)) {
 			continue;
 		}
-		const auto [place, is_new] =
+		const auto [entry, is_new] =
 				best.insert({ { cell.technique, cell.configuration_index }, index });
-		if (!is_new && get_mae(cell) < get_mae(p_report.cells[place->second])) {
-			place->second = index;
+		if (!is_new && get_mae(cell) < get_mae(p_report.cells[entry->second])) {
+			entry->second = index;
 		}
 	}
 	std::map<std::pair<std::string, std::string>, std::vector<size_t>> lists;

@@ -26,21 +26,21 @@ std::optional<int> parse_hex_digit(char p_digit) {
 /// Undoes %20 and the like; nothing when an escape is wrong.
 std::optional<std::string> decode_percent(std::string_view p_uri) {
 	std::string decoded;
-	for (size_t place = 0; place < p_uri.size(); ++place) {
-		if (p_uri[place] != '%') {
-			decoded += p_uri[place];
+	for (size_t index = 0; index < p_uri.size(); ++index) {
+		if (p_uri[index] != '%') {
+			decoded += p_uri[index];
 			continue;
 		}
-		if (place + 2 >= p_uri.size()) {
+		if (index + 2 >= p_uri.size()) {
 			return std::nullopt;
 		}
-		const std::optional<int> high = parse_hex_digit(p_uri[place + 1]);
-		const std::optional<int> low = parse_hex_digit(p_uri[place + 2]);
+		const std::optional<int> high = parse_hex_digit(p_uri[index + 1]);
+		const std::optional<int> low = parse_hex_digit(p_uri[index + 2]);
 		if (!high || !low) {
 			return std::nullopt;
 		}
 		decoded += static_cast<char>(*high * 16 + *low);
-		place += 2;
+		index += 2;
 	}
 	return decoded;
 }
@@ -65,7 +65,7 @@ bool is_data_uri(std::string_view p_uri) {
 	return p_uri.starts_with("data:");
 }
 
-fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const GltfObject &p_object) {
+fs::path resolve_uri(std::string_view p_uri, const GltfLocation &p_location, const GltfObject &p_object) {
 	const auto refuse = [&](const char *p_problem) {
 		p_object.fail_at("uri",
 				text("is \"", to_one_line(p_uri), "\", ", p_problem,
@@ -80,7 +80,7 @@ fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const Glt
 	}
 	fs::path relative(*decoded);
 	std::error_code code;
-	if (decoded->find('\\') != std::string::npos && !fs::exists(p_place.folder / relative, code)) {
+	if (decoded->find('\\') != std::string::npos && !fs::exists(p_location.folder / relative, code)) {
 		// Converters write the paths of Windows, against the standard.
 		std::string separated = *decoded;
 		std::replace(separated.begin(), separated.end(), '\\', '/');
@@ -89,8 +89,8 @@ fs::path resolve_uri(std::string_view p_uri, const GltfPlace &p_place, const Glt
 	if (relative.is_absolute()) {
 		refuse("must not be an absolute path");
 	}
-	const fs::path path = p_place.folder / relative;
-	if (!is_inside_folder(path, p_place.project_folder)) {
+	const fs::path path = p_location.folder / relative;
+	if (!is_inside_folder(path, p_location.project_folder)) {
 		refuse("which leads out of the project folder");
 	}
 	return path;
@@ -110,10 +110,10 @@ std::string encode_uri(std::string_view p_file_name) {
 	return uri;
 }
 
-GltfBuffers::GltfBuffers(const GltfObject &p_root, const GltfPlace &p_place,
+GltfBuffers::GltfBuffers(const GltfObject &p_root, const GltfLocation &p_location,
 		const std::vector<uint8_t> *p_bin_chunk) :
 		root(p_root),
-		place(p_place), bin_chunk(p_bin_chunk) {}
+		location(p_location), bin_chunk(p_bin_chunk) {}
 
 std::span<const uint8_t> GltfBuffers::load_buffer(size_t p_index) {
 	const GltfObject buffer = root.get_element("buffers", p_index);
@@ -165,7 +165,7 @@ std::span<const uint8_t> GltfBuffers::load_view(const tinygltf::Model &p_model, 
 
 std::vector<uint8_t> GltfBuffers::load_uri(const GltfObject &p_object, const std::string &p_uri) {
 	if (!is_data_uri(p_uri)) {
-		const fs::path path = resolve_uri(p_uri, place, p_object);
+		const fs::path path = resolve_uri(p_uri, location, p_object);
 		files.push_back(path);
 		try {
 			return load_file(path, GLTF_MAX_FILE_BYTES);

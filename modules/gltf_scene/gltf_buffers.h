@@ -16,7 +16,7 @@
 namespace gnomon {
 
 /// Where a file's URIs point to.
-struct GltfPlace {
+struct GltfLocation {
 	std::filesystem::path folder;		  // URIs are relative to it
 	std::filesystem::path project_folder; // and may not leave this one
 };
@@ -25,7 +25,7 @@ bool is_data_uri(std::string_view p_uri);
 /// The file that a relative URI names. Another scheme, an absolute path, a wrong escape or a file
 /// outside the project folder: fails at p_object's "uri".
 std::filesystem::path resolve_uri(
-		std::string_view p_uri, const GltfPlace &p_place, const GltfObject &p_object);
+		std::string_view p_uri, const GltfLocation &p_location, const GltfObject &p_object);
 /// A file name as a URI.
 std::string encode_uri(std::string_view p_file_name);
 
@@ -34,7 +34,7 @@ std::string encode_uri(std::string_view p_file_name);
 class GltfBuffers {
 public:
 	/// All must outlive it. p_bin_chunk is null for the text form.
-	GltfBuffers(const GltfObject &p_root, const GltfPlace &p_place,
+	GltfBuffers(const GltfObject &p_root, const GltfLocation &p_location,
 			const std::vector<uint8_t> *p_bin_chunk);
 
 	/// Exactly byteLength bytes, valid as long as this object; fewer there: fails.
@@ -50,7 +50,7 @@ public:
 
 private:
 	GltfObject root;
-	const GltfPlace &place;
+	const GltfLocation &location;
 	const std::vector<uint8_t> *bin_chunk;
 	std::map<size_t, std::vector<uint8_t>> loaded;
 	uint64_t loaded_bytes = 0;

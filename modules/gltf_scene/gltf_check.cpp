@@ -35,7 +35,7 @@ bool is_known_extension(std::string_view p_name) {
 			p_name == GLTF_TEXTURE_TRANSFORM || p_name == "KHR_mesh_quantization";
 }
 
-/// Of a light, camera or material: reported, and the default takes its place.
+/// Of a light, camera or material: reported, and the default is used.
 void check_number(const GltfObject &p_object, std::string_view p_key, double p_default,
 		double p_minimum, double p_maximum, std::string_view p_unit = "") {
 	if (p_object.find(p_key)) {

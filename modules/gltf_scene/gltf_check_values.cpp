@@ -27,8 +27,8 @@ void require_index(const GltfObject &p_object, std::string_view p_key, size_t p_
 void check_indices(const GltfObject &p_object, std::string_view p_key, size_t p_count) {
 	const size_t count = p_object.get_count(p_key);
 	Json indices = Json::array();
-	for (size_t place = 0; place < count; ++place) {
-		indices.push_back(p_object.require_index_at(p_key, place, p_count));
+	for (size_t index = 0; index < count; ++index) {
+		indices.push_back(p_object.require_index_at(p_key, index, p_count));
 	}
 	if (p_object.find(p_key)) {
 		p_object.set(p_key, std::move(indices));

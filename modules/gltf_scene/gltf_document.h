@@ -38,7 +38,7 @@ public:
 	using SurfaceKey = std::vector<std::pair<const Mesh *, const Material *>>;
 
 	std::string file; // as the user named it
-	GltfPlace place;
+	GltfLocation location;
 	GltfContainer container; // as it was read
 	/// The same as tinygltf holds it: without the bytes of buffers and images, refused values
 	/// replaced by their defaults.

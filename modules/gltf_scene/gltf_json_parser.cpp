@@ -15,12 +15,12 @@ void check_json_limits(std::string_view p_text, const GltfMessages &p_messages) 
 	std::vector<uint64_t> comma_counts; // of the arrays and objects that are open
 	std::vector<char> brackets;
 	uint64_t value_count = 0;
-	for (size_t place = 0; place < p_text.size(); ++place) {
-		const char character = p_text[place];
+	for (size_t index = 0; index < p_text.size(); ++index) {
+		const char character = p_text[index];
 		if (character == '"') {
-			++place;
-			while (place < p_text.size() && p_text[place] != '"') {
-				place += p_text[place] == '\\' ? 2 : 1;
+			++index;
+			while (index < p_text.size() && p_text[index] != '"') {
+				index += p_text[index] == '\\' ? 2 : 1;
 			}
 		} else if (character == '{' || character == '[') {
 			brackets.push_back(character);

@@ -74,7 +74,7 @@ void take_property(const GltfObject &p_extras, std::string_view p_key, const Pro
 	r_properties[p_info.name] = convert_property(p_info, *value);
 }
 
-/// The first place that has the property, under its own name or another, decides.
+/// The first object that has the property, under its own name or another, decides.
 void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfObject> &p_extras,
 		PropertyValues &r_properties) {
 	for (const GltfObject &extras : p_extras) {
@@ -222,9 +222,9 @@ void set_property(Value &r_extras, const std::string &p_name, const PropertyValu
 
 } // namespace
 
-bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
+bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_sources,
 		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light) {
-	const tinygltf::Light &light = p_model.lights[p_places.light_index];
+	const tinygltf::Light &light = p_model.lights[p_sources.light_index];
 	if (light.type.empty()) {
 		return false;
 	}
@@ -239,7 +239,7 @@ bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
 	if (r_light.type == LightType::SPOT) {
 		read_cones(light.spot, r_light);
 	}
-	r_light.file_path = text("lights[", p_places.light_index, "]");
+	r_light.file_path = text("lights[", p_sources.light_index, "]");
 
 	std::vector<GltfObject> all_extras;
 	const auto add_extras = [&](const Value &p_extras, const std::string &p_path) {
@@ -248,10 +248,10 @@ bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
 		}
 	};
 	add_extras(light.extras, text("extensions.", GLTF_PUNCTUAL, ".", r_light.file_path));
-	for (const size_t node : p_places.nodes) {
+	for (const size_t node : p_sources.nodes) {
 		add_extras(p_model.nodes[node].extras, text("nodes[", node, "]"));
 	}
-	const bool has_area_size = p_places.area && read_area_size(*p_places.area, r_light.properties);
+	const bool has_area_size = p_sources.area && read_area_size(*p_sources.area, r_light.properties);
 	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
 		if (!(has_area_size && info.name == "light_size")) {
 			read_declared_property(info, all_extras, r_light.properties);

@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// Where one light's values stand: the first place that has a value wins (doc/scene_files.md).
-struct GltfLightPlaces {
+/// Where one light's values stand: the first object that has a value wins (doc/scene_files.md).
+struct GltfLightSources {
 	size_t light_index = 0;			// of KHR_lights_punctual's lights
 	std::optional<GltfObject> area; // an element of EXT_lights_area's lights
 	/// The node, and above it the object that Blender puts between a light and its parent.
@@ -20,7 +20,7 @@ struct GltfLightPlaces {
 
 /// Fills all of the light but its name and transform. False when it is of an unknown type. A
 /// refused property is reported and its default stays.
-bool read_light(const tinygltf::Model &p_model, const GltfLightPlaces &p_places,
+bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_sources,
 		const GltfLoadOptions &p_options, GltfMessages &r_messages, Light3D &r_light);
 
 /// Writes what differs from p_before (all, when null) into a definition of KHR_lights_punctual. A

@@ -10,7 +10,7 @@ namespace gnomon {
 
 /// A material's values. Refused values of its extras are reported and replaced by their defaults.
 /// Where a material with scatter has no scatter_distance, the attenuation distance of
-/// KHR_materials_volume takes its place: both state how far light comes before it meets something.
+/// KHR_materials_volume replaces it: both state how far light comes before it meets something.
 Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
 		GltfMessages &r_messages);
 

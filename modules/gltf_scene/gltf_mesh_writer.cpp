@@ -59,7 +59,7 @@ size_t GltfMeshWriter::append_mesh(
 		primitive.attributes = { { "POSITION", made.positions }, { "NORMAL", made.normals } };
 		primitive.indices = made.indices;
 		if (surface.material) {
-			primitive.material = static_cast<int>(place_material(*surface.material));
+			primitive.material = static_cast<int>(put_material(*surface.material));
 		}
 		mesh.primitives.push_back(std::move(primitive));
 	}
@@ -105,7 +105,7 @@ int GltfMeshWriter::append_accessor(
 	return append_element(model.accessors, std::move(p_accessor));
 }
 
-size_t GltfMeshWriter::place_material(const Material &p_material) {
+size_t GltfMeshWriter::put_material(const Material &p_material) {
 	if (const auto found = material_indices.find(&p_material); found != material_indices.end()) {
 		return found->second;
 	}
@@ -160,7 +160,7 @@ std::optional<size_t> GltfMeshWriter::change_materials(
 		if (surface.material &&
 				(surface.material->file_index >= 0 || primitive.material >= 0 ||
 						!(*surface.material == Material()))) {
-			primitive.material = static_cast<int>(place_material(*surface.material));
+			primitive.material = static_cast<int>(put_material(*surface.material));
 		}
 	}
 	if (mesh == loaded) {

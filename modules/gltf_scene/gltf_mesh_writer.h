@@ -24,7 +24,7 @@ public:
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	/// As append_mesh where the document has a mesh that differs in its materials alone: its
 	/// vertices and all that the program does not understand stay. Where the materials stay in
-	/// their places, it is that mesh itself. None: there is no such mesh.
+	/// their indices, it is that mesh itself. None: there is no such mesh.
 	std::optional<size_t> change_materials(const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	const std::vector<uint8_t> &get_bytes() const { return bytes; }
 
@@ -37,9 +37,9 @@ private:
 	Accessors append_vertices(const Mesh &p_mesh);
 	int append_accessor(
 			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
-	/// Index of the material. A changed one takes the place of that it came from, where the scene
+	/// Index of the material. A changed one replaces the one it came from, where the scene
 	/// does not use that any more; else it is appended.
-	size_t place_material(const Material &p_material);
+	size_t put_material(const Material &p_material);
 
 	std::optional<size_t> find_loaded_mesh(
 			const std::vector<MeshInstance3D::Surface> &p_surfaces) const;

@@ -45,8 +45,8 @@ std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint
 		std::sort(used.begin(), used.end());
 		used.erase(std::unique(used.begin(), used.end()), used.end());
 		for (uint32_t &index : r_indices) {
-			const auto place = std::lower_bound(used.begin(), used.end(), index);
-			index = static_cast<uint32_t>(place - used.begin());
+			const auto found = std::lower_bound(used.begin(), used.end(), index);
+			index = static_cast<uint32_t>(found - used.begin());
 		}
 		return used;
 	}
@@ -68,14 +68,14 @@ std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint
 }
 
 template <typename T>
-std::vector<T> gather(const std::vector<T> &p_vectors, const std::vector<uint32_t> &p_places) {
+std::vector<T> gather(const std::vector<T> &p_vectors, const std::vector<uint32_t> &p_indices) {
 	if (p_vectors.empty()) {
 		return {};
 	}
 	std::vector<T> gathered;
-	gathered.reserve(p_places.size());
-	for (const uint32_t place : p_places) {
-		gathered.push_back(p_vectors[place]);
+	gathered.reserve(p_indices.size());
+	for (const uint32_t index : p_indices) {
+		gathered.push_back(p_vectors[index]);
 	}
 	return gathered;
 }

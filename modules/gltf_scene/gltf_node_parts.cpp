@@ -99,10 +99,10 @@ std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
 }
 
-/// Puts a changed definition in the place of the old one, or behind the others where another node
+/// Puts a changed definition at the index of the old one, or behind the others where another node
 /// has put a different one there. Returns its index.
 template <typename T>
-size_t GltfNodeWriter::place_definition(std::vector<T> &r_list, Written<T> &r_written,
+size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_written,
 		std::optional<size_t> p_index, T p_definition) {
 	if (p_index) {
 		const auto [found, is_first] = r_written.try_emplace(*p_index, p_definition);
@@ -144,16 +144,16 @@ void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light
 	tinygltf::Node &target = get_node(p_entry);
 	tinygltf::Light definition;
 	std::optional<size_t> old_index;
-	std::vector<tinygltf::Node *> places;
+	std::vector<tinygltf::Node *> owners;
 	tinygltf::Value *area = nullptr;
 	if (before) {
 		old_index = static_cast<size_t>(
 				target.extensions.at(GLTF_PUNCTUAL).Get("light").GetNumberAsInt());
 		definition = document->model.lights[*old_index];
-		places.push_back(&target);
+		owners.push_back(&target);
 		if (const auto owner = document->blender_owners.find(p_entry.index);
 				owner != document->blender_owners.end()) {
-			places.push_back(&model.nodes[owner->second]);
+			owners.push_back(&model.nodes[owner->second]);
 		}
 		if (find_size(before->properties) != find_size(p_light.properties)) {
 			area = own_area_light(target);
@@ -162,8 +162,8 @@ void GltfNodeWriter::write_light_of(const Entry &p_entry, const Light3D &p_light
 		definition.name = p_light.name;
 		declare_extension(model, GLTF_PUNCTUAL);
 	}
-	write_light(p_light, before, definition, places, area);
-	const size_t index = place_definition(model.lights, lights, old_index, std::move(definition));
+	write_light(p_light, before, definition, owners, area);
+	const size_t index = put_definition(model.lights, lights, old_index, std::move(definition));
 	if (index != old_index) {
 		require_object(target.extensions[GLTF_PUNCTUAL])["light"] =
 				tinygltf::Value(static_cast<int>(index));
@@ -187,7 +187,7 @@ void GltfNodeWriter::write_camera(const Entry &p_entry, const Camera3D &p_camera
 	if (!had_camera || document->cameras.at(p_entry.index).second != values.second) {
 		definition.perspective.znear = to_shortest(values.second);
 	}
-	const size_t index = place_definition(model.cameras, cameras, old_index, std::move(definition));
+	const size_t index = put_definition(model.cameras, cameras, old_index, std::move(definition));
 	get_node(p_entry).camera = static_cast<int>(index);
 }
 

@@ -59,7 +59,7 @@ bool GltfNodeWriter::is_part(const Node3D &p_node, const Entry *p_parent) const 
 					document->cameras.contains(p_parent->index));
 }
 
-/// Finds or makes the node's place in the file. Nothing for a part, which shares its parent's.
+/// Finds or makes the node's entry in the file. Nothing for a part, which shares its parent's.
 std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *p_parent) {
 	Entry &entry = *entries.emplace_back(std::make_unique<Entry>());
 	entry.node = &p_node;
@@ -69,9 +69,9 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 		return std::nullopt;
 	}
 	const size_t file_index = static_cast<size_t>(p_node.file_index);
-	const bool has_place = document && p_node.file_index >= 0 && file_index < document->nodes.size() &&
+	const bool is_in_file = document && p_node.file_index >= 0 && file_index < document->nodes.size() &&
 			document->nodes[file_index].is_loaded && taken.insert(file_index).second;
-	entry.is_new = !has_place;
+	entry.is_new = !is_in_file;
 	entry.index = file_index;
 	if (entry.is_new) {
 		model.nodes.emplace_back();

@@ -57,7 +57,7 @@ private:
 	void drop_lost_children();
 	void write_scene(const Scene &p_scene, const std::vector<size_t> &p_roots);
 	template <typename T>
-	static size_t place_definition(std::vector<T> &r_list, Written<T> &r_written,
+	static size_t put_definition(std::vector<T> &r_list, Written<T> &r_written,
 			std::optional<size_t> p_index, T p_definition);
 
 	const GltfDocument *document;

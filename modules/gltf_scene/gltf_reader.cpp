@@ -41,7 +41,7 @@ public:
 			GltfDocument &r_document, GltfMessages &r_messages, const GltfLoadOptions &p_options) :
 			document(r_document),
 			model(r_document.model), options(p_options), messages(r_messages),
-			buffers(GltfObject(r_document.container.json, "", r_messages), r_document.place,
+			buffers(GltfObject(r_document.container.json, "", r_messages), r_document.location,
 					get_bin_chunk()),
 			accessors(model, buffers, messages), textures(buffers.get_root(), model, buffers),
 			meshes(model, accessors, textures, messages) {}
@@ -83,8 +83,8 @@ void GltfReader::read(Scene &r_scene) {
 	// A stack of our own visits children in order: those of a node are pushed last first.
 	std::vector<std::pair<size_t, Node3D *>> pending;
 	const auto push = [&](const std::vector<size_t> &p_indices, Node3D *p_parent) {
-		for (size_t place = p_indices.size(); place-- > 0;) {
-			pending.emplace_back(p_indices[place], p_parent);
+		for (size_t index = p_indices.size(); index-- > 0;) {
+			pending.emplace_back(p_indices[index], p_parent);
 		}
 	};
 	push(choose_scene(tree, r_scene), r_scene.root.get());
@@ -127,10 +127,10 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 	document.scene_size_m = r_scene.scene_size_m;
 	std::vector<size_t> roots;
 	std::set<size_t> seen;
-	for (size_t place = 0; place < scene.nodes.size(); ++place) {
-		const size_t index = static_cast<size_t>(scene.nodes[place]);
+	for (size_t i = 0; i < scene.nodes.size(); ++i) {
+		const size_t index = static_cast<size_t>(scene.nodes[i]);
 		if (p_tree.parents[index] != GltfTree::NONE || !seen.insert(index).second) {
-			messages.fail(text(path, ".nodes[", place, "]"),
+			messages.fail(text(path, ".nodes[", i, "]"),
 					text("is ", index,
 							", which stands elsewhere in the tree too. Export it again."));
 		}
@@ -266,14 +266,14 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 		}
 		return nullptr;
 	}
-	GltfLightPlaces places{ static_cast<size_t>(reference->Get("light").GetNumberAsInt()), area,
+	GltfLightSources sources{ static_cast<size_t>(reference->Get("light").GetNumberAsInt()), area,
 		{ p_index } };
 	if (const std::optional<size_t> owner = find_blender_owner(p_index, p_tree, model)) {
-		places.nodes.push_back(*owner);
+		sources.nodes.push_back(*owner);
 		document.blender_owners[p_index] = *owner;
 	}
 	auto light = std::make_unique<Light3D>();
-	if (!read_light(model, places, options, messages, *light)) {
+	if (!read_light(model, sources, options, messages, *light)) {
 		return nullptr;
 	}
 	for (const auto &[name, value] : light->properties) {
@@ -285,7 +285,7 @@ std::unique_ptr<Light3D> GltfReader::read_light_node(
 				text("make more than ", GLTF_MAX_LIGHT_VALUE_COUNT,
 						" values in all nodes with lights. Shorten them, or split the scene."));
 	}
-	r_name = make_name(model.lights[places.light_index].name, text("Light ", places.light_index));
+	r_name = make_name(model.lights[sources.light_index].name, text("Light ", sources.light_index));
 	return light;
 }
 
@@ -322,23 +322,23 @@ void GltfReader::remember(size_t p_index, const Node3D &p_node) {
 }
 
 /// Where the file stands, and what it may refer to.
-GltfPlace find_place(const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
-	GltfPlace place;
-	place.folder = std::filesystem::absolute(p_path).parent_path();
-	place.project_folder =
-			p_options.project_folder.empty() ? place.folder : p_options.project_folder;
-	if (!is_inside_folder(p_path, place.project_folder)) {
-		fail("\"", p_path.string(), "\" lies outside of the project folder ", place.project_folder,
+GltfLocation find_location(const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
+	GltfLocation location;
+	location.folder = std::filesystem::absolute(p_path).parent_path();
+	location.project_folder =
+			p_options.project_folder.empty() ? location.folder : p_options.project_folder;
+	if (!is_inside_folder(p_path, location.project_folder)) {
+		fail("\"", p_path.string(), "\" lies outside of the project folder ", location.project_folder,
 				". Move it into the project.");
 	}
-	return place;
+	return location;
 }
 
 } // namespace
 
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
-	find_place(p_path, p_options); // refuses a file elsewhere before it is read
+	find_location(p_path, p_options); // refuses a file elsewhere before it is read
 	return parse_gltf(load_file(p_path, GLTF_MAX_FILE_BYTES), p_path, p_options);
 }
 
@@ -347,7 +347,7 @@ std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 	GltfMessages messages{ p_path.string(), {} };
 	auto document = std::make_shared<GltfDocument>();
 	document->file = p_path.string();
-	document->place = find_place(p_path, p_options);
+	document->location = find_location(p_path, p_options);
 	document->container = parse_gltf_container(p_bytes, messages);
 	auto scene = std::make_unique<Scene>();
 	scene->path = p_path.string();

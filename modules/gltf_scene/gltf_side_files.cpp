@@ -16,14 +16,14 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 }
 
 /// Copies what an element's relative URI names next to the target.
-void copy_uri(const GltfObject &p_object, const GltfPlace &p_place, bool p_is_required,
+void copy_uri(const GltfObject &p_object, const GltfLocation &p_location, bool p_is_required,
 		Json &r_json, GltfSideFiles &r_files) {
 	const Json *uri = p_object.find("uri");
 	if (!uri || !uri->is_string() || is_data_uri(uri->get_ref<const std::string &>())) {
 		return;
 	}
 	try {
-		const fs::path path = resolve_uri(uri->get_ref<const std::string &>(), p_place, p_object);
+		const fs::path path = resolve_uri(uri->get_ref<const std::string &>(), p_location, p_object);
 		std::vector<uint8_t> bytes = load_file(path, GLTF_MAX_FILE_BYTES);
 		r_json["uri"] = encode_uri(r_files.add(path.filename().string(), std::move(bytes)));
 	} catch (const Error &error) {
@@ -80,12 +80,12 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	const size_t buffer_count = root.get_count("buffers");
 	const auto &bin_chunk = p_document.container.bin_chunk;
 	const fs::path folder = fs::absolute(p_target).parent_path();
-	const bool is_moved = !is_same_folder(folder, p_document.place.folder);
+	const bool is_moved = !is_same_folder(folder, p_document.location.folder);
 	for (size_t index = 0; index < buffer_count; ++index) {
 		const GltfObject buffer = root.get_element("buffers", index);
 		Json &json = r_container.json["buffers"][index];
 		if (index == 0 && p_form == GltfForm::BINARY && !bin_chunk && buffer.find("uri")) {
-			GltfBuffers buffers(root, p_document.place, nullptr);
+			GltfBuffers buffers(root, p_document.location, nullptr);
 			const auto bytes = buffers.load_buffer(index);
 			r_container.bin_chunk.emplace(bytes.begin(), bytes.end());
 			json.erase("uri");
@@ -93,7 +93,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 			const std::string name = p_target.stem().string() + ".bin";
 			json["uri"] = encode_uri(r_files.add(name, *bin_chunk));
 		} else if (is_moved) {
-			copy_uri(buffer, p_document.place, true, json, r_files);
+			copy_uri(buffer, p_document.location, true, json, r_files);
 		}
 	}
 	if (p_form == GltfForm::TEXT) {
@@ -102,7 +102,7 @@ void relocate_container(const GltfDocument &p_document, const fs::path &p_target
 	}
 	const size_t image_count = is_moved ? root.get_count("images") : 0;
 	for (size_t index = 0; index < image_count; ++index) {
-		copy_uri(root.get_element("images", index), p_document.place, false,
+		copy_uri(root.get_element("images", index), p_document.location, false,
 				r_container.json["images"][index], r_files);
 	}
 }

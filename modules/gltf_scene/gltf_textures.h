@@ -15,7 +15,7 @@ namespace gnomon {
 /// shows it has no texture then.
 class GltfTextures {
 public:
-	/// p_root: the document as it was read, for the images' places. All must outlive it.
+	/// p_root: the document as it was read, for the images' locations. All must outlive it.
 	GltfTextures(const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers);
 
 	/// p_info: a TextureInfo of tinygltf, also that of a normal or occlusion map.

@@ -17,10 +17,10 @@ const double RECOMPOSED_TOLERANCE = 1e-13;
 void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMessages &p_messages,
 		GltfTree &r_tree) {
 	const std::vector<int> &children = p_model.nodes[p_index].children;
-	for (size_t place = 0; place < children.size(); ++place) {
-		const size_t child = static_cast<size_t>(children[place]);
+	for (size_t index = 0; index < children.size(); ++index) {
+		const size_t child = static_cast<size_t>(children[index]);
 		if (r_tree.parents[child] != GltfTree::NONE) {
-			p_messages.fail(text("nodes[", p_index, "].children[", place, "]"),
+			p_messages.fail(text("nodes[", p_index, "].children[", index, "]"),
 					text("is ", child, ", which is a child of nodes[", r_tree.parents[child],
 							"] already. Give it one parent, or export the file again."));
 		}

@@ -15,7 +15,7 @@ namespace gnomon {
 ///
 /// Bones are those of the RenderingServer, which it draws with: after all SkeletonModifier3Ds,
 /// whose result Skeleton3D itself gives up again. They move vertices in the space of the
-/// MeshInstance3D, wherever that is, as if its Skeleton3D were at the same place.
+/// MeshInstance3D, wherever that is, as if its Skeleton3D were at the same position.
 class PoseReader {
 public:
 	/// Gives the instance its pose; p_rest: its mesh, the surface's, has a rig. Bones beyond those

@@ -144,7 +144,7 @@ std::string write_class_documentation() {
 			"\t\tAs child of an [OmniLight3D], a [SpotLight3D] or a [DirectionalLight3D], in the "
 			"renderer Forward+. It makes the light's shadow mask, what share of the light each "
 			"pixel of a viewport gets, before that viewport's opaque objects are drawn, and "
-			"materials read it in place of Godot's shadow of that light. The size "
+			"materials read it instead of Godot's shadow of that light. The size "
 			"of the light is its own [member Light3D.light_size] or [member "
 			"Light3D.light_angular_distance]. While this node is hidden it makes none.\n"
 			"\t</description>\n\t<methods>\n"

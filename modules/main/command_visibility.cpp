@@ -106,7 +106,7 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 					[](float p_receiver) { return p_receiver <= 0.0f; })) {
 			log_warning("Light \"", light.name, "\" lights nothing that camera \"", camera.name,
 					"\" sees: the mask has no receivers, and no error can be measured. Check ",
-					"their places and the light's range and cone.");
+					"their positions and the light's range and cone.");
 		}
 		if (!p_options.png.empty()) {
 			save_mask_png(

@@ -141,17 +141,17 @@ void pose_as_requested(Scene &r_scene, const CommonOptions &p_common) {
 
 std::unique_ptr<Scene> load_scene(
 		const fs::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px) {
-	const ProjectScene place = find_project_scene(p_path);
-	disable_modules(place.project);
+	const ProjectScene found = find_project_scene(p_path);
+	disable_modules(found.project);
 	apply_technique_settings(place.project);
 	GltfLoadOptions options;
-	options.project_folder = place.project.folder;
+	options.project_folder = found.project.folder;
 	options.find_technique_property = &find_added_light_property;
-	std::unique_ptr<Scene> scene = load_gltf(place.scene_path, options);
+	std::unique_ptr<Scene> scene = load_gltf(found.scene_path, options);
 	const std::vector<MeshInstance3D *> meshes = scene->find_nodes<MeshInstance3D>();
 	if (std::all_of(meshes.begin(), meshes.end(),
 				[](const MeshInstance3D *p_mesh) { return p_mesh->compute_bounds().is_empty(); })) {
-		fail("Scene ", place.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
+		fail("Scene ", found.scene_path, meshes.empty() ? " has no mesh" : " has no triangles",
 				". Add some in the program that wrote the file.");
 	}
 	pose_as_requested(*scene, p_common);
@@ -247,7 +247,7 @@ void check_writable(const fs::path &p_path) {
 			fs::is_directory(p_path, code)) {
 		fail("Cannot write ", p_path,
 				": its folder must exist and be writable, and it must not be ",
-				"a folder itself. Choose another place.");
+				"a folder itself. Choose another location.");
 	}
 }
 

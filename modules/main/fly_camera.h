@@ -16,7 +16,7 @@ public:
 	void move(const glm::dvec3 &p_direction, double p_seconds, bool p_is_fast);
 	/// Radians; pitch stays short of straight up and down.
 	void turn(double p_yaw_rad, double p_pitch_rad);
-	/// Writes the place into a camera whose parent is the root.
+	/// Writes the position into a camera whose parent is the root.
 	void apply(Camera3D &r_camera) const;
 
 private:

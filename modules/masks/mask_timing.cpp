@@ -24,11 +24,11 @@ void TimingSamples::add_frame(const std::vector<PassCost> &p_passes) {
 	PassCost sum;
 	double cost_ms = 0;
 	for (const PassCost &pass : p_passes) {
-		auto place = std::ranges::find(passes, pass.name, &Values::name);
-		if (place == passes.end()) {
-			place = passes.insert(place, { pass.name });
+		auto found = std::ranges::find(passes, pass.name, &Values::name);
+		if (found == passes.end()) {
+			found = passes.insert(found, { pass.name });
 		}
-		Values &values = *place;
+		Values &values = *found;
 		values.gpu_ms.push_back(pass.gpu_ms);
 		values.wall_ms.push_back(pass.wall_ms);
 		values.is_on_host = pass.is_on_host;

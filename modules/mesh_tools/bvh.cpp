@@ -29,7 +29,7 @@ bool is_usable(const Bounds &p_box) {
 			p_box.minimum.z <= p_box.maximum.z;
 }
 
-/// Infinite boxes are clamped: their place in the tree then has a number.
+/// Infinite boxes are clamped: their position in the tree then has a number.
 glm::dvec3 get_centre(const Bounds &p_box) {
 	const glm::dvec3 limit(1e150);
 	return 0.5 * glm::clamp(p_box.minimum, -limit, limit) +
@@ -43,8 +43,8 @@ struct BuildItem {
 };
 
 int find_bin(double p_centre, double p_minimum, double p_maximum) {
-	const double place = (p_centre - p_minimum) / (p_maximum - p_minimum);
-	return std::clamp(static_cast<int>(place * BIN_COUNT), 0, BIN_COUNT - 1);
+	const double position = (p_centre - p_minimum) / (p_maximum - p_minimum);
+	return std::clamp(static_cast<int>(position * BIN_COUNT), 0, BIN_COUNT - 1);
 }
 
 /// Reorders the items and returns how many go left, by the surface area heuristic over bins of the

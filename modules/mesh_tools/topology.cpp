@@ -68,10 +68,10 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 		}
 		const glm::vec3 position = p_mesh.positions_node[index] + 0.0f; // -0 becomes 0
 		const uint32_t next = static_cast<uint32_t>(r_topology.welded_positions_node.size());
-		const auto place = std::bit_cast<std::array<uint32_t, 3>>(position);
+		const auto bits = std::bit_cast<std::array<uint32_t, 3>>(position);
 		const uint64_t motion = rig ? rig->compute_vertex_hash(index) : 0;
 		const auto [vertex, is_new] = vertices.emplace(
-				Bits{ place[0], place[1], place[2], uint32_t(motion), uint32_t(motion >> 32) },
+				Bits{ bits[0], bits[1], bits[2], uint32_t(motion), uint32_t(motion >> 32) },
 				next);
 		welded = vertex->second;
 		if (is_new) {

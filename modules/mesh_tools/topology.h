@@ -10,9 +10,9 @@
 
 namespace gnomon {
 
-/// In place of a face index: the edge is a boundary.
+/// Instead of a face index: the edge is a boundary.
 constexpr uint32_t NO_FACE = 0xffffffffu;
-/// In place of a welded vertex: no triangle uses the position.
+/// Instead of a welded vertex: no triangle uses the position.
 constexpr uint32_t NO_VERTEX = 0xffffffffu;
 
 /// What the edges allow a shadow algorithm to assume. Decided by edges alone: two parts that touch

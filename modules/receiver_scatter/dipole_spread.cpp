@@ -81,9 +81,9 @@ float DipoleSpread::compute_radius_m(
 }
 
 float DipoleSpread::compute_distance(float p_share) const {
-	const float place = std::clamp(p_share, 0.0f, 1.0f) * TABLE_SIZE;
-	const uint32_t index = std::min(static_cast<uint32_t>(place), TABLE_SIZE - 1);
-	const float fraction = place - static_cast<float>(index);
+	const float position = std::clamp(p_share, 0.0f, 1.0f) * TABLE_SIZE;
+	const uint32_t index = std::min(static_cast<uint32_t>(position), TABLE_SIZE - 1);
+	const float fraction = position - static_cast<float>(index);
 	return distances[index] + fraction * (distances[index + 1] - distances[index]);
 }
 

@@ -31,10 +31,10 @@ struct Taps {
 std::vector<Taps> find_taps(uint32_t p_from, uint32_t p_to) {
 	std::vector<Taps> taps(p_to);
 	const double scale = double(p_from) / p_to; // 1, 2, or between 2 and 3 of odd sizes
-	for (uint32_t place = 0; place < p_to; ++place) {
-		const double low = place * scale;
-		const double high = std::min((place + 1) * scale, double(p_from));
-		Taps &tap = taps[place];
+	for (uint32_t index = 0; index < p_to; ++index) {
+		const double low = index * scale;
+		const double high = std::min((index + 1) * scale, double(p_from));
+		Taps &tap = taps[index];
 		tap.first = static_cast<uint32_t>(low);
 		for (uint32_t texel = tap.first; texel < high && tap.count < 3; ++texel) {
 			const double covered = std::min(high, texel + 1.0) - std::max(low, double(texel));
@@ -88,7 +88,7 @@ void append_level(const uint8_t *p_from, glm::uvec2 p_from_px, glm::uvec2 p_to_p
 	}
 }
 
-shader::TexturePlace make_place(const Texture &p_texture) {
+shader::TextureTransform make_texture_transform(const Texture &p_texture) {
 	const glm::mat3x2 &transform = p_texture.transform;
 	return { glm::vec4(transform[0].x, transform[1].x, transform[2].x,
 					 p_texture.uv_set == 1 ? 1.0f : 0.0f),
@@ -97,11 +97,11 @@ shader::TexturePlace make_place(const Texture &p_texture) {
 
 shader::MaterialConstants make_constants(const Material &p_material) {
 	shader::MaterialConstants constants = {};
-	constants.base_color = make_place(p_material.base_color_texture);
-	constants.metallic_roughness = make_place(p_material.metallic_roughness_texture);
-	constants.normal = make_place(p_material.normal_texture);
-	constants.occlusion = make_place(p_material.occlusion_texture);
-	constants.emissive = make_place(p_material.emissive_texture);
+	constants.base_color = make_texture_transform(p_material.base_color_texture);
+	constants.metallic_roughness = make_texture_transform(p_material.metallic_roughness_texture);
+	constants.normal = make_texture_transform(p_material.normal_texture);
+	constants.occlusion = make_texture_transform(p_material.occlusion_texture);
+	constants.emissive = make_texture_transform(p_material.emissive_texture);
 	constants.alpha = p_material.alpha;
 	constants.alpha_cutoff = p_material.is_cut_out() ? p_material.alpha_cutoff : -1.0f;
 	constants.normal_scale = p_material.normal_scale;

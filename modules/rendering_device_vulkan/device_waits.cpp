@@ -81,15 +81,15 @@ void VulkanDevice::fail_as_hung(uint64_t p_finished_number) {
 			stuck = &slot;
 		}
 	}
-	std::string place = "before any pass began";
+	std::string where = "before any pass began";
 	if (stuck && !stuck->span_names.empty()) {
 		const size_t begun_count = count_begun_spans(*stuck);
-		place = begun_count > 0
+		where = begun_count > 0
 				? text("in pass '", stuck->span_names[begun_count - 1], "' (last pass that began)")
 				: text("before pass '", stuck->span_names.front(), "' began");
 	}
 	is_hung = true;
-	lost_text = text("The device has made no progress for ", wait_limit_s, " s, ", place,
+	lost_text = text("The device has made no progress for ", wait_limit_s, " s, ", where,
 			". Lower the sizes this pass works with, choose another device with --device, or let "
 			"it take longer: GNOMON_DEVICE_TIMEOUT_S is the limit in seconds, 0 = none.");
 	throw DeviceLost(lost_text);

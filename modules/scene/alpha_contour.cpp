@@ -12,7 +12,7 @@ namespace {
 const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
 const double ALPHA_SUM_OF_ONE = 4 * 255.0;
 
-/// The places along one axis where alpha is looked up: the tile's border and the texels' centres,
+/// The positions along one axis where alpha is looked up: the tile's border and the texels' centres,
 /// and one beyond either end where nothing is there, which closes what reaches the border.
 class NodeAxis {
 public:
@@ -22,7 +22,7 @@ public:
 	int64_t get_count() const { return int64_t(texel_count) + 4; }
 	bool is_beyond(int64_t p_node) const { return p_node == 0 || p_node == get_count() - 1; }
 	bool is_border(int64_t p_node) const { return p_node == 1 || p_node == get_count() - 2; }
-	int32_t get_place(int64_t p_node) const {
+	int32_t get_position(int64_t p_node) const {
 		const int64_t end = int64_t(texel_count) * UNITS;
 		return static_cast<int32_t>(std::clamp<int64_t>((p_node - 2) * UNITS + UNITS / 2, 0, end));
 	}
@@ -112,8 +112,8 @@ glm::ivec2 ContourFinder::get_crossing(
 		std::swap(from, to);
 	}
 	const glm::ivec2 a(
-			columns.get_place(p_x + CORNER_X[from]), rows.get_place(p_y + CORNER_Y[from]));
-	const glm::ivec2 b(columns.get_place(p_x + CORNER_X[to]), rows.get_place(p_y + CORNER_Y[to]));
+			columns.get_position(p_x + CORNER_X[from]), rows.get_position(p_y + CORNER_Y[from]));
+	const glm::ivec2 b(columns.get_position(p_x + CORNER_X[to]), rows.get_position(p_y + CORNER_Y[to]));
 	const int length = (b.x - a.x) + (b.y - a.y);
 	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) {
 		return p_alphas[from] < 0 ? b : a;
@@ -242,17 +242,17 @@ PolygonLoop SquareFinder::walk(glm::ivec2 p_corner, std::vector<uint8_t> &r_is_w
 		p_corner += DIRECTIONS[direction];
 		const int left = (direction + 1) % 4;
 		const int right = (direction + 3) % 4;
-		const glm::ivec2 place = p_corner * UNITS;
+		const glm::ivec2 position = p_corner * UNITS;
 		if (is_border(p_corner, left)) {
 			if (is_border(p_corner, right)) { // two texels meet in a point: they are parted there
-				loop.push_back(place - DIRECTIONS[direction]);
-				loop.push_back(place + DIRECTIONS[left]);
+				loop.push_back(position - DIRECTIONS[direction]);
+				loop.push_back(position + DIRECTIONS[left]);
 			} else {
-				loop.push_back(place);
+				loop.push_back(position);
 			}
 			direction = left;
 		} else if (is_border(p_corner, right)) {
-			loop.push_back(place);
+			loop.push_back(position);
 			direction = right;
 		}
 	}

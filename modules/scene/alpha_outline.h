@@ -28,7 +28,7 @@ struct AlphaOutline {
 
 /// The contour by marching squares through texels' centres: crossings are interpolated, a saddle is
 /// decided by the mean of its four; simplified without crossings to within p_tolerance_px, texels.
-/// At the tile's border it is closed, at the same places on either side where the texture repeats.
+/// At the tile's border it is closed, at the same points on either side where the texture repeats.
 /// Of a nearest sampler the squares of its texels, simplified where the tolerance is half of one or
 /// more.
 ///

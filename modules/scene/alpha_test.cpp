@@ -46,15 +46,15 @@ float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv) {
 		return 0.0f;
 	}
 	const Image &image = *p_test.image;
-	const glm::dvec2 place(wrap(p_uv.x, p_test.wrap_u) * image.size_px.x,
+	const glm::dvec2 position(wrap(p_uv.x, p_test.wrap_u) * image.size_px.x,
 			wrap(p_uv.y, p_test.wrap_v) * image.size_px.y);
 	if (p_test.is_nearest) {
-		return image.get_texel(std::min(static_cast<uint32_t>(place.x), image.size_px.x - 1),
-					   std::min(static_cast<uint32_t>(place.y), image.size_px.y - 1))[3] /
+		return image.get_texel(std::min(static_cast<uint32_t>(position.x), image.size_px.x - 1),
+					   std::min(static_cast<uint32_t>(position.y), image.size_px.y - 1))[3] /
 				255.0f;
 	}
-	const glm::dvec2 first = glm::floor(place - 0.5);
-	const glm::dvec2 share = place - 0.5 - first;
+	const glm::dvec2 first = glm::floor(position - 0.5);
+	const glm::dvec2 share = position - 0.5 - first;
 	double alpha = 0;
 	for (const int y : { 0, 1 }) {
 		for (const int x : { 0, 1 }) {

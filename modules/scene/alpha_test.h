@@ -24,7 +24,7 @@ AlphaTest make_alpha_test(const Material &p_material);
 /// Of all that it tests, texels included; of a null image of the rest.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);
 
-/// Alpha at a place of an image, 0..1, as a sampler reads its first level. p_uv: 1 is the image's
+/// Alpha at a point of an image, 0..1, as a sampler reads its first level. p_uv: 1 is the image's
 /// width and height. Beyond the image as its wrapping defines; 0 where a coordinate is not finite.
 float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv);
 

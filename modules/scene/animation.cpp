@@ -210,11 +210,11 @@ std::shared_ptr<const Animation> find_animation(const Scene &p_scene, const std:
 		}
 		names += index >= SHOWN_COUNT ? "" : (index == 0 ? "\"" : ", \"") + name + "\"";
 	}
-	const std::string place = p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
+	const std::string subject = p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
 	if (names.empty()) {
-		fail(place, " has no animation \"", p_name, "\", and no other. Leave the name out.");
+		fail(subject, " has no animation \"", p_name, "\", and no other. Leave the name out.");
 	}
-	fail(place, " has no animation \"", p_name, "\". Name one of these: ", names,
+	fail(subject, " has no animation \"", p_name, "\". Name one of these: ", names,
 			p_scene.animations.size() > SHOWN_COUNT
 					? text(" and ", p_scene.animations.size() - SHOWN_COUNT, " more.")
 					: ".");

@@ -20,19 +20,19 @@ const double COARSE_TOLERANCE_PX = 0.25;
 // Where a tile repeats on a triangle, what its outline lacks repeats too, and does not average out.
 const double REPEATED_TEXELS = 2;
 
-/// The longest that a texel is on a triangle: the greatest singular value of the change of place
+/// The longest that a texel is on a triangle: the greatest singular value of the change of position
 /// with the texel; times REPEATED_TEXELS where the triangle shows more texels than there are. 0
 /// where all of it shows one line of texels.
 double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t p_triangle) {
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[p_texture.uv_set];
 	const glm::dmat3x2 transform(p_texture.transform);
 	glm::dvec2 texels[3];
-	glm::dvec3 places[3];
+	glm::dvec3 corners[3];
 	for (int corner = 0; corner < 3; ++corner) {
 		const uint32_t index = p_mesh.indices[3 * size_t(p_triangle) + corner];
 		const glm::dvec2 uv = uvs.empty() ? glm::dvec2(0.0) : glm::dvec2(uvs[index]);
 		texels[corner] = transform * glm::dvec3(uv, 1.0) * glm::dvec2(p_texture.image->size_px);
-		places[corner] = glm::dvec3(p_mesh.positions_node[index]);
+		corners[corner] = glm::dvec3(p_mesh.positions_node[index]);
 	}
 	const glm::dvec2 s = texels[1] - texels[0];
 	const glm::dvec2 t = texels[2] - texels[0];
@@ -42,8 +42,8 @@ double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t
 	}
 	const bool is_repeated =
 			std::abs(area) / 2 > double(p_texture.image->size_px.x) * p_texture.image->size_px.y;
-	const glm::dvec3 a = places[1] - places[0];
-	const glm::dvec3 b = places[2] - places[0];
+	const glm::dvec3 a = corners[1] - corners[0];
+	const glm::dvec3 b = corners[2] - corners[0];
 	const glm::dvec3 along_x = (a * t.y - b * s.y) / area;
 	const glm::dvec3 along_y = (b * s.x - a * t.x) / area;
 	const double xx = glm::dot(along_x, along_x);

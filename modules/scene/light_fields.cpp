@@ -35,7 +35,7 @@ bool is_spot(const Node3D &p_node) {
 	return to<Light3D>(p_node).type == LightType::SPOT;
 }
 
-bool has_place(const Node3D &p_node) {
+bool has_position(const Node3D &p_node) {
 	return to<Light3D>(p_node).type != LightType::DIRECTIONAL;
 }
 
@@ -72,7 +72,7 @@ std::vector<NodeField> make_light_fields() {
 		{ make_info("range", PropertyType::FLOAT, 0.0, "0,1000000,0.1",
 				  "How far the light reaches. 0 is unlimited.", "m", "Light"),
 				&read_number<Light3D, &Light3D::range_m>, &write_number<Light3D, &Light3D::range_m>,
-				&has_place },
+				&has_position },
 		{ make_info("inner_cone", PropertyType::FLOAT, 0.0, "0,89.9,0.1",
 				  "Half angle within which a spot light has its full brightness.", "deg", "Light"),
 				&read_degrees<Light3D, &Light3D::inner_cone_rad>, &write_inner_cone, &is_spot },

@@ -12,7 +12,7 @@ namespace {
 
 // Poses after which an unused mesh is dropped: of a material that is gone.
 const uint64_t LONGEST_UNUSED = 100;
-const double GREATEST_PLACE_M = 1e18; // its square is a float
+const double GREATEST_POSITION_M = 1e18; // its square is a float
 
 void check_finite(std::span<const glm::dmat4> p_joints, std::span<const float> p_weights,
 		const std::string &p_object) {
@@ -38,11 +38,11 @@ std::vector<glm::vec3> move_points(
 	std::vector<glm::vec3> moved;
 	moved.reserve(p_pieces.source.points.size());
 	for (const TrianglePoint &point : p_pieces.source.points) {
-		glm::dvec3 place(0.0);
+		glm::dvec3 position(0.0);
 		for (int corner = 0; corner < 3; ++corner) {
-			place += double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
+			position += double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
 		}
-		moved.emplace_back(place);
+		moved.emplace_back(position);
 	}
 	return moved;
 }
@@ -58,10 +58,10 @@ MeshPose::MeshPose(std::shared_ptr<const Mesh> p_rest, std::vector<glm::dmat4> p
 	const glm::dvec3 least = bounds.minimum;
 	const glm::dvec3 most = bounds.maximum;
 	for (int axis = 0; axis < 3; ++axis) {
-		if (!(std::abs(least[axis]) <= GREATEST_PLACE_M &&
-					std::abs(most[axis]) <= GREATEST_PLACE_M)) {
+		if (!(std::abs(least[axis]) <= GREATEST_POSITION_M &&
+					std::abs(most[axis]) <= GREATEST_POSITION_M)) {
 			fail(p_object, ": its pose moves vertices to ", least[axis], "..", most[axis],
-					" m, must be within ", GREATEST_PLACE_M,
+					" m, must be within ", GREATEST_POSITION_M,
 					" m. Correct its joints' transforms, its inverse bind matrices or its "
 					"weights.");
 		}

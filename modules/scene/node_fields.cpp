@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/scene/mesh_rig.h"
 #include "modules/scene/node_members.h"
-#include "modules/scene/skin_places.h"
+#include "modules/scene/skin_transforms.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/euler_angles.hpp>
@@ -86,7 +86,7 @@ bool is_staged(const Node3D &p_node) {
 
 std::vector<NodeField> make_node_fields() {
 	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), LENGTHS,
-					   "Place of the node in its parent.", "m", "Transform"),
+					   "Transform of the node in its parent.", "m", "Transform"),
 					 &read_position, &write_position },
 		{ make_info("rotation", PropertyType::VECTOR3, glm::dvec3(0.0), "-360,360,1",
 				  "Turn about y, then x, then z.", "deg", "Transform"),
@@ -182,12 +182,12 @@ Bounds MeshInstance3D::compute_bounds() const {
 		if (!surface.mesh || surface.mesh->indices.empty()) {
 			continue;
 		}
-		const SkinPlaces places =
-				place_surface(*this, *surface.mesh, world_from_node, world_from_nodes);
+		const SkinTransforms transforms =
+				compute_surface_transforms(*this, *surface.mesh, world_from_node, world_from_nodes);
 		const Bounds own = surface.mesh->attributes.rig
-				? bound_deformed_vertices(*surface.mesh, places.joints, get_morph_weights())
+				? bound_deformed_vertices(*surface.mesh, transforms.joints, get_morph_weights())
 				: surface.mesh->bounds_node;
-		bounds.add(transform_bounds(own, places.world_from_mesh));
+		bounds.add(transform_bounds(own, transforms.world_from_mesh));
 	}
 	return bounds;
 }

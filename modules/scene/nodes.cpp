@@ -54,9 +54,9 @@ std::shared_ptr<PoseSlot> MeshInstance3D::get_pose_slot(
 
 void Scene::fail_unknown_node(const char *p_kind, const std::string &p_name,
 		const std::vector<std::string> &p_names) const {
-	const std::string place = path.empty() ? "The scene" : "Scene \"" + path + "\"";
+	const std::string subject = path.empty() ? "The scene" : "Scene \"" + path + "\"";
 	if (p_names.empty()) {
-		fail(place, " has no ", p_kind, " \"", p_name, "\", and no other ", p_kind,
+		fail(subject, " has no ", p_kind, " \"", p_name, "\", and no other ", p_kind,
 				". Add one to the scene.");
 	}
 	const size_t SHOWN_COUNT = 20; // enough to choose from; a scene can hold thousands
@@ -67,7 +67,7 @@ void Scene::fail_unknown_node(const char *p_kind, const std::string &p_name,
 	if (p_names.size() > SHOWN_COUNT) {
 		list += text(" and ", p_names.size() - SHOWN_COUNT, " more");
 	}
-	fail(place, " has no ", p_kind, " \"", p_name, "\". Name one of these: ", list, ".");
+	fail(subject, " has no ", p_kind, " \"", p_name, "\". Name one of these: ", list, ".");
 }
 
 const char *get_light_type_name(LightType p_type) {

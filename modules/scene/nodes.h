@@ -32,13 +32,13 @@ struct NodeGizmo {
 	double value_per_m = 1;
 };
 
-/// A place in the scene tree. Transforms are double, so that a scene far from the origin loses
+/// A node of the scene tree. Transforms are double, so that a scene far from the origin loses
 /// nothing before it is made relative to the camera.
 class Node3D {
 public:
 	std::string name; // unique in its scene
 	glm::dmat4 parent_from_node = glm::dmat4(1.0);
-	/// Where an animation has the node now, in place of the above. Not saved, nor copied.
+	/// Where an animation has the node now, instead of the above. Not saved, nor copied.
 	std::optional<glm::dmat4> posed_parent_from_node;
 	std::vector<std::unique_ptr<Node3D>> children;
 	Node3D *parent = nullptr; // null at the root; set by add_child
@@ -90,7 +90,7 @@ struct Skin {
 	int frame = -1;
 };
 
-/// One or more meshes at a place; a mesh has one material.
+/// One or more meshes with a transform; a mesh has one material.
 class MeshInstance3D : public Node3D {
 public:
 	struct Surface {
@@ -124,7 +124,7 @@ enum class LightType { OMNI, SPOT, DIRECTIONAL };
 /// "omni", "spot", "directional".
 const char *get_light_type_name(LightType p_type);
 
-/// What a light is, apart from its place: its node, its file and a frame's snapshot hold one.
+/// What a light is, apart from its transform: its node, its file and a frame's snapshot hold one.
 struct LightSettings {
 	LightType type = LightType::OMNI;
 	glm::vec3 color = glm::vec3(1.0f); // linear

@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// The image's first (-1) or last (1) column or row in place of all, where a part requires it.
+/// The image's first (-1) or last (1) column or row instead of all, where a part requires it.
 std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_part_y) {
 	const glm::uvec2 size(
 			p_part_x == 0 ? p_image.size_px.x : 1, p_part_y == 0 ? p_image.size_px.y : 1);
@@ -60,14 +60,14 @@ void TileCover::add(const MeshTriangle &p_triangle) {
 }
 
 bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
-	const double MOST_PLACES = double(uint64_t(1) << 40);
+	const double FARTHEST_TILE = double(uint64_t(1) << 40);
 	// No texture repeats so often on one triangle: such coordinates are damaged, and each tile
 	// takes its time.
 	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 13);
 	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
 			long_sides / p_tile_size <= p_most_tiles &&
 			longest_side / p_tile_size <= MOST_TILES_OF_SIDE &&
-			farthest / p_tile_size <= MOST_PLACES;
+			farthest / p_tile_size <= FARTHEST_TILE;
 }
 
 OutlinedTexture::OutlinedTexture(const AlphaTest &p_test, const TileCover &p_cover,
@@ -128,8 +128,8 @@ void OutlinedTexture::Tile::fill_rows() {
 std::vector<uint32_t> OutlinedTexture::Tile::list_triangles(
 		double p_minimum, double p_maximum) const {
 	// One more on either side, whatever rounding did.
-	const auto find_row = [](double p_place, int64_t p_more) {
-		const double row = std::floor(std::clamp(p_place, 0.0, 1.0) * ROW_COUNT);
+	const auto find_row = [](double p_position, int64_t p_more) {
+		const double row = std::floor(std::clamp(p_position, 0.0, 1.0) * ROW_COUNT);
 		return std::clamp<int64_t>(static_cast<int64_t>(row) + p_more, 0, ROW_COUNT - 1);
 	};
 	std::vector<uint32_t> triangles;
@@ -168,7 +168,7 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 	std::vector<Triangle> triangles;
 	const std::vector<Stretch> columns = list_stretches(test.wrap_u, minimum.x, maximum.x);
 	const std::vector<Stretch> rows = list_stretches(test.wrap_v, minimum.y, maximum.y);
-	const auto place = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
+	const auto find_coordinate = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
 		const double share = double(p_at) / p_size;
 		// Ends are exact, so that neighbours have them in common.
 		return p_stretch.is_mirrored ? p_stretch.end - share * (p_stretch.end - p_stretch.begin)
@@ -185,16 +185,16 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 			const Tile &tile = get_tile(column.part, row.part);
 			const AlphaOutline &outline = tile.outline;
 			const double height = row.end - row.begin;
-			const double low_place = (minimum.y - row.begin) / height;
-			const double high_place = (maximum.y - row.begin) / height;
+			const double low_position = (minimum.y - row.begin) / height;
+			const double high_position = (maximum.y - row.begin) / height;
 			for (const uint32_t first : row.is_mirrored
-							? tile.list_triangles(1 - high_place, 1 - low_place)
-							: tile.list_triangles(low_place, high_place)) {
+							? tile.list_triangles(1 - high_position, 1 - low_position)
+							: tile.list_triangles(low_position, high_position)) {
 				Triangle corners;
 				for (uint32_t corner = 0; corner < 3; ++corner) {
 					const glm::ivec2 &point = outline.points[outline.triangles[first + corner]];
-					corners[corner] = { place(column, point.x, outline.size.x),
-						place(row, point.y, outline.size.y) };
+					corners[corner] = { find_coordinate(column, point.x, outline.size.x),
+						find_coordinate(row, point.y, outline.size.y) };
 				}
 				const glm::dvec2 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
 				const glm::dvec2 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);

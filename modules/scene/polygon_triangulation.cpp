@@ -260,9 +260,9 @@ void Triangulator::triangulate_pieces() {
 				is_walked[from][index] = 1;
 				corners.push_back(from);
 				const uint32_t further = find_next(from, to);
-				const auto place = std::find(outgoing[to].begin(), outgoing[to].end(), further);
-				is_sound = further != to && place != outgoing[to].end();
-				index = static_cast<size_t>(place - outgoing[to].begin());
+				const auto found = std::find(outgoing[to].begin(), outgoing[to].end(), further);
+				is_sound = further != to && found != outgoing[to].end();
+				index = static_cast<size_t>(found - outgoing[to].begin());
 				from = to;
 				to = further;
 			}

@@ -25,7 +25,7 @@ struct CameraSnapshot {
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
 
-/// Its settings, its place, and what the settings decide.
+/// Its settings, its transform, and what the settings decide.
 struct LightSnapshot : LightSettings {
 	std::string name;
 	glm::dvec3 position_world = glm::dvec3(0.0);   // the light's centre L; unused for directional
@@ -55,7 +55,7 @@ struct LightSnapshot : LightSettings {
 	/// Radius of the widest image of the light's disc, in metres, that a receiver within p_scene
 	/// sees on a caster within p_caster: half as wide as its penumbra, there.
 	double compute_widest_image(const Bounds &p_caster, const Bounds &p_scene) const;
-	/// Of all that the light's exact shadow depends on: type, place, range, cone and size.
+	/// Of all that the light's exact shadow depends on: type, transform, range, cone and size.
 	uint64_t compute_hash(uint64_t p_seed) const;
 };
 
@@ -94,7 +94,7 @@ struct InstanceSnapshot {
 	bool is_mirrored() const;
 	/// What it leaves of the light that meets it, see Material::compute_transmittance.
 	glm::vec3 compute_transmittance() const;
-	/// Of all that its shadow depends on: its mesh's content, its pose and place, and what it
+	/// Of all that its shadow depends on: its mesh's content, its pose and transform, and what it
 	/// leaves of light.
 	uint64_t compute_hash(uint64_t p_seed) const;
 };

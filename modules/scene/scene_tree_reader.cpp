@@ -3,7 +3,7 @@
 #include "modules/core/error.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/scene/scene_snapshot.h"
-#include "modules/scene/skin_places.h"
+#include "modules/scene/skin_transforms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ private:
 	SceneSnapshot &snapshot;
 	bool is_posed;
 	bool is_animated = false;
-	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and its own place
+	std::vector<std::pair<const MeshInstance3D *, glm::dmat4>> deformable; // and its own transform
 	WorldTransforms world_from_nodes;
 
 	void read_node(const Node3D &p_node, const glm::dmat4 &p_world_from_parent) {
@@ -120,17 +120,17 @@ private:
 			if (!surface.mesh || surface.mesh->indices.empty() || !surface.mesh->attributes.rig) {
 				continue;
 			}
-			SkinPlaces places =
-					place_surface(p_node, *surface.mesh, p_world_from_node, world_from_nodes);
+			SkinTransforms transforms =
+					compute_surface_transforms(p_node, *surface.mesh, p_world_from_node, world_from_nodes);
 			const std::vector<float> &weights =
 					is_posed ? p_node.get_morph_weights() : p_node.morph_weights;
 			const std::string object = text("Node \"", p_node.name, "\"");
-			InstanceSnapshot &instance = add_instance(p_node, surface, places.world_from_mesh);
+			InstanceSnapshot &instance = add_instance(p_node, surface, transforms.world_from_mesh);
 			if (is_posed) {
 				const std::shared_ptr<PoseSlot> slot = p_node.get_pose_slot(surface.mesh);
-				instance.set_pose(slot, slot->make_pose(std::move(places.joints), weights, object));
+				instance.set_pose(slot, slot->make_pose(std::move(transforms.joints), weights, object));
 			} else {
-				const MeshPose pose(surface.mesh, std::move(places.joints), weights, object);
+				const MeshPose pose(surface.mesh, std::move(transforms.joints), weights, object);
 				instance.bounds_world =
 						transform_bounds(pose.get_bounds(), instance.world_from_node);
 			}

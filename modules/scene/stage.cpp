@@ -51,14 +51,14 @@ glm::dvec3 project_to_ground(
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
 }
 
-/// The nearest place from which an image, square or narrower, shows all points with the margin, for
+/// The nearest position from which an image, square or narrower, shows all points with the margin, for
 /// a camera that looks along -TO_CAMERA. Its up is y.
-glm::dvec3 find_camera_place(const std::vector<glm::dvec3> &p_points, double p_aspect) {
+glm::dvec3 find_camera_position(const std::vector<glm::dvec3> &p_points, double p_aspect) {
 	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
 	const glm::dvec2 slope =
 			std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN * glm::dvec2(std::min(p_aspect, 1.0), 1.0);
-	// Seen where |x - place.x| <= slope.x * (place.z - z), and the same for y: each point bounds
-	// place.x + slope.x * place.z from below and place.x - slope.x * place.z from above.
+	// Seen where |x - position.x| <= slope.x * (position.z - z), and the same for y: each point bounds
+	// position.x + slope.x * position.z from below and position.x - slope.x * position.z from above.
 	glm::dvec2 least(-std::numeric_limits<double>::infinity());
 	glm::dvec2 greatest(std::numeric_limits<double>::infinity());
 	for (const glm::dvec3 &point : p_points) {
@@ -152,7 +152,7 @@ std::string stage_scene(Scene &r_scene, StageMode p_mode, double p_aspect) {
 	}
 	if (needs_camera) {
 		auto camera = std::make_unique<Camera3D>();
-		const glm::dvec3 to_camera = find_camera_place(framed, p_aspect);
+		const glm::dvec3 to_camera = find_camera_position(framed, p_aspect);
 		camera->parent_from_node =
 				look_at(centre + to_camera, centre + to_camera - size_m * TO_CAMERA);
 		camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);

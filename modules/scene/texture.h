@@ -14,7 +14,7 @@ struct Image {
 	std::string name;
 	glm::uvec2 size_px = glm::uvec2(0);
 	/// Red, green, blue and alpha of 8 bits, rows from the top. What they mean, colours of sRGB or
-	/// numbers, is up to the texture's place in the material; alpha is linear and not multiplied
+	/// numbers, is up to the texture's slot in the material; alpha is linear and not multiplied
 	/// in.
 	std::vector<uint8_t> texels;
 	uint64_t id = 0;		   // unique in the process, see make_image

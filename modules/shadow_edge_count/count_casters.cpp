@@ -32,7 +32,7 @@ uint64_t compute_node_bound(
 	}
 	double sum = 0;
 	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
-		glm::dvec2 places[3];
+		glm::dvec2 positions[3];
 		bool is_before = false;
 		int outside_counts[5] = {}; // all three corners beyond one of the view's planes: not there
 		for (size_t corner = 0; corner < 3; ++corner) {
@@ -43,21 +43,21 @@ uint64_t compute_node_bound(
 			outside_counts[3] += point.y < -point.w;
 			outside_counts[4] += point.z > point.w;
 			is_before = is_before || !(point.z <= point.w) || !(point.w > 0.0); // the near plane
-			places[corner] = (glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
+			positions[corner] = (glm::dvec2(point) / point.w * 0.5 + 0.5) * glm::dvec2(p_size_px);
 		}
 		if (std::any_of(std::begin(outside_counts), std::end(outside_counts),
 					[](int p_count) { return p_count == 3; })) {
 			continue;
 		}
-		const glm::dvec2 least = glm::min(places[0], glm::min(places[1], places[2]));
-		const glm::dvec2 greatest = glm::max(places[0], glm::max(places[1], places[2]));
+		const glm::dvec2 least = glm::min(positions[0], glm::min(positions[1], positions[2]));
+		const glm::dvec2 greatest = glm::max(positions[0], glm::max(positions[1], positions[2]));
 		const glm::dvec2 size =
 				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 2.0;
 		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
 		// A convex region meets no more unit squares than it has lattice points within a square's
 		// reach: its own area, its bounds' sides, half of both outlines.
-		const glm::dvec2 u = places[1] - places[0];
-		const glm::dvec2 v = places[2] - places[0];
+		const glm::dvec2 u = positions[1] - positions[0];
+		const glm::dvec2 v = positions[2] - positions[0];
 		const double outline = glm::length(u) + glm::length(v) + glm::length(u - v);
 		const glm::dvec2 sides = greatest - least;
 		const double triangle =

@@ -30,20 +30,20 @@ std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 		greatest = glm::max(greatest, glm::dvec3(position));
 	}
 	const glm::dvec3 size = glm::max(greatest - least, glm::dvec3(1e-300));
-	std::vector<std::pair<uint32_t, MeshEdge>> placed;
-	placed.reserve(p_topology.edges.size());
+	std::vector<std::pair<uint32_t, MeshEdge>> ordered;
+	ordered.reserve(p_topology.edges.size());
 	for (const MeshEdge &edge : p_topology.edges) {
 		const glm::dvec3 middle =
 				0.5 * (glm::dvec3(positions[edge.a]) + glm::dvec3(positions[edge.b]));
 		const glm::uvec3 cell(glm::clamp((middle - least) / size * 1023.0, 0.0, 1023.0));
-		placed.emplace_back(
+		ordered.emplace_back(
 				spread_bits(cell.x) | spread_bits(cell.y) << 1 | spread_bits(cell.z) << 2, edge);
 	}
-	std::stable_sort(placed.begin(), placed.end(),
+	std::stable_sort(ordered.begin(), ordered.end(),
 			[](const auto &p_left, const auto &p_right) { return p_left.first < p_right.first; });
 	std::vector<MeshEdge> edges;
-	edges.reserve(placed.size());
-	for (const auto &[place, edge] : placed) {
+	edges.reserve(ordered.size());
+	for (const auto &[key, edge] : ordered) {
 		edges.push_back(edge);
 	}
 	return edges;

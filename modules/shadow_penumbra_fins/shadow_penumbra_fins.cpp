@@ -154,7 +154,7 @@ void ShadowPenumbraFins::at_light_view(
 	if (!draws_fins) {
 		return;
 	}
-	// What is a silhouette depends on the light's place alone: its views share one list.
+	// What is a silhouette depends on the light's position alone: its views share one list.
 	if (settings.method == FinMethod::COMPUTE && settings.has_fins() && !edge_lists.list &&
 			!fin_casters.casters.empty()) {
 		edge_lists = add_silhouette_passes(r_graph, p_inputs.device, fin_casters);

@@ -39,13 +39,13 @@ std::vector<PlanarDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	const SceneSnapshot &scene = p_inputs.scene;
 	const LightSnapshot &light = p_inputs.light;
 	const bool is_point = light.type != LightType::DIRECTIONAL;
-	const glm::dvec4 light_place = is_point
+	const glm::dvec4 light_position = is_point
 			? glm::dvec4(light.position_world - scene.camera.position_world, 1.0)
 			: glm::dvec4(-light.get_direction_world(), 0.0);
-	const double light_height = glm::dot(p_plane, light_place);
+	const double light_height = glm::dot(p_plane, light_position);
 	// p -> (plane . light) p - (plane . p) light
 	const glm::dmat4 flatten =
-			glm::dmat4(1.0) * light_height - glm::outerProduct(light_place, p_plane);
+			glm::dmat4(1.0) * light_height - glm::outerProduct(light_position, p_plane);
 	const LightView camera = make_camera_view(scene.camera, p_inputs.size_px);
 	const glm::dmat4 clip_from_relative = camera.compute_clip_from_view() *
 			glm::dmat4(glm::dmat3(camera.view_from_world)) * flatten;

@@ -19,20 +19,20 @@ class EvenPoints {
 public:
 	explicit EvenPoints(uint64_t p_hash) {
 		for (uint32_t axis = 0; axis < 4; ++axis) {
-			places[axis] = static_cast<uint32_t>(mix_bits(p_hash + axis) >> 32);
+			coordinates[axis] = static_cast<uint32_t>(mix_bits(p_hash + axis) >> 32);
 		}
 	}
 	void step() {
 		static constexpr uint32_t STEPS[4] = { 3679390609u, 3152041523u, 2700274806u, 2313257605u };
 		for (uint32_t axis = 0; axis < 4; ++axis) {
-			places[axis] += STEPS[axis];
+			coordinates[axis] += STEPS[axis];
 		}
 	}
 	/// In 0..1, without 1.
-	float get(uint32_t p_axis) const { return static_cast<float>(places[p_axis] >> 8) * 0x1p-24f; }
+	float get(uint32_t p_axis) const { return static_cast<float>(coordinates[p_axis] >> 8) * 0x1p-24f; }
 
 private:
-	uint32_t places[4];
+	uint32_t coordinates[4];
 };
 
 } // namespace

@@ -13,7 +13,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 	r_list.add({ "template_map_size", PropertyType::INT, int64_t(1024), "16,8192,16",
 			"Width and height of the map drawn from the light.", "px", "Template" });
 	r_list.add({ "template_strength", PropertyType::FLOAT, 1.0, "0,1,0.01",
-			"How dark a hidden place is: 0 = as if lit, 1 = no light.", "", "Template" });
+			"How dark a hidden point is: 0 = as if lit, 1 = no light.", "", "Template" });
 }
 
 // Which cameras stand at the light: the casters of each are culled to it.

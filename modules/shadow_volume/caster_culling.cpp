@@ -25,7 +25,7 @@ size_t compute_words_bytes(size_t p_caster_count) {
 	return HEADER_BYTES + std::bit_ceil(p_caster_count) * sizeof(uint32_t);
 }
 
-/// Equal keys: the same views, and the same casters at the same places, in the same order.
+/// Equal keys: the same views, and the same casters at the same transforms, in the same order.
 uint64_t compute_key(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_instances) {
 	uint64_t key = compute_value_hash(uint64_t(p_instances.size()), 1);
@@ -39,13 +39,13 @@ uint64_t compute_key(
 }
 
 shader::CullingConstants make_constants(
-		const ShadowTechnique::Inputs &p_inputs, const glm::dvec3 &p_place_world) {
+		const ShadowTechnique::Inputs &p_inputs, const glm::dvec3 &p_origin_world) {
 	shader::CullingConstants constants = {};
 	for (size_t i = 0; i < p_inputs.views.size(); ++i) {
 		const LightView &view = p_inputs.views[i];
 		shader::CullingView &target = constants.views[i];
 		target.view_from_relative =
-				glm::mat4(view.view_from_world * glm::translate(glm::dmat4(1.0), p_place_world));
+				glm::mat4(view.view_from_world * glm::translate(glm::dmat4(1.0), p_origin_world));
 		target.half_extent = view.half_extent;
 		target.near_m = view.near_m;
 		target.far_m = view.far_m;
@@ -129,9 +129,9 @@ DrawPredicates CasterCulling::add_passes(
 	for (const uint32_t index : *tested) {
 		boxes_world.push_back(p_inputs.scene.instances[index].bounds_world);
 	}
-	const glm::dvec3 place_world(glm::inverse(p_inputs.views[0].view_from_world)[3]);
-	const CullingBoxes culling_boxes = build_culling_boxes(boxes_world, place_world);
-	shader::CullingConstants block = make_constants(p_inputs, place_world);
+	const glm::dvec3 origin_world(glm::inverse(p_inputs.views[0].view_from_world)[3]);
+	const CullingBoxes culling_boxes = build_culling_boxes(boxes_world, origin_world);
+	shader::CullingConstants block = make_constants(p_inputs, origin_world);
 	block.subtree_count = culling_boxes.subtree_count;
 	block.key_low = static_cast<uint32_t>(key);
 	block.key_high = static_cast<uint32_t>(key >> 32);

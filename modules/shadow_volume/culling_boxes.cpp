@@ -8,8 +8,8 @@ namespace gnomon {
 namespace {
 
 shader::CullingBox make_box(
-		const Bounds &p_bounds, const glm::dvec3 &p_place, uint32_t p_first, uint32_t p_count) {
-	return { glm::vec4(0.5 * (p_bounds.minimum + p_bounds.maximum) - p_place, 0.0),
+		const Bounds &p_bounds, const glm::dvec3 &p_origin, uint32_t p_first, uint32_t p_count) {
+	return { glm::vec4(0.5 * (p_bounds.minimum + p_bounds.maximum) - p_origin, 0.0),
 		glm::vec4(0.5 * (p_bounds.maximum - p_bounds.minimum), 0.0), p_first, p_count, 0, 0 };
 }
 
@@ -24,7 +24,7 @@ uint32_t find_first_item(const std::vector<Bvh::Node> &p_nodes, uint32_t p_node)
 } // namespace
 
 CullingBoxes build_culling_boxes(
-		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_place_world) {
+		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_origin_world) {
 	const Bvh tree(p_boxes_world);
 	const std::vector<Bvh::Node> &nodes = tree.get_nodes();
 	CullingBoxes result;
@@ -42,7 +42,7 @@ CullingBoxes build_culling_boxes(
 		const uint32_t begin = find_first_item(nodes, node);
 		if (nodes[node].item_count > 0 || end - begin <= CULLING_CASTERS_PER_SUBTREE) {
 			GNOMON_ASSERT(end - begin <= CULLING_CASTERS_PER_SUBTREE, "a leaf of ", end - begin);
-			result.boxes.push_back(make_box(nodes[node].bounds, p_place_world, begin, end - begin));
+			result.boxes.push_back(make_box(nodes[node].bounds, p_origin_world, begin, end - begin));
 			continue;
 		}
 		const uint32_t left = nodes[node].first;
@@ -55,7 +55,7 @@ CullingBoxes build_culling_boxes(
 		subtree.first += result.subtree_count;
 	}
 	for (const uint32_t item : tree.get_items()) {
-		result.boxes.push_back(make_box(p_boxes_world[item], p_place_world, item, 1));
+		result.boxes.push_back(make_box(p_boxes_world[item], p_origin_world, item, 1));
 	}
 	return result;
 }

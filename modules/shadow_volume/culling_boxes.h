@@ -16,9 +16,9 @@ struct CullingBoxes {
 };
 
 /// Cuts a tree over the boxes into subtrees of at most 64. CullingBox::first of a caster is its
-/// place in p_boxes_world. Boxes that no tree takes (empty, NaN) are skipped: never hidden.
-/// float32, metres from p_place_world.
+/// index in p_boxes_world. Boxes that no tree takes (empty, NaN) are skipped: never hidden.
+/// float32, metres from p_origin_world.
 CullingBoxes build_culling_boxes(
-		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_place_world);
+		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_origin_world);
 
 } // namespace gnomon

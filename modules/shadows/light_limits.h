@@ -29,7 +29,7 @@ public:
 private:
 	/// A caster whose triangles were searched, and what came out.
 	struct Search {
-		uint64_t hash = 0; // of the mesh, its place, the light's place and the distance
+		uint64_t hash = 0; // of the mesh, its transform, the light's transform and the distance
 		bool is_near = false;
 	};
 	const InstanceSnapshot *find_near_caster(

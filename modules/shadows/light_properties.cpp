@@ -70,7 +70,7 @@ void add_light_properties(const Node3D &p_node, PropertyList &r_list) {
 	if (light == nullptr) {
 		return;
 	}
-	LightSnapshot chosen; // of which the id is read: the light's place may be singular
+	LightSnapshot chosen; // of which the id is read: the light's transform may be singular
 	chosen.name = light->name;
 	const auto stored = light->properties.find(TECHNIQUE);
 	if (stored != light->properties.end() && std::holds_alternative<std::string>(stored->second)) {

@@ -31,7 +31,7 @@ float compute_mask_luminance(const glm::vec3 &p_mask);
 /// its own bindings from MAP_RESOLVE_OWN_BINDING on.
 std::vector<PassBinding> make_map_resolve_bindings(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
-/// As above with other views than those of the inputs, of a light in another place.
+/// As above with other views than those of the inputs, of a light in another position.
 std::vector<PassBinding> make_map_resolve_bindings(RenderGraph &r_graph,
 		const ShadowTechnique::Inputs &p_inputs, const LightSnapshot &p_light,
 		const std::vector<LightView> &p_views);

@@ -21,7 +21,7 @@ class MeshStore;
 /// The casters that one light view may see, culled to it.
 struct CasterList {
 	std::vector<uint32_t> instances; // indices into SceneSnapshot::instances
-	/// Changes when the view, a caster or a caster's place changes: equal hashes, equal map.
+	/// Changes when the view, a caster or a caster's transform changes: equal hashes, equal map.
 	uint64_t content_hash = 0;
 	/// False: no receiver that the camera sees lies in the view, so that only filters that look
 	/// across into other views can read its map.

@@ -40,7 +40,7 @@ struct SilhouetteCasters {
 
 /// Handles of one frame.
 struct SilhouetteLists {
-	RGBuffer list;	// places in GpuTopology::edges, ascending, from a caster's first_in_list on
+	RGBuffer list;	// indices in GpuTopology::edges, ascending, from a caster's first_in_list on
 	RGBuffer draws; // one shader::SilhouetteDraw per caster
 };
 

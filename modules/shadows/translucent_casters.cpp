@@ -9,7 +9,7 @@ namespace {
 
 /// What the light sees of a caster: a cone from its centre, or a cylinder along its direction.
 struct Shade {
-	glm::dvec3 place = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
+	glm::dvec3 position = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
 	double radius_m = 0;				// of the caster
 	double cosine = 1;					// of the cone's half angle
 	double sine = 0;
@@ -21,7 +21,7 @@ Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
 	const glm::dvec3 centre = 0.5 * (p_bounds.minimum + p_bounds.maximum);
 	shade.radius_m = 0.5 * p_bounds.get_diagonal();
 	if (p_light.type == LightType::DIRECTIONAL) {
-		shade.place = centre;
+		shade.position = centre;
 		return shade;
 	}
 	const double disc_radius = p_light.get_disc_radius();
@@ -29,7 +29,7 @@ Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
 	const double distance = glm::length(to_caster);
 	shade.is_everywhere = !(shade.radius_m + disc_radius < distance);
 	if (!shade.is_everywhere) {
-		shade.place = to_caster / distance;
+		shade.position = to_caster / distance;
 		// From the disc's edge a caster is seen past the centre's cone by as much again.
 		const double half_rad = std::asin((shade.radius_m + disc_radius) / distance) +
 				std::asin(std::min(1.0, disc_radius / (distance - shade.radius_m)));
@@ -46,7 +46,7 @@ bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade 
 		return true;
 	}
 	if (p_light.type == LightType::DIRECTIONAL) {
-		const glm::dvec3 way = p_left.place - p_right.place;
+		const glm::dvec3 way = p_left.position - p_right.position;
 		const double along = glm::dot(way, p_light.get_direction_world());
 		const double across2 = std::max(glm::dot(way, way) - along * along, 0.0);
 		// Rays lean by half the light's angle at most between the two.
@@ -55,7 +55,7 @@ bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade 
 		return across2 <= reach_m * reach_m;
 	}
 	// The angle between them is at most the sum of their half angles, which is below pi.
-	return glm::dot(p_left.place, p_right.place) >=
+	return glm::dot(p_left.position, p_right.position) >=
 			p_left.cosine * p_right.cosine - p_left.sine * p_right.sine;
 }
 

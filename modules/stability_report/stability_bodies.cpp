@@ -20,13 +20,13 @@ std::shared_ptr<const Mesh> make_globe(double p_radius_m) {
 	for (int round = 0; round < 2; ++round) {
 		std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
 		const auto get_middle = [&](uint32_t p_a, uint32_t p_b) {
-			const auto [place, is_new] = middles.insert(
+			const auto [entry, is_new] = middles.insert(
 					{ { std::min(p_a, p_b), std::max(p_a, p_b) }, uint32_t(positions.size()) });
 			if (is_new) {
 				positions.push_back(
 						glm::normalize(positions[p_a]) + glm::normalize(positions[p_b]));
 			}
-			return place->second;
+			return entry->second;
 		};
 		std::vector<uint32_t> finer;
 		for (size_t index = 0; index < indices.size(); index += 3) {

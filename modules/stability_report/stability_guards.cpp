@@ -85,8 +85,8 @@ const std::vector<Guard> &get_guards() {
 				} },
 		{ "caster pressed flat",
 				[](StabilityDraft &r_draft) {
-					glm::dmat4 &place = r_draft.bodies[1].world_from_node;
-					place = glm::scale(place, glm::dvec3(1, 0, 1));
+					glm::dmat4 &transform = r_draft.bodies[1].world_from_node;
+					transform = glm::scale(transform, glm::dvec3(1, 0, 1));
 				} },
 		{ "cone of 0.001 rad", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1e-3; } },
 		{ "cone of a half sphere", [](StabilityDraft &r_draft) { r_draft.cone_rad = 1.5707963; } },

@@ -1,4 +1,4 @@
-// The one place that knows how depth is stored: reversed, near / z, 1 near .. 0 far (infinity).
+// The one file that knows how depth is stored: reversed, near / z, 1 near .. 0 far (infinity).
 #ifndef DEPTH_INC_GLSL
 #define DEPTH_INC_GLSL
 

@@ -11,7 +11,7 @@
 // plane's horizon everything is above it.
 const float FARTHEST_PLANE = 0.02;
 
-/// The w of what the maps hold along the line from the light through a place of the receiver's view,
+/// The w of what the maps hold along the line from the light through a point of the receiver's view,
 /// as that view has it; 0: nothing.
 float lookup_w(
 		texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, vec2 p_xy) {
@@ -34,10 +34,10 @@ float lookup_w(
 				find_view_of_direction(mat3(light_views.light_from_camera_relative) * direction);
 		const LightViewConstants other = light_views.views[other_index];
 		const vec3 r = mat3(other.view_from_camera_relative) * direction;
-		const ivec2 place = clamp(ivec2(floor(texels_from_map(other, r.xy / r.z))), ivec2(0),
+		const ivec2 other_texel = clamp(ivec2(floor(texels_from_map(other, r.xy / r.z))), ivec2(0),
 				ivec2(other.size_px) - 1);
 		// On one line from the light, w of two views differ by the ratio of their distances.
-		w = texelFetch(p_map, ivec3(place, other.layer), 0).r / other.depth_scale * r.z;
+		w = texelFetch(p_map, ivec3(other_texel, other.layer), 0).r / other.depth_scale * r.z;
 		w = (p_empty_views & (1u << other_index)) != 0u ? 0.0 : w;
 	}
 	return w;

@@ -12,7 +12,7 @@ shared uint list_count_before;
 /// How many items are marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
 /// p_word - 1, those of the work group's own block. Called by a whole work group, of p_group_size
 /// invocations (gl_WorkGroupSize is 1 in what stands before the entry point's layout).
-uint find_list_place(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,
+uint find_list_index(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,
 		uint p_word) {
 	if (gl_LocalInvocationID.x == 0u) {
 		list_count_before = 0u;
@@ -27,11 +27,11 @@ uint find_list_place(uint p_group_size, uint p_first_block, uint p_block, uint p
 		atomicAdd(list_count_before, count);
 	}
 	barrier();
-	uint place = list_count_before;
+	uint index = list_count_before;
 	for (uint i = p_first_word; i < p_word; ++i) {
-		place += uint(bitCount(load_list_word(i)));
+		index += uint(bitCount(load_list_word(i)));
 	}
-	return place;
+	return index;
 }
 
 #endif

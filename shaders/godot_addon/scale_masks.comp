@@ -26,8 +26,8 @@ void main() {
 	}
 	const float depth = texelFetch(full_depth_texture, item.xy, 0).r;
 	const vec2 slope = find_slope(full_depth_texture, item.xy) / push.ratio; // to one pixel of the masks
-	const vec2 place = (vec2(item.xy) + 0.5) * push.ratio - 0.5;
-	const ivec2 first = ivec2(floor(place));
+	const vec2 position = (vec2(item.xy) + 0.5) * push.ratio - 0.5;
+	const ivec2 first = ivec2(floor(position));
 	const ivec2 last = textureSize(depth_texture, 0) - 1;
 	float sum = 0.0;
 	float weight_sum = 0.0;
@@ -35,7 +35,7 @@ void main() {
 	float nearest = -1.0;
 	for (int corner = 0; corner < 4; ++corner) {
 		const ivec2 tap = clamp(first + ivec2(corner & 1, corner >> 1), ivec2(0), last);
-		const vec2 offset = vec2(tap) - place;
+		const vec2 offset = vec2(tap) - position;
 		const vec2 bilinear = max(1.0 - abs(offset), 1e-3);
 		const float tap_depth = texelFetch(depth_texture, tap, 0).r;
 		const float share = abs(tap_depth - depth - dot(slope, offset)) / max(depth, 1e-20) / SAME_SURFACE;

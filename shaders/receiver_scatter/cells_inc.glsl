@@ -13,9 +13,9 @@ uint count_rings(float p_scatter) {
 /// A point of a cell, in pixels from the middle. p_random: two numbers in 0..1.
 vec2 find_cell_point(
 		uvec2 p_ring_and_sector, uvec2 p_counts, float p_radius_px, vec2 p_random) {
-	const vec2 place = (vec2(p_ring_and_sector) + p_random) / vec2(p_counts);
-	const float angle_rad = TWO_PI * place.y;
-	return p_radius_px * place.x * vec2(cos(angle_rad), sin(angle_rad));
+	const vec2 position = (vec2(p_ring_and_sector) + p_random) / vec2(p_counts);
+	const float angle_rad = TWO_PI * position.y;
+	return p_radius_px * position.x * vec2(cos(angle_rad), sin(angle_rad));
 }
 
 /// Falls with the distance, 1 in the middle.

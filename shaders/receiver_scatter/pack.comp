@@ -18,7 +18,7 @@ layout(set = 0, binding = SCATTER_BINDING_RECEIVERS) uniform texture2D receivers
 layout(set = 0, binding = SCATTER_BINDING_MASK) uniform texture2D mask_texture;
 layout(set = 0, binding = SCATTER_BINDING_PIXELS, rgba32ui) uniform writeonly uimage2D pixels_image;
 
-/// 1..0xffff. Two materials of one key are distinguished by place and normal only: 1 in 65,535.
+/// 1..0xffff. Two materials of one key are distinguished by position and normal only: 1 in 65,535.
 uint find_material_key(vec2 p_scatter_and_distance) {
 	uint hash = packHalf2x16(p_scatter_and_distance) * 2654435769u;
 	hash = (hash ^ (hash >> 15u)) * 2246822519u;

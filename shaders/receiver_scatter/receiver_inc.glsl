@@ -86,9 +86,9 @@ int find_block_width(Receiver p_receiver) {
 
 /// Which set a pixel takes: those of width 1, 2 and 4 follow one another.
 uint find_set(ivec2 p_pixel, int p_block_width) {
-	const uvec2 place = uvec2(p_pixel) % uint(p_block_width);
+	const uvec2 offset = uvec2(p_pixel) % uint(p_block_width);
 	const uint first = p_block_width == 1 ? 0u : p_block_width == 2 ? 1u : 5u;
-	return first + place.x + uint(p_block_width) * place.y;
+	return first + offset.x + uint(p_block_width) * offset.y;
 }
 
 /// Are samples on other surfaces skipped?

@@ -35,9 +35,9 @@ layout(location = 1) in vec4 in_uvs;
 layout(location = 2) in vec4 in_tangent;
 layout(location = 3) in vec4 in_color;
 
-vec2 place_texture(TexturePlace p_place) {
-	const vec3 uv = vec3(p_place.row_u.a > 0.5 ? in_uvs.zw : in_uvs.xy, 1.0);
-	return vec2(dot(p_place.row_u.xyz, uv), dot(p_place.row_v.xyz, uv));
+vec2 transform_uv(TextureTransform p_transform) {
+	const vec3 uv = vec3(p_transform.row_u.a > 0.5 ? in_uvs.zw : in_uvs.xy, 1.0);
+	return vec2(dot(p_transform.row_u.xyz, uv), dot(p_transform.row_v.xyz, uv));
 }
 
 /// p_normal: make_shading_normal's.
@@ -45,7 +45,7 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 	if (material.normal.row_v.a < 0.5) {
 		return p_normal;
 	}
-	vec3 map = texture(normal_texture, place_texture(material.normal)).xyz * 2.0 - 1.0;
+	vec3 map = texture(normal_texture, transform_uv(material.normal)).xyz * 2.0 - 1.0;
 	map.xy *= material.normal_scale;
 	const vec3 tangent = in_tangent.xyz - p_normal * dot(p_normal, in_tangent.xyz);
 	const vec3 along = tangent * inversesqrt(max(dot(tangent, tangent), 1e-30));
@@ -58,11 +58,11 @@ vec3 perturb_normal(vec3 p_normal, bool p_is_mirrored) {
 /// Ends the fragment where the surface is not there.
 SurfaceTexels make_texels(InstancePush p_instance, vec3 p_normal) {
 	const vec4 base_color = vec4(p_instance.base_color_roughness.rgb, material.alpha) * in_color *
-			texture(base_color_texture, place_texture(material.base_color));
+			texture(base_color_texture, transform_uv(material.base_color));
 	const vec3 metallic_roughness =
-			texture(metallic_roughness_texture, place_texture(material.metallic_roughness)).rgb;
-	const float occlusion = texture(occlusion_texture, place_texture(material.occlusion)).r;
-	const vec3 emissive = texture(emissive_texture, place_texture(material.emissive)).rgb;
+			texture(metallic_roughness_texture, transform_uv(material.metallic_roughness)).rgb;
+	const float occlusion = texture(occlusion_texture, transform_uv(material.occlusion)).r;
+	const vec3 emissive = texture(emissive_texture, transform_uv(material.emissive)).rgb;
 	const vec3 normal = perturb_normal(p_normal, p_instance.is_mirrored != 0u);
 	if (base_color.a < material.alpha_cutoff) {
 		discard;

@@ -44,19 +44,19 @@ struct SHARED_ALIGN InstancePush {
 SHARED_SIZE(InstancePush, 112);
 
 /// Where a texture lies on the surface. Of coordinates (x, y, 1) each row makes one of the image's.
-struct SHARED_ALIGN TexturePlace {
+struct SHARED_ALIGN TextureTransform {
 	vec4 row_u; // a: 1: of the second coordinates
 	vec4 row_v; // a: 1: there is a texture
 };
-SHARED_SIZE(TexturePlace, 32);
+SHARED_SIZE(TextureTransform, 32);
 
 /// What a material defines in addition to InstancePush.
 struct SHARED_ALIGN MaterialConstants {
-	TexturePlace base_color;
-	TexturePlace metallic_roughness;
-	TexturePlace normal;
-	TexturePlace occlusion;
-	TexturePlace emissive;
+	TextureTransform base_color;
+	TextureTransform metallic_roughness;
+	TextureTransform normal;
+	TextureTransform occlusion;
+	TextureTransform emissive;
 	float alpha;
 	float alpha_cutoff; // alpha below is not there
 	float normal_scale;

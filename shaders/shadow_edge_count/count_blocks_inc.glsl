@@ -20,8 +20,8 @@ layout(push_constant) uniform Push {
 
 /// Every other block first, see find_work_row: blocks that are close in the image are close in the list.
 uint load_block_entry() {
-	const uint place = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
-	return blocks[push.first_block + place];
+	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
+	return blocks[push.first_block + index];
 }
 
 uint find_block() {

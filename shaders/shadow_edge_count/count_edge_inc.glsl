@@ -35,9 +35,9 @@ CountState make_count_state(int p_solid_count) {
 /// A part of the disc: beyond a line, from one direction on to another.
 struct CountSector {
 	float area;		  // twice, signed, in R^2
-	uint mask_place;  // of the points beyond the line
-	float from_place; // see find_count_place
-	float to_place;
+	uint mask_index;  // of the points beyond the line
+	float from_angle; // see find_count_angle
+	float to_angle;
 	// Its points are subtracted by adding the others; once or twice, or nothing is added.
 	uint flip;
 	uint once;
@@ -72,9 +72,9 @@ CountSector make_count_sector(vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, 
 	CountSector sector;
 	const bool is_there = p_is_there && square >= 1e-16 && distance < 1.0 && length_along > 0.0;
 	sector.area = is_there ? float(p_is_left ? -p_weight : p_weight) * part : 0.0;
-	sector.mask_place = find_count_mask_place(p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x), distance);
-	sector.from_place = find_count_place(p_is_left ? p_a : p_b);
-	sector.to_place = find_count_place(p_is_left ? p_b : p_a);
+	sector.mask_index = find_count_mask_index(p_is_left ? vec2(u.y, -u.x) : vec2(-u.y, u.x), distance);
+	sector.from_angle = find_count_angle(p_is_left ? p_a : p_b);
+	sector.to_angle = find_count_angle(p_is_left ? p_b : p_a);
 	sector.flip = find_bits(p_is_left);
 	sector.once = find_bits(is_there && p_weight != 2);
 	sector.twice = find_bits(is_there && p_weight == 2);
@@ -83,7 +83,7 @@ CountSector make_count_sector(vec2 p_a, vec2 p_b, bool p_is_left, int p_weight, 
 
 /// The points of one turn at which a sector adds.
 uvec2 find_sector_points(CountSector p_sector, uvec2 p_mask, uint p_turn) {
-	return (p_mask & find_count_wedge(p_sector.from_place, p_sector.to_place, p_turn)) ^ p_sector.flip;
+	return (p_mask & find_count_wedge(p_sector.from_angle, p_sector.to_angle, p_turn)) ^ p_sector.flip;
 }
 
 void count_turn(CountSector p_first, CountSector p_second, uvec2 p_first_mask, uvec2 p_second_mask, uint p_turn,
@@ -104,12 +104,12 @@ void count_sectors(CountSector p_first, CountSector p_second, inout CountState r
 	r_state.area += p_first.area;
 	r_state.area += p_second.area;
 	r_state.surplus += find_surplus(p_first) + find_surplus(p_second);
-	const uvec4 first0 = load_count_masks(p_first.mask_place, 0u);
-	const uvec4 second0 = load_count_masks(p_second.mask_place, 0u);
+	const uvec4 first0 = load_count_masks(p_first.mask_index, 0u);
+	const uvec4 second0 = load_count_masks(p_second.mask_index, 0u);
 	count_turn(p_first, p_second, first0.xy, second0.xy, 0u, r_state.turn0);
 #if COUNT_TURN_COUNT == 4
-	const uvec4 first1 = load_count_masks(p_first.mask_place, 1u);
-	const uvec4 second1 = load_count_masks(p_second.mask_place, 1u);
+	const uvec4 first1 = load_count_masks(p_first.mask_index, 1u);
+	const uvec4 second1 = load_count_masks(p_second.mask_index, 1u);
 	count_turn(p_first, p_second, first0.zw, second0.zw, 1u, r_state.turn1);
 	count_turn(p_first, p_second, first1.xy, second1.xy, 2u, r_state.turn2);
 	count_turn(p_first, p_second, first1.zw, second1.zw, 3u, r_state.turn3);

@@ -46,10 +46,10 @@ int sum_crossings(CountCrossings p_found) {
 }
 
 /// The texel of a view's map that holds x' and y', or the nearest one.
-uvec2 find_count_texel(uint p_view, vec2 p_place) {
+uvec2 find_count_texel(uint p_view, vec2 p_position) {
 	const CountViewConstants view = load_count_view(p_view);
 	const vec2 size = vec2(max(view.map_size_px >> load_count_level(p_view), uvec2(1u)));
-	const vec2 texel = (p_place / view.half_extent * 0.5 + 0.5) * size;
+	const vec2 texel = (p_position / view.half_extent * 0.5 + 0.5) * size;
 	return uvec2(clamp(texel, vec2(0.0), size - 1.0));
 }
 
@@ -71,11 +71,11 @@ uint count_node(CountLightConstants p_light, uint p_view, uint p_node, CountRece
 	return p_node != 0u ? node.y : 0u;
 }
 
-/// Crossings of the faces that the receiver's texel lists. p_place: x' and y' of the receiver in its view.
-CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
+/// Crossings of the faces that the receiver's texel lists. p_position: x' and y' of the receiver in its view.
+CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_position, CountReceiver p_receiver) {
 	// Casters beyond the map hide nothing that the light reaches.
-	const bool is_inside = all(lessThanEqual(abs(p_place), load_count_view(p_view).half_extent));
-	uint next = is_inside ? load_count_first_node(p_view, find_count_texel(p_view, p_place)) : 0u;
+	const bool is_inside = all(lessThanEqual(abs(p_position), load_count_view(p_view).half_extent));
+	uint next = is_inside ? load_count_first_node(p_view, find_count_texel(p_view, p_position)) : 0u;
 	CountCrossings found = CountCrossings(0, 0, 0);
 	// Two an iteration, since llvmpipe ends every loop once an invocation has made 65535 iterations.
 	while (next != 0u) {
@@ -85,8 +85,8 @@ CountCrossings count_crossings(CountLightConstants p_light, uint p_view, vec2 p_
 	return found;
 }
 
-int count_solids(CountLightConstants p_light, uint p_view, vec2 p_place, CountReceiver p_receiver) {
-	return sum_crossings(count_crossings(p_light, p_view, p_place, p_receiver));
+int count_solids(CountLightConstants p_light, uint p_view, vec2 p_position, CountReceiver p_receiver) {
+	return sum_crossings(count_crossings(p_light, p_view, p_position, p_receiver));
 }
 
 #endif

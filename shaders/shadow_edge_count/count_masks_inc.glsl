@@ -11,8 +11,8 @@ const float COUNT_PI = 3.14159265358979;
 #define COUNT_TURN_COUNT 1
 #endif
 
-/// Two masks of the tables, of turns 2 p_pair and 2 p_pair + 1: x, y and z, w. p_place: see find_count_mask_place.
-uvec4 load_count_masks(uint p_place, uint p_pair);
+/// Two masks of the tables, of turns 2 p_pair and 2 p_pair + 1: x, y and z, w. p_index: see find_count_mask_index.
+uvec4 load_count_masks(uint p_index, uint p_pair);
 
 /// The bin of a direction by its diamond angle y / (|x| + |y|): 0 at -y, 1 at +x, 2 at +y, 3 at -x.
 uint count_direction(vec2 p_direction) {
@@ -24,7 +24,7 @@ uint count_direction(vec2 p_direction) {
 
 /// Where the tables have the points of the unit disc beyond the line that is p_offset from the centre in that
 /// direction.
-uint find_count_mask_place(vec2 p_direction, float p_offset) {
+uint find_count_mask_index(vec2 p_direction, float p_offset) {
 	const uint row = uint(float(EDGE_COUNT_OFFSET_COUNT) * clamp(p_offset, 0.0, 0.9999));
 	return count_direction(p_direction) * uint(EDGE_COUNT_OFFSET_COUNT) + row;
 }
@@ -44,27 +44,27 @@ float count_half_angle(vec2 p_direction) {
 	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
 }
 
-/// The angle of a direction in sectors of the points, and so much that no turn's place of it is below 0.
-float find_count_place(vec2 p_direction) {
+/// The angle of a direction in sectors of the points, and so much that it is not below 0 in any turn.
+float find_count_angle(vec2 p_direction) {
 	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
 	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
 	const float sectors = float(EDGE_COUNT_SAMPLE_COUNT);
 	return angle * (sectors / (2.0 * COUNT_PI)) + 1.0 + sectors;
 }
 
-/// The first point of a turn whose angle is not below that of find_count_place: points are in the order of their
+/// The first point of a turn whose angle is not below that of find_count_angle: points are in the order of their
 /// angles, one in each of 64 equal sectors; in a sector the turns follow each other evenly (see DiscMasks).
-int find_count_sector(float p_place, uint p_turn) {
-	return int(p_place - (float(p_turn) + 0.5) / float(COUNT_TURN_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
+int find_count_sector(float p_angle, uint p_turn) {
+	return int(p_angle - (float(p_turn) + 0.5) / float(COUNT_TURN_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 
-/// The points before a place, 0..63.
-uvec2 count_points_before(int p_place) {
-	const uint part = (1u << (p_place & 31)) - 1u;
-	return p_place < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);
+/// The points before one, by its index 0..63.
+uvec2 count_points_before(int p_index) {
+	const uint part = (1u << (p_index & 31)) - 1u;
+	return p_index < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);
 }
 
-/// The points from one place on to another, the way that angles grow. Neighbours that share a direction share no
+/// The points from one point on to another, the way that angles grow. Neighbours that share a direction share no
 /// point and leave none.
 uvec2 find_count_wedge(float p_from, float p_to, uint p_turn) {
 	const int from = find_count_sector(p_from, p_turn);

@@ -16,7 +16,7 @@ void load_count_constants() {
 	light_from_camera = light_views.views[0].view_from_camera_relative;
 }
 
-/// A block's pixels so that those that follow one another lie close together: the place of each in the block.
+/// A block's pixels so that those that follow one another lie close together: the position of each in the block.
 uvec2 find_pixel_in_block(uint p_index) {
 	const uint x = (p_index & 1u) | ((p_index >> 1) & 2u) | ((p_index >> 2) & 4u);
 	const uint y = ((p_index >> 1) & 1u) | ((p_index >> 2) & 2u) | ((p_index >> 3) & 4u);

@@ -26,8 +26,8 @@ const uint SUBGROUP_SIZE =
 /// The blocks have no lists: each group of pixels goes through all bundles of the light.
 layout(constant_id = EDGE_COUNT_CONSTANT_HAS_NO_LIST) const bool HAS_NO_LIST = false;
 
-uvec4 load_count_masks(uint p_place, uint p_pair) {
-	return texelFetch(masks_buffer, int(p_place * uint((COUNT_TURN_COUNT + 1) / 2) + p_pair));
+uvec4 load_count_masks(uint p_index, uint p_pair) {
+	return texelFetch(masks_buffer, int(p_index * uint((COUNT_TURN_COUNT + 1) / 2) + p_pair));
 }
 
 // Edges that some receiver of a subgroup may have to count, and what is known of them, in one word each: a slice
@@ -193,12 +193,12 @@ HeldEdge hand_on(HeldEdge p_held, uint p_lane) {
 }
 
 /// Adds one of the held edges if the receiver may have to count it; its weight, if the list knows that.
-void share_edge(HeldEdge p_held, uint p_lane, uint p_place, CountReceiver p_receiver, inout CountShare r_share) {
+void share_edge(HeldEdge p_held, uint p_lane, uint p_first_slot, CountReceiver p_receiver, inout CountShare r_share) {
 	const HeldEdge edge = hand_on(p_held, p_lane);
 	const uint known = edge.entry >> COUNT_KNOWN_SHIFT;
 	const int weight = (known & COUNT_KNOWS_WEIGHT) != 0u ? get_known_weight(known) : 0;
 	const bool is_own = known != COUNT_ADDS_NOTHING && may_hide(p_receiver.position, p_receiver.to_light, edge.a, edge.b);
-	const uint bit = is_own ? 1u << (p_place + p_lane) : 0u;
+	const uint bit = is_own ? 1u << (p_first_slot + p_lane) : 0u;
 	r_share.own |= bit;
 	r_share.is_negative |= weight < 0 ? bit : 0u;
 	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
@@ -212,13 +212,13 @@ struct HeldFaces {
 };
 
 /// The weight of a held edge as the receiver sees it, where the list does not know it.
-void share_weight(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_place, CountReceiver p_receiver,
+void share_weight(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
 		inout CountShare r_share) {
 	const uvec2 words = subgroupShuffle(p_faces.words, p_lane);
 	const int weight = count_weight(p_receiver.position, subgroupShuffle(p_faces.plane0, p_lane),
 			subgroupShuffle(p_faces.plane1, p_lane), make_count_kind(words.x, words.y));
 	const uint known = subgroupShuffle(p_held.entry, p_lane) >> COUNT_KNOWN_SHIFT;
-	const uint bit = (known & COUNT_KNOWS_WEIGHT) == 0u ? 1u << (p_place + p_lane) : 0u;
+	const uint bit = (known & COUNT_KNOWS_WEIGHT) == 0u ? 1u << (p_first_slot + p_lane) : 0u;
 	r_share.own &= ~(weight == 0 ? bit : 0u);
 	r_share.is_negative |= weight < 0 ? bit : 0u;
 	r_share.is_twice |= abs(weight) == 2 ? bit : 0u;
@@ -235,20 +235,20 @@ HeldEdge get_part(HeldRound p_held, uint p_part) {
 	return choose_held(p_part >= 2u, low, high);
 }
 
-/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the places from p_place on there.
-void share_four(HeldEdge p_held, uint p_lane, uint p_place, CountReceiver p_receiver, inout CountShare r_share) {
-	share_edge(p_held, p_lane, p_place, p_receiver, r_share);
-	share_edge(p_held, p_lane + 1u, p_place, p_receiver, r_share);
-	share_edge(p_held, p_lane + 2u, p_place, p_receiver, r_share);
-	share_edge(p_held, p_lane + 3u, p_place, p_receiver, r_share);
+/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the slots from p_first_slot on there.
+void share_four(HeldEdge p_held, uint p_lane, uint p_first_slot, CountReceiver p_receiver, inout CountShare r_share) {
+	share_edge(p_held, p_lane, p_first_slot, p_receiver, r_share);
+	share_edge(p_held, p_lane + 1u, p_first_slot, p_receiver, r_share);
+	share_edge(p_held, p_lane + 2u, p_first_slot, p_receiver, r_share);
+	share_edge(p_held, p_lane + 3u, p_first_slot, p_receiver, r_share);
 }
 
-void share_four_weights(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_place, CountReceiver p_receiver,
+void share_four_weights(HeldEdge p_held, HeldFaces p_faces, uint p_lane, uint p_first_slot, CountReceiver p_receiver,
 		inout CountShare r_share) {
-	share_weight(p_held, p_faces, p_lane, p_place, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 1u, p_place, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 2u, p_place, p_receiver, r_share);
-	share_weight(p_held, p_faces, p_lane + 3u, p_place, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane, p_first_slot, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 1u, p_first_slot, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 2u, p_first_slot, p_receiver, r_share);
+	share_weight(p_held, p_faces, p_lane + 3u, p_first_slot, p_receiver, r_share);
 }
 
 /// Edges of a part of a round that has p_count.
@@ -305,21 +305,21 @@ CountShare share_round(uint p_first, uint p_count, CountReceiver p_receiver, ino
 /// What the next of the edges that the invocation's receiver has adds, if there is one.
 CountSector find_next_sector(HeldRound p_held, CountReceiver p_receiver, CountShare p_share, inout uint r_left) {
 	const bool is_there = r_left != 0u;
-	const uint place = uint(findLSB(r_left)) & 31u;
+	const uint slot = uint(findLSB(r_left)) & 31u;
 	r_left &= r_left - 1u;
-	const uint lane = place % HELD_AT_ONCE;
+	const uint lane = slot % HELD_AT_ONCE;
 	HeldEdge edge = hand_on(p_held.part0, lane);
 	if (ROUND_SIZE > HELD_AT_ONCE) {
-		edge = choose_held((place & HELD_AT_ONCE) != 0u, edge, hand_on(p_held.part1, lane));
+		edge = choose_held((slot & HELD_AT_ONCE) != 0u, edge, hand_on(p_held.part1, lane));
 	}
 	if (ROUND_SIZE > 2u * HELD_AT_ONCE) {
 		const HeldEdge other = choose_held(
-				(place & HELD_AT_ONCE) != 0u, hand_on(p_held.part2, lane), hand_on(p_held.part3, lane));
-		edge = choose_held((place & 2u * HELD_AT_ONCE) != 0u, edge, other);
+				(slot & HELD_AT_ONCE) != 0u, hand_on(p_held.part2, lane), hand_on(p_held.part3, lane));
+		edge = choose_held((slot & 2u * HELD_AT_ONCE) != 0u, edge, other);
 	}
-	const int weight = (p_share.is_twice >> place & 1u) != 0u ? 2 : 1;
+	const int weight = (p_share.is_twice >> slot & 1u) != 0u ? 2 : 1;
 	return find_edge_sector(p_receiver, edge.a, edge.b,
-			is_there ? ((p_share.is_negative >> place & 1u) != 0u ? -weight : weight) : 0);
+			is_there ? ((p_share.is_negative >> slot & 1u) != 0u ? -weight : weight) : 0);
 }
 
 /// Counts the next two edges of each invocation's receiver, one behind the other, so that processors deal with both at
@@ -353,7 +353,7 @@ CountBounds find_subgroup_bounds(CountPoint p_point, bool p_is_here, vec2 p_slop
 			vec2(subgroup_min(p_is_here ? range : COUNT_FAR), subgroup_max(p_is_here ? range : -COUNT_FAR)));
 }
 
-/// Each invocation counts one of the block's pixels, which has its place there. p_parts: the first of the words of
+/// Each invocation counts one of the block's pixels, p_pixel in the block. p_parts: the first of the words of
 /// EDGE_COUNT_RECEIVES_*. p_sorted_part: its receiver's, where they are sorted.
 CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint p_sorted_part) {
 	const bool is_sorted = (p_parts & EDGE_COUNT_IS_SORTED) != 0u;
@@ -435,8 +435,8 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	return result;
 }
 
-/// The invocation's place among those of the work group.
-uint find_place() {
+/// The invocation's index among those of the work group.
+uint find_invocation_index() {
 	return gl_SubgroupID * SUBGROUP_SIZE + gl_SubgroupInvocationID;
 }
 
@@ -445,10 +445,10 @@ CountPixel count_pixel() {
 	const uint block = find_block();
 	const uint first = block * uint(EDGE_COUNT_RECEIVES_WORDS);
 	const uint parts = receives[first + uint(EDGE_COUNT_RECEIVES_PARTS)];
-	const uint place = find_place();
-	const uint order = receives[first + uint(EDGE_COUNT_RECEIVES_ORDER) + place / 4u];
-	const uint own_order = order >> (8u * (place % 4u)) & 0xffu;
-	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : place;
+	const uint invocation = find_invocation_index();
+	const uint order = receives[first + uint(EDGE_COUNT_RECEIVES_ORDER) + invocation / 4u];
+	const uint own_order = order >> (8u * (invocation % 4u)) & 0xffu;
+	const uint index = (parts & EDGE_COUNT_IS_SORTED) != 0u ? own_order & EDGE_COUNT_ORDER_PIXEL_MASK : invocation;
 	return count_pixel_of_block(block, parts, find_pixel_in_block(index), own_order >> EDGE_COUNT_ORDER_PART_SHIFT);
 }
 

@@ -2,7 +2,7 @@
 // resolve_smooth_fine.comp.
 //
 // There the image of each edge on the light's disc moves by a small part of R from one side of the block to the other,
-// so that the visibility is nearly a polynomial of the pixel's place. 16 of the 64 pixels are counted, and a polynomial
+// so that the visibility is nearly a polynomial of the pixel's position. 16 of the 64 pixels are counted, and a polynomial
 // of degree 3 with least squares gives all: its 10 coefficients also even out the noise of the points on the disc.
 #ifndef COUNT_SMOOTH_INC_GLSL
 #define COUNT_SMOOTH_INC_GLSL
@@ -24,11 +24,11 @@ uint find_counted_line(uint p_index) {
 	return 2u * p_index + (p_index > 1u ? 1u : 0u);
 }
 
-uvec2 find_counted_pixel(uint p_place) {
-	return uvec2(find_counted_line(p_place % SIDE), find_counted_line(p_place / SIDE));
+uvec2 find_counted_pixel(uint p_index) {
+	return uvec2(find_counted_line(p_index % SIDE), find_counted_line(p_index / SIDE));
 }
 
-/// Polynomials of degree 0 to 3 of a place in the block: orthonormal over the four lines that are counted.
+/// Polynomials of degree 0 to 3 of a position in the block: orthonormal over the four lines that are counted.
 vec4 find_basis(uint p_line) {
 	const float HALF = 3.5;
 	const float NEAR = 1.5 / HALF; // the inner lines, where the outer ones are at 1
@@ -41,12 +41,12 @@ vec4 find_basis(uint p_line) {
 			u * (u * u - SLOPE) * inversesqrt(2.0 * CUBIC));
 }
 
-/// The polynomial's coefficient of basis p_place % SIDE along x and p_place / SIDE along y.
-float find_coefficient(uint p_place) {
+/// The polynomial's coefficient of basis p_index % SIDE along x and p_index / SIDE along y.
+float find_coefficient(uint p_index) {
 	float sum = 0.0;
 	for (uint i = 0u; i < SIDE * SIDE; ++i) {
 		const uvec2 pixel = find_counted_pixel(i);
-		sum += counted[i] * find_basis(pixel.x)[p_place % SIDE] * find_basis(pixel.y)[p_place / SIDE];
+		sum += counted[i] * find_basis(pixel.x)[p_index % SIDE] * find_basis(pixel.y)[p_index / SIDE];
 	}
 	return sum;
 }
@@ -67,13 +67,13 @@ void main() {
 	load_count_constants();
 	const uint block = find_block();
 	const uint parts = receives[block * uint(EDGE_COUNT_RECEIVES_WORDS) + uint(EDGE_COUNT_RECEIVES_PARTS)];
-	const uint place = find_place();
-	counted[place] = count_pixel_of_block(block, parts, find_counted_pixel(place), 0u).visibility;
+	const uint invocation = find_invocation_index();
+	counted[invocation] = count_pixel_of_block(block, parts, find_counted_pixel(invocation), 0u).visibility;
 	barrier();
-	coefficients[place] = find_coefficient(place);
+	coefficients[invocation] = find_coefficient(invocation);
 	barrier();
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
-		const uvec2 pixel = find_pixel_in_block(i * uint(COUNT_GROUP_SIZE) + place);
+		const uvec2 pixel = find_pixel_in_block(i * uint(COUNT_GROUP_SIZE) + invocation);
 		imageStore(mask_image, ivec2(find_block_corner(block) + pixel), vec4(find_fitted(pixel)));
 	}
 }

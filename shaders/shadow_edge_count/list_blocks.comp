@@ -82,15 +82,15 @@ uint find_parts_of_tile(uvec2 p_tile, uint p_view) {
 	return subgroup_or(parts_of_tile);
 }
 
-/// The place of a part of the tile in the buffers that have one item for each.
-uint find_part_place(uvec2 p_tile, uint p_index) {
+/// The index of a part of the tile in the buffers that have one item for each.
+uint find_part_index(uvec2 p_tile, uint p_index) {
 	return find_block(p_tile, p_index % BLOCKS_PER_TILE) * PART_COUNT + p_index / BLOCKS_PER_TILE;
 }
 
 /// The box of one of the parts of the tile; empty where p_parts does not have it.
 CountBounds load_box(uvec2 p_tile, uint p_parts, uint p_index) {
 	const bool is_there = p_index < PARTS_PER_TILE && (p_parts >> p_index & 1u) != 0u;
-	const CountBlockBox loaded = boxes[is_there ? find_part_place(p_tile, p_index) : 0u];
+	const CountBlockBox loaded = boxes[is_there ? find_part_index(p_tile, p_index) : 0u];
 	return is_there ? unpack_count_bounds(loaded) : make_count_bounds();
 }
 
@@ -255,10 +255,10 @@ void append_edges(uint p_entry, bool p_is_used, inout Chain r_chain) {
 		}
 		chunk = subgroupBroadcastFirst(chunk);
 	}
-	const uint place = begin + subgroupBallotExclusiveBitCount(used);
-	const uint target = begin == 0u || place >= size ? chunk : r_chain.chunk;
+	const uint slot = begin + subgroupBallotExclusiveBitCount(used);
+	const uint target = begin == 0u || slot >= size ? chunk : r_chain.chunk;
 	if (p_is_used && target < light.chunk_capacity) {
-		lists[target * size + place % size] = p_entry;
+		lists[target * size + slot % size] = p_entry;
 	}
 	r_chain.first = r_chain.edge_count == 0u ? chunk : r_chain.first;
 	r_chain.chunk = chunk;
@@ -292,9 +292,9 @@ void list_held(CountBox p_box, bool p_has_bundles, uint p_edge_count, inout floa
 	uint first = 0u;
 	do {
 		const uint item = first + gl_SubgroupInvocationID;
-		const uint place = item < p_edge_count ? item : 0u;
-		const uint held = held_items[p_has_bundles ? place / size : place];
-		const uint index = p_has_bundles ? held * size + place % size : held;
+		const uint held_index = item < p_edge_count ? item : 0u;
+		const uint held = held_items[p_has_bundles ? held_index / size : held_index];
+		const uint index = p_has_bundles ? held * size + held_index % size : held;
 		const bool is_there = item < p_edge_count && index < most;
 		bool is_used;
 		const uint entry = test_edge(p_box, is_there ? index : 0u, is_used, r_least_share);
@@ -336,8 +336,8 @@ uint hold_edges(BoxPair p_pair, uint p_item_count, inout uint r_first) {
 	uint count = 0u;
 	do {
 		const uint item = r_first + gl_SubgroupInvocationID;
-		const uint place = item < p_item_count ? item : 0u;
-		const uint index = needed_bundles[place / size] * size + place % size;
+		const uint wanted_index = item < p_item_count ? item : 0u;
+		const uint index = needed_bundles[wanted_index / size] * size + wanted_index % size;
 		const bool is_there = item < p_item_count && index < most;
 		const CountEdgeRecord edge = load_count_edge(is_there ? index : 0u);
 		const vec3 a = uintBitsToFloat(edge.a_face0.xyz);
@@ -420,8 +420,8 @@ uint find_box_solids(uint p_view, CountBounds p_bounds) {
 			are_faces_aside(box, p_view, find_count_texel(p_view, least), find_count_texel(p_view, greatest));
 	// A receiver in the middle of the box.
 	const float w = dot(box.slope, box.center) + box.range.x;
-	const vec3 place = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
-	const vec3 position = place.x * view.axis_x.xyz + place.y * view.axis_y.xyz + place.z * view.axis_z.xyz;
+	const vec3 in_view = box.is_directional ? vec3(box.center, light.depth_far_m - w) : vec3(box.center, 1.0) / w;
+	const vec3 position = in_view.x * view.axis_x.xyz + in_view.y * view.axis_y.xyz + in_view.z * view.axis_z.xyz;
 	if (!is_even) {
 		return MAY_VARY;
 	}
@@ -470,9 +470,9 @@ void list_view(uvec2 p_tile, uint p_view) {
 		const uint i = first + gl_SubgroupInvocationID;
 		if (i < PARTS_PER_TILE && (parts >> i & 1u) != 0u) {
 			const Chain chain = part_chains[i];
-			const uint place = find_part_place(p_tile, i) * uint(EDGE_COUNT_CHAIN_WORDS);
-			chains[place + uint(EDGE_COUNT_CHAIN_FIRST)] = chain.first;
-			chains[place + uint(EDGE_COUNT_CHAIN_COUNT)] = chain.edge_count;
+			const uint first_word = find_part_index(p_tile, i) * uint(EDGE_COUNT_CHAIN_WORDS);
+			chains[first_word + uint(EDGE_COUNT_CHAIN_FIRST)] = chain.first;
+			chains[first_word + uint(EDGE_COUNT_CHAIN_COUNT)] = chain.edge_count;
 			atomicAdd(block_edge_counts[i % BLOCKS_PER_TILE], chain.edge_count);
 			// Chunks are taken in the order of their numbers: the last one has room where all have.
 			if (chain.edge_count > 0u && chain.chunk >= light.chunk_capacity) {
@@ -490,8 +490,8 @@ void list_view(uvec2 p_tile, uint p_view) {
 /// Puts the block into the list of its kind. In no order: what a block's pixels get does not depend on it.
 void add_block(uint p_entry, uint p_kind) {
 	const uint first = 3u * p_kind;
-	const uint place = atomicAdd(dispatches[first], 1u);
-	blocks[p_kind * light.block_count.x * light.block_count.y + place] = p_entry;
+	const uint slot = atomicAdd(dispatches[first], 1u);
+	blocks[p_kind * light.block_count.x * light.block_count.y + slot] = p_entry;
 	dispatches[first + 1u] = 1u;
 	dispatches[first + 2u] = 1u;
 }

@@ -21,25 +21,25 @@ const uint GROUP_SIZE = uint(FACE_LIST_GROUP_SIZE);
 shared uint are_cut[FACE_LIST_GROUP_SIZE];
 
 void main() {
-	const uint place = gl_LocalInvocationID.x;
+	const uint invocation = gl_LocalInvocationID.x;
 	uint count = 0u;
 	for (uint first = 0u; first < light.face_count; first += GROUP_SIZE) {
-		const uint face = first + place;
-		are_cut[place] = face < light.face_count && is_cut_face(light, faces[face]) ? 1u : 0u;
+		const uint face = first + invocation;
+		are_cut[invocation] = face < light.face_count && is_cut_face(light, faces[face]) ? 1u : 0u;
 		barrier();
 		uint before = 0u;
 		uint all = 0u;
 		for (uint i = 0u; i < GROUP_SIZE; ++i) {
-			before += i < place ? are_cut[i] : 0u;
+			before += i < invocation ? are_cut[i] : 0u;
 			all += are_cut[i];
 		}
-		if (are_cut[place] != 0u) {
+		if (are_cut[invocation] != 0u) {
 			cut_faces[count + before] = face;
 		}
 		count += all;
 		barrier();
 	}
-	if (place == 0u) {
+	if (invocation == 0u) {
 		totals[EDGE_COUNT_TOTAL_CUT_FACES] = count;
 	}
 }

@@ -47,17 +47,17 @@ void main() {
 			uint(EDGE_COUNT_EDGES_PER_WORD);
 	const uint first_word = gl_WorkGroupID.x * uint(EDGE_COUNT_WORDS_PER_BLOCK);
 	// All blocks before, other casters' too: one list for all.
-	uint place = find_list_place(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u, push.first_block + gl_WorkGroupID.x,
+	uint index = find_list_index(uint(EDGE_COUNT_WORDS_PER_BLOCK), 0u, push.first_block + gl_WorkGroupID.x,
 			push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}
 	for (uint bits = words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
-		edges[place] = make_record(
+		edges[index] = make_record(
 				mesh_edges[word_index * uint(EDGE_COUNT_EDGES_PER_WORD) + uint(findLSB(bits))]);
-		++place;
+		++index;
 	}
 	if ((push.flags & EDGE_COUNT_CASTER_LAST) != 0u && word_index + 1u == word_count) {
-		totals[EDGE_COUNT_TOTAL_EDGES] = place;
+		totals[EDGE_COUNT_TOTAL_EDGES] = index;
 	}
 }

@@ -140,7 +140,7 @@ uint write_sorted(uint p_block, CountPoint p_points[PIXELS_PER_INVOCATION], vec2
 	return found;
 }
 
-/// True where each pixel has a receiver, and its place changes evenly from pixel to pixel: by no more than a part
+/// True where each pixel has a receiver, and its position changes evenly from pixel to pixel: by no more than a part
 /// of the block's size otherwise than over the plane through three corners. All receivers are in one view.
 bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 	const float MOST_DEVIATION = 0.25;
@@ -153,8 +153,8 @@ bool is_smooth(CountPoint p_points[PIXELS_PER_INVOCATION]) {
 	bool is_even = true;
 	for (uint i = 0u; i < PIXELS_PER_INVOCATION; ++i) {
 		const uint pixel = i * GROUP_SIZE + gl_SubgroupInvocationID;
-		const vec2 place = vec2(find_pixel_in_block(pixel)) / float(EDGE_COUNT_BLOCK_PX - 1);
-		const vec3 deviation = p_points[i].position - corner - place.x * right - place.y * top;
+		const vec2 share = vec2(find_pixel_in_block(pixel)) / float(EDGE_COUNT_BLOCK_PX - 1);
+		const vec3 deviation = p_points[i].position - corner - share.x * right - share.y * top;
 		is_even = is_even &&
 				(pixel >= PIXEL_COUNT || (p_points[i].view != NO_VIEW && dot(deviation, deviation) <= most));
 	}

@@ -163,7 +163,7 @@ SHARED_SIZE(CountBlockBox, 32);
 // What a block receives: a sum of 1 << part for each part that is there, of EDGE_COUNT_IS_SORTED and then its view
 // from bit EDGE_COUNT_VIEW_SHIFT on, and of EDGE_COUNT_IS_PARTLY_LIT where some receiver is in no part, since no
 // caster can hide it; and of EDGE_COUNT_IS_SMOOTH where each pixel has a receiver, all are in one part, and their
-// places change evenly from pixel to pixel. Then, where it is sorted, its pixels in that order, a byte each: the place
+// positions change evenly from pixel to pixel. Then, where it is sorted, its pixels in that order, a byte each: the index
 // in the order of find_pixel_in_block, and the part.
 #define EDGE_COUNT_PARTS_MASK 0x3fu
 #define EDGE_COUNT_VIEW_SHIFT 8

@@ -18,8 +18,8 @@ const uint FIN_INNER_CORNERS = FIN_SIDE_CORNER_COUNT;
 
 /// theta, the transition: 1 at X', 0.5 on the edge, 0 at X''.
 float fin_theta(uint p_corner) {
-	const uint place = p_corner & 6u;
-	return place == FIN_OUTSIDE ? 1.0 : place == FIN_INSIDE ? 0.0 : 0.5;
+	const uint side = p_corner & 6u;
+	return side == FIN_OUTSIDE ? 1.0 : side == FIN_INSIDE ? 0.0 : 0.5;
 }
 
 /// The vertex's one normal in the light's view, unit; zero stays zero. Normals transform by the
@@ -41,10 +41,10 @@ vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
 vec4 fin_position_clip(FinsViewConstants p_view, FinsPush p_push, uint p_corner,
 		vec3 p_position_node, vec3 p_normal_node) {
 	precise vec3 position = (p_push.view_from_node * vec4(p_position_node, 1.0)).xyz;
-	const uint place = p_corner & 6u;
-	if (place != FIN_ON_EDGE) {
+	const uint side = p_corner & 6u;
+	if (side != FIN_ON_EDGE) {
 		const float offset_m =
-				place == FIN_OUTSIDE ? p_view.outer_width_m : -p_view.inner_width_m;
+				side == FIN_OUTSIDE ? p_view.outer_width_m : -p_view.inner_width_m;
 		position += offset_m * fin_normal_view(p_push, p_normal_node);
 	}
 	precise const vec2 xy = position.xy / p_view.half_extent;

@@ -43,11 +43,11 @@ Neighbourhood search_neighbourhood(
 	[[dont_unroll]] for (int i = p_is_needed ? 0 : 9; i < 9; ++i) {
 		const ivec2 texel = clamp(
 				p_texel + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(p_view.size_px) - 1);
-		const ivec3 place = ivec3(texel, p_view.layer);
-		const bool has_fin = texelFetch(penumbra_depth_texture, place, 0).r > 0.0;
-		const bool is_outer = has_fin && texelFetch(color_texture, place, 0).g > 0.0;
+		const ivec3 layer_texel = ivec3(texel, p_view.layer);
+		const bool has_fin = texelFetch(penumbra_depth_texture, layer_texel, 0).r > 0.0;
+		const bool is_outer = has_fin && texelFetch(color_texture, layer_texel, 0).g > 0.0;
 		const bool is_hiding = compare_texel(p_view, p_point, texel,
-									   texelFetch(layer_1_texture, place, 0).r) < 0.5;
+									   texelFetch(layer_1_texture, layer_texel, 0).r) < 0.5;
 		found.has_outer = found.has_outer || is_outer;
 		found.has_inner = found.has_inner || (has_fin && !is_outer);
 		found.has_hiding = found.has_hiding || (is_hiding && !is_outer);
@@ -56,14 +56,14 @@ Neighbourhood search_neighbourhood(
 }
 
 FinsResult resolve_point(LightViewConstants p_view, MapPoint p_point) {
-	const vec2 place = texels_from_map(p_view, p_point.xy);
-	const ivec2 texel = ivec2(floor(place));
+	const vec2 position_px = texels_from_map(p_view, p_point.xy);
+	const ivec2 texel = ivec2(floor(position_px));
 	if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(p_view.size_px)))) {
 		return FinsResult(1.0, CASE_LIT);
 	}
 	const ivec3 fetched = ivec3(texel, p_view.layer);
 	const vec2 color = textureLod(color_texture,
-			vec3(place / vec2(p_view.size_px), float(p_view.layer)), 0.0).rg;
+			vec3(position_px / vec2(p_view.size_px), float(p_view.layer)), 0.0).rg;
 	const bool is_all_outer = color.g >= PENUMBRA_CLASS_OUTER - PENUMBRA_CLASS_TOLERANCE;
 	const bool is_before_layer_1 = compare_texel(p_view, p_point, texel,
 										   texelFetch(layer_1_texture, fetched, 0).r) > 0.5;

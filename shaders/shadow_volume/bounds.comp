@@ -21,11 +21,11 @@ void main() {
 	float least = 1.0;
 	for (uint i = 0u; i < CULLING_LEVEL_FACTOR * CULLING_LEVEL_FACTOR; ++i) {
 		const uvec2 source = texel * CULLING_LEVEL_FACTOR + uvec2(i % CULLING_LEVEL_FACTOR, i / CULLING_LEVEL_FACTOR);
-		const uint place = bounds_index(push.view_index, push.level - 1u, source);
+		const uint index = bounds_index(push.view_index, push.level - 1u, source);
 		if (push.level == 1u) {
-			bounds[place] = texelFetch(depth_map, ivec2(source), 0).x;
+			bounds[index] = texelFetch(depth_map, ivec2(source), 0).x;
 		}
-		least = min(least, bounds[place]);
+		least = min(least, bounds[index]);
 	}
 	bounds[bounds_index(push.view_index, push.level, texel)] = least;
 }

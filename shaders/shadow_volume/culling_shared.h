@@ -47,7 +47,7 @@ struct SHARED_ALIGN BoundsPush {
 SHARED_SIZE(BoundsPush, 16);
 
 struct SHARED_ALIGN CullingView {
-	mat4 view_from_relative; // from metres along the world's axes, relative to the view's place
+	mat4 view_from_relative; // from metres along the world's axes, relative to the view's position
 	vec2 half_extent;		 // tangents; orthographic: metres
 	float near_m;
 	float far_m;
@@ -72,7 +72,7 @@ SHARED_SIZE(CullingConstants, 592);
 struct SHARED_ALIGN CullingBox {
 	vec4 center_m;		// xyz
 	vec4 half_extent_m; // xyz
-	uint first;			// subtree: its first caster's box; caster: its place among the words
+	uint first;			// subtree: its first caster's box; caster: its index among the words
 	uint count;			// subtree: of its casters
 	uint padding0;
 	uint padding1;

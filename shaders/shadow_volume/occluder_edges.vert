@@ -23,7 +23,7 @@ const float BEYOND_VIEW = 1.1;
 // Edges before the near plane count still: a face that reaches it may be drawn in the same texel. One
 // that comes so near within a texel has no bound there.
 const float MOST_DEPTH = 2.0;
-// From a place on the edge to any point of a texel within the half width, with what the interpolation
+// From a point on the edge to any point of a texel within the half width, with what the interpolation
 // along the widened edge adds.
 const float REACH_PX = 4.0;
 const float ROUNDING = 1e-5;
@@ -33,7 +33,7 @@ vec4 project(uint p_vertex) {
 	return push.clip_from_node * vec4(positions_node[p_vertex].xyz, 1.0);
 }
 
-/// The greatest change of depth from a place on a face to another REACH_PX away.
+/// The greatest change of depth from a point on a face to another REACH_PX away.
 float compute_change(vec4 p_a, vec4 p_b, vec4 p_c) {
 	// depth w = slope . (x, y, w) at each corner, also of those behind the light
 	mat3 rows;
@@ -56,13 +56,13 @@ float get_depth(vec4 p_clip) {
 	return p_clip.z >= p_clip.w ? 1.0 : max(p_clip.z / p_clip.w, 0.0);
 }
 
-/// Keeps the part of a segment, given by its ends' places on it, on which a height is not negative.
+/// Keeps the part of a segment, given by its ends' positions on it, on which a height is not negative.
 void clip(float p_at_a, float p_at_b, inout vec2 r_part) {
-	const float place = p_at_a == p_at_b ? 0.0 : p_at_a / (p_at_a - p_at_b);
+	const float crossing = p_at_a == p_at_b ? 0.0 : p_at_a / (p_at_a - p_at_b);
 	if (p_at_a < 0.0) {
-		r_part.x = p_at_b < 0.0 ? 2.0 : max(r_part.x, place);
+		r_part.x = p_at_b < 0.0 ? 2.0 : max(r_part.x, crossing);
 	} else if (p_at_b < 0.0) {
-		r_part.y = min(r_part.y, place);
+		r_part.y = min(r_part.y, crossing);
 	}
 }
 
@@ -108,7 +108,7 @@ void main() {
 	const float length_px = distance(begin_px, end_px);
 	const vec2 along = length_px > 1e-4 ? (end_px - begin_px) / length_px : vec2(1.0, 0.0);
 	const vec2 across = vec2(-along.y, along.x);
-	const vec2 place_px = (is_at_end ? end_px + along * HALF_WIDTH_PX : begin_px - along * HALF_WIDTH_PX) +
+	const vec2 position_px = (is_at_end ? end_px + along * HALF_WIDTH_PX : begin_px - along * HALF_WIDTH_PX) +
 			across * ((corner & 2u) == 0u ? -HALF_WIDTH_PX : HALF_WIDTH_PX);
-	gl_Position = vec4(place_px / float(CULLING_MAP_SIZE_PX) * 2.0 - 1.0, depth, 1.0);
+	gl_Position = vec4(position_px / float(CULLING_MAP_SIZE_PX) * 2.0 - 1.0, depth, 1.0);
 }

@@ -24,12 +24,12 @@ void main() {
 	const uint first = 3u * vertex;
 	const vec3 at_rest = vec3(rest_positions[first], rest_positions[first + 1u], rest_positions[first + 2u]);
 	const vec3 rest_normal = vec3(rest_normals[first], rest_normals[first + 1u], rest_normals[first + 2u]);
-	const vec4 place = vec4(add_targets(at_rest, vertex, DEFORM_POSITIONS), 1.0);
+	const vec4 morphed = vec4(add_targets(at_rest, vertex, DEFORM_POSITIONS), 1.0);
 	const vec3 turned = add_targets(rest_normal, vertex, DEFORM_NORMALS);
 	const DeformRows rows = blend_joints(vertex);
-	positions[first] = dot(rows.x, place);
-	positions[first + 1u] = dot(rows.y, place);
-	positions[first + 2u] = dot(rows.z, place);
+	positions[first] = dot(rows.x, morphed);
+	positions[first + 1u] = dot(rows.y, morphed);
+	positions[first + 2u] = dot(rows.z, morphed);
 	// By the cofactors, whose rows are these; they exist where the inverse does not.
 	const vec3 normal = vec3(dot(cross(rows.y.xyz, rows.z.xyz), turned), dot(cross(rows.z.xyz, rows.x.xyz), turned),
 			dot(cross(rows.x.xyz, rows.y.xyz), turned));

@@ -30,9 +30,9 @@ void main() {
 	const DeformPoint point = points[vertex];
 	const vec3 a = load_corner(point.corners.x);
 	// From a corner, so that what does not move stays exactly where it is.
-	const vec3 place = a + point.shares.y * (load_corner(point.corners.y) - a) +
+	const vec3 position = a + point.shares.y * (load_corner(point.corners.y) - a) +
 			point.shares.z * (load_corner(point.corners.z) - a);
-	positions[3u * vertex] = place.x;
-	positions[3u * vertex + 1u] = place.y;
-	positions[3u * vertex + 2u] = place.z;
+	positions[3u * vertex] = position.x;
+	positions[3u * vertex + 1u] = position.y;
+	positions[3u * vertex + 2u] = position.z;
 }

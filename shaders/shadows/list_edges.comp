@@ -34,17 +34,17 @@ void main() {
 	const uint word_index = gl_GlobalInvocationID.x;
 	const uint word_count = (push.edge_count + SILHOUETTE_EDGES_PER_WORD - 1u) / SILHOUETTE_EDGES_PER_WORD;
 	const uint first_word = gl_WorkGroupID.x * SILHOUETTE_WORDS_PER_BLOCK;
-	uint place = find_list_place(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
+	uint index = find_list_index(SILHOUETTE_WORDS_PER_BLOCK, push.first_block,
 			push.first_block + gl_WorkGroupID.x, push.first_word + first_word, push.first_word + min(word_index, word_count));
 	if (word_index >= word_count) {
 		return;
 	}
 	for (uint bits = edge_words[push.first_word + word_index]; bits != 0u; bits &= bits - 1u) {
 		const uint bit = uint(findLSB(bits));
-		edge_list[push.first_in_list + place] = word_index * SILHOUETTE_EDGES_PER_WORD + bit;
-		++place;
+		edge_list[push.first_in_list + index] = word_index * SILHOUETTE_EDGES_PER_WORD + bit;
+		++index;
 	}
 	if (word_index + 1u == word_count) {
-		draws[push.draw_index] = SilhouetteDraw(place * push.vertices_per_edge, 1u, 0u, 0u);
+		draws[push.draw_index] = SilhouetteDraw(index * push.vertices_per_edge, 1u, 0u, 0u);
 	}
 }

@@ -36,7 +36,7 @@ LightType parse_light_type(const std::string &p_name) {
 	fail("accuracy.json: light \"", p_name, "\", must be spot, omni or directional.");
 }
 
-/// A demo scene with its first light turned into another type; place and direction stay.
+/// A demo scene with its first light turned into another type; position and direction stay.
 struct AccuracyScene {
 	std::unique_ptr<Scene> scene;
 	Light3D *light = nullptr;

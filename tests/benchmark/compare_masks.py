@@ -35,7 +35,7 @@ def list_lights(root):
 
 
 def change_type(light, kind):
-    """The light as one of another type, at the same place. A light that has the type stays as it is."""
+    """The light as one of another type, at the same position. A light that has the type stays as it is."""
     if light["type"] == kind:
         return
     extras = light.setdefault("extras", {})

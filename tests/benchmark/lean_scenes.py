@@ -34,11 +34,11 @@ def add_spot(document, name, eye, target=(0.0, 0.0, 0.0), size_m=0.1, **extras):
     document.add_light(name, light, eye, target, {"shadow_enabled": True, "light_size": size_m, **extras})
 
 
-def add_omni(document, name, place, range_m=None, **extras):
+def add_omni(document, name, position, range_m=None, **extras):
     light = {"type": "point", "color": [1.0, 1.0, 1.0], "intensity": 60.0}
     if range_m is not None:
         light["range"] = range_m
-    document.add_light(name, light, place, None, {"shadow_enabled": True, "light_size": 0.1, **extras})
+    document.add_light(name, light, position, None, {"shadow_enabled": True, "light_size": 0.1, **extras})
 
 
 def make_balls(folder, stem="balls"):
@@ -64,11 +64,11 @@ def make_lights(hidden_count, folder):
     for index in range(VISIBLE_COUNT):
         add_spot(document, "Visible %d" % index, (1.5 * math.cos(1.5 * index), 5.0, 1.5 * math.sin(1.5 * index)), **small)
     for index in range(hidden_count):
-        place = (3.0 * (index % 16) - 24.0, 4.0, 10.0 + 2.0 * (index // 16))
+        position = (3.0 * (index % 16) - 24.0, 4.0, 10.0 + 2.0 * (index // 16))
         if index % 2:
-            add_omni(document, "Hidden %d" % index, place, range_m=2.0, **small)
+            add_omni(document, "Hidden %d" % index, position, range_m=2.0, **small)
         else:
-            add_spot(document, "Hidden %d" % index, place, (place[0], 9.0, place[2] + 0.5), **small)
+            add_spot(document, "Hidden %d" % index, position, (position[0], 9.0, position[2] + 0.5), **small)
     return save(document, "lights_%d" % hidden_count, folder)
 
 
@@ -100,8 +100,8 @@ def make_quads(folder):
     document, material = begin()
     quad = document.add_mesh("Quad", make_quad(0.18, 0.18), material)
     for index in range(100):
-        place = (0.4 * (index % 10 - 4.5), 0.5, 0.4 * (index // 10 - 4.5))
-        document.add_node("Quad %d" % index, place, (-0.5**0.5, 0.0, 0.0, 0.5**0.5), mesh=quad)
+        position = (0.4 * (index % 10 - 4.5), 0.5, 0.4 * (index // 10 - 4.5))
+        document.add_node("Quad %d" % index, position, (-0.5**0.5, 0.0, 0.0, 0.5**0.5), mesh=quad)
     add_spot(document, "Light", (0.3, 6.0, 0.2))
     return save(document, "quads", folder)
 

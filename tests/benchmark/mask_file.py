@@ -51,11 +51,11 @@ def load_mask(path):
         position += 4 + size
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     mask = Mask(right - left + 1, bottom - top + 1)
-    channels, place = [], 0
-    while attributes["channels"][place]:
-        name, place = read_text(attributes["channels"], place)
-        channels.append((name, struct.unpack_from("<i", attributes["channels"], place)[0]))
-        place += 16
+    channels, cursor = [], 0
+    while attributes["channels"][cursor]:
+        name, cursor = read_text(attributes["channels"], cursor)
+        channels.append((name, struct.unpack_from("<i", attributes["channels"], cursor)[0]))
+        cursor += 16
     if channels != [("Y", FLOAT), ("receiver", FLOAT)] or attributes["compression"][0] != ZIP_COMPRESSION:
         raise ValueError("%s is no mask of `gnomon visibility`" % path)
     block_count = -(-mask.height // LINES_PER_BLOCK)

@@ -148,15 +148,15 @@ def make_tube(path, is_skinned):
     points, normals, joints, weights = [], [], [], []
     for ring in range(RINGS):
         height = 2.0 * ring / (RINGS - 1)
-        place = height / 2.0 * (joint_count - 1)
-        first = min(int(place), joint_count - 2)
+        position = height / 2.0 * (joint_count - 1)
+        first = min(int(position), joint_count - 2)
         for side in range(SIDES):
             angle = math.tau * side / SIDES
             radius = 0.15 + 0.03 * math.sin(9.0 * height) * math.cos(3.0 * angle)
             points += [radius * math.cos(angle), height, radius * math.sin(angle)]
             normals += [math.cos(angle), 0.0, math.sin(angle)]
             joints += [first, first + 1, 0, 0]
-            weights += [1.0 - (place - first), place - first, 0.0, 0.0]
+            weights += [1.0 - (position - first), position - first, 0.0, 0.0]
     indices = []
     for ring in range(RINGS - 1):
         for side in range(SIDES):
@@ -180,7 +180,7 @@ def make_tube(path, is_skinned):
     if is_skinned:
         document.json["skins"] = [{"joints": list(range(1, joint_count + 1)),
                                    "inverseBindMatrices": document.add("f", 5126, "MAT4", binds, 16)}]
-    moved = 1 if is_skinned else 0  # the root joint, or the mesh itself: the same shape at the same place
+    moved = 1 if is_skinned else 0  # the root joint, or the mesh itself: the same shape at the same position
     angle = 0.3
     times = document.add("f", 5126, "SCALAR", [0.0, 1.0], 1)
     turns = document.add("f", 5126, "VEC4", [0, 0, 0, 1, math.sin(angle / 2), 0, 0, math.cos(angle / 2)], 4)

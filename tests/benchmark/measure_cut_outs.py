@@ -180,7 +180,7 @@ def main():
     parser.add_argument("--write", action="store_true", help="into doc/cut_outs.md")
     parser.add_argument("--scenes", default="leaf,fence,leaves,courtyard")
     parser.add_argument("--techniques", default=",".join(TECHNIQUES))
-    parser.add_argument("--times", action="store_true", help="times in place of errors")
+    parser.add_argument("--times", action="store_true", help="times instead of errors")
     parser.add_argument("--unseen", action="store_true", help="errors of what the outlines were not tuned for")
     options = parser.parse_args()
     scenes, techniques = options.scenes.split(","), options.techniques.split(",")

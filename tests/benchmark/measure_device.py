@@ -83,7 +83,7 @@ def write(results):
 def main():
     parser = argparse.ArgumentParser(description="Times every technique on a device.")
     parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
-    parser.add_argument("--from", dest="source", metavar="FILE", help="results of an earlier run in place of a run")
+    parser.add_argument("--from", dest="source", metavar="FILE", help="results of an earlier run instead of a run")
     parser.add_argument("--out", metavar="FILE", help="the results as JSON")
     parser.add_argument("--device", metavar="NAME")
     parser.add_argument("--scenes", default=",".join(STUDY))

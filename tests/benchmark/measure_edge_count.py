@@ -318,7 +318,7 @@ def measure_motion(images, folder, _rounds):
     }
     ratios, rows = {}, []
     for image in images:
-        if image.scene not in MOTION_SCENES or image.share != LARGE_SHARE or image.light == SUN:  # a sun has no place
+        if image.scene not in MOTION_SCENES or image.share != LARGE_SHARE or image.light == SUN:  # a sun has no position
             continue
         frames = {}
         for name, (technique, settings) in techniques.items():

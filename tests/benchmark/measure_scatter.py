@@ -97,8 +97,8 @@ def measure_times(folder):
 
 def is_soft(fine, x, y):
     """Are all 16 pixels of a fine mask in penumbra that show what one of a coarse mask does?"""
-    places = [(4 * y + j) * fine.width + 4 * x + i for j in range(4) for i in range(4)]
-    return all(0.002 < fine.visibility[place] < 0.998 for place in places)
+    indices = [(4 * y + j) * fine.width + 4 * x + i for j in range(4) for i in range(4)]
+    return all(0.002 < fine.visibility[index] < 0.998 for index in indices)
 
 
 def measure_resolutions(folder):

@@ -38,9 +38,9 @@ def make_yard(caster_count, has_walls, folder):
                 z = (part - 0.5 * (WALLS_PER_ROW - 1)) * 2.3 * WALL_HALF[2]
                 document.add_object("Wall %d.%d" % (row, part), wall, material, (x, WALL_HALF[1] + 0.01, z))
     ball = document.add_mesh("Ball", make_icosphere(1, 0.12), material)
-    place = random.Random(5)
+    generator = random.Random(5)
     for index in range(caster_count):
-        at = (place.uniform(-0.48, 0.48) * YARD_M, place.uniform(0.13, 2.0), place.uniform(-0.45, 0.45) * YARD_M)
+        at = (generator.uniform(-0.48, 0.48) * YARD_M, generator.uniform(0.13, 2.0), generator.uniform(-0.45, 0.45) * YARD_M)
         document.add_node("Ball %d" % index, at, mesh=ball)
     return save(document, "yard_%d_%d" % (caster_count, has_walls), folder)
 

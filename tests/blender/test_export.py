@@ -36,7 +36,7 @@ class ExportedFile(BlenderTest):
         ]
         cls.scene = cls.make("scene.gltf", changes=changes)
         cls.blend = cls.scene + ".blend"
-        # r and t may stand in the place of the size, so the sizes are looked at without them.
+        # r and t may be used instead of the size, so the sizes are looked at without them.
         cls.sizes = cls.make("sizes.gltf", changes=[["Fill", "scale", [3.0, 3.0, 3.0]]])
 
     def check_lights(self, path):

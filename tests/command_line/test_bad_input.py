@@ -17,7 +17,7 @@ class BadScenes(CommandLineTest):
     def test_a_missing_scene_is_named(self):
         self.assert_refused(self.compute_mask(self.path("gone.gltf")), "gone.gltf")
 
-    def test_a_folder_in_place_of_a_scene_is_named(self):
+    def test_a_folder_instead_of_a_scene_is_named(self):
         self.assert_refused(self.compute_mask(os.path.join(ROOT, "doc")), "doc")
 
     def test_a_file_that_is_no_scene_is_named(self):

@@ -66,8 +66,8 @@ class EditorTest(EditorCase):
         self.open_editor()
         first = self.photograph()
         self.click("tab Modules")
-        places = self.wait_for(lambda state: any(name.startswith("module shadow_") for name in state["items"]))["items"]
-        name = min((name for name in places if name.startswith("module shadow_")), key=lambda name: places[name][1])
+        positions = self.wait_for(lambda state: any(name.startswith("module shadow_") for name in state["items"]))["items"]
+        name = min((name for name in positions if name.startswith("module shadow_")), key=lambda name: positions[name][1])
         module = name.split()[1]
         for word, listed in (("Disabled", True), ("Enabled", False)):
             self.click(name)

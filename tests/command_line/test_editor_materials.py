@@ -1,4 +1,4 @@
-"""The editor changes materials of meshes, whose shadows then soften, and saves them in their place."""
+"""The editor changes materials of meshes, whose shadows then soften, and saves them at their index."""
 
 import os
 import sys

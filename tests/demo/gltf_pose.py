@@ -163,5 +163,5 @@ class Poser:
         attributes = primitive["attributes"]
         for point, joints, shares in zip(points, self.read(attributes["JOINTS_0"]), self.read(attributes["WEIGHTS_0"])):
             moved = [(share, transform(moves[joint], point)) for joint, share in zip(joints, shares) if share > 0.0]
-            result.append(tuple(sum(share * place[axis] for share, place in moved) for axis in range(3)))
+            result.append(tuple(sum(share * position[axis] for share, position in moved) for axis in range(3)))
         return result

@@ -81,7 +81,7 @@ TEST_CASE("[GPU][Brdf] a white surface reflects about as much light as it gets")
 	}
 }
 
-TEST_CASE("[GPU][Brdf] what is reflected does not change when light and viewer change places") {
+TEST_CASE("[GPU][Brdf] what is reflected does not change when light and viewer swap positions") {
 	KernelFixture fixture;
 	for (const float roughness : { 0.4f, -1.4f }) {
 		for (const float scatter : { 0.0f, 0.7f }) {

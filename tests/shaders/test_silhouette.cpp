@@ -99,7 +99,7 @@ TEST_CASE("[GPU][Silhouette] a geometry shader finds the CPU's edges on meshes o
 		gpu.upload(*fixture.device,
 				TopologyPart::POSITIONS | TopologyPart::FACE_FLAGS | TopologyPart::ADJACENCY);
 		for (int repeat = 0; repeat < 12; ++repeat) {
-			// Points near and far, directions, and places in the planes of faces.
+			// Points near and far, directions, and points in the planes of faces.
 			glm::vec4 light(glm::vec3(random.next_unit() * random.next(0.2, 20.0)), 1.0f);
 			light = repeat == 9	   ? glm::vec4(1, 1, 1, 0)
 					: repeat == 10 ? glm::vec4(0, 1, 0, 0)

@@ -21,7 +21,7 @@ static func save(root: Node, path: String) -> Error:
 	return OK
 
 
-## Its place is what Godot itself draws with: Godot's export rounds a basis to a quaternion, and an angle is no projection.
+## Its transform is what Godot itself draws with: Godot's export rounds a basis to a quaternion, and an angle is no projection.
 static func _describe_node(gltf: Dictionary, described: Dictionary, node: Node3D) -> void:
 	if node == null:
 		return

@@ -74,10 +74,10 @@ func _measure(case: String, light: Light3D) -> void:
 
 ## The median of a frame's milliseconds.
 func _time_moving(light: Light3D) -> float:
-	var place := light.transform
+	var original := light.transform
 	var time := await FrameTimes.measure(int(_options.text("frames")), func(frame: int) -> void:
-		light.transform = place.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
-	light.transform = place
+		light.transform = original.translated(Vector3(0.01 * (frame % 7), 0, 0)).rotated_local(Vector3.UP, 0.002 * (frame % 5)))
+	light.transform = original
 	return time
 
 

@@ -18,7 +18,7 @@ static func create(light_kind: String, caster_kind: String) -> StudyScene:
 	scene.name = "Study"
 	scene.add_child(make_darkness())
 	scene.add_mesh("Ground", _make_plane(), Transform3D())
-	scene.caster = scene.add_mesh("Caster", _make_caster(caster_kind), _place_caster(caster_kind))
+	scene.caster = scene.add_mesh("Caster", _make_caster(caster_kind), _make_caster_transform(caster_kind))
 	scene.add_light(light_kind)
 	scene.camera = Camera3D.new()
 	scene.camera.name = "Camera"
@@ -57,7 +57,7 @@ static func _make_caster(kind: String) -> Mesh:
 	return BoxMesh.new()
 
 
-static func _place_caster(kind: String) -> Transform3D:
+static func _make_caster_transform(kind: String) -> Transform3D:
 	match kind:
 		"torus":
 			return Transform3D(Basis(Vector3.RIGHT, deg_to_rad(25)), Vector3(0, 1.1, 0))
@@ -79,11 +79,11 @@ static func make_darkness() -> WorldEnvironment:
 
 
 ## A caster or receiver more.
-func add_mesh(node_name: String, mesh: Mesh, place: Transform3D) -> MeshInstance3D:
+func add_mesh(node_name: String, mesh: Mesh, mesh_transform: Transform3D) -> MeshInstance3D:
 	var node := MeshInstance3D.new()
 	node.name = node_name
 	node.mesh = mesh
-	node.transform = place
+	node.transform = mesh_transform
 	add_child(node)
 	return node
 

@@ -19,7 +19,7 @@ TEST_CASE("[Files] an atomic save replaces the file whole and leaves nothing nex
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("[Files] an unwritable place is an error that names it, and no file appears") {
+TEST_CASE("[Files] an unwritable location is an error that names it, and no file appears") {
 	CHECK_THROWS_AS(save_file_atomically("/nonexistent_gnomon/a.txt", "x"), Error);
 	const TemporaryCache folder;
 	fs::create_directory(folder.path / "taken");
@@ -71,11 +71,11 @@ TEST_CASE("[Files] a cache entry is read as it was built, and not when a byte is
 	const auto payload = parse_cache_entry(entry);
 	REQUIRE(payload);
 	CHECK(std::vector<uint8_t>(payload->begin(), payload->end()) == bytes);
-	for (size_t place = 0; place < entry.size(); ++place) {
-		CAPTURE(place);
-		entry[place] ^= 1;
+	for (size_t index = 0; index < entry.size(); ++index) {
+		CAPTURE(index);
+		entry[index] ^= 1;
 		CHECK_FALSE(parse_cache_entry(entry));
-		entry[place] ^= 1;
-		CHECK_FALSE(parse_cache_entry(std::span(entry).first(place)));
+		entry[index] ^= 1;
+		CHECK_FALSE(parse_cache_entry(std::span(entry).first(index)));
 	}
 }

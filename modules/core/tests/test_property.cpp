@@ -65,7 +65,7 @@ TEST_CASE("[Property] what was not set has its default") {
 }
 
 TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
-	const PropertyInfo info = { "place", PropertyType::VECTOR3, glm::dvec3(0.0), "-2,2,0.5",
+	const PropertyInfo info = { "position", PropertyType::VECTOR3, glm::dvec3(0.0), "-2,2,0.5",
 		"Where it is.", "m" };
 	CHECK(check_property(info, glm::dvec3(1, -2, 2)).empty());
 	CHECK(check_property(info, glm::dvec3(0, 0, 2.5)) ==
@@ -82,7 +82,7 @@ TEST_CASE("[Property] a vector is three numbers of the range; a colour too") {
 	CHECK(get_range(info).minimum == -2);
 }
 
-TEST_CASE("[Property] a property that is declared again stays at its place") {
+TEST_CASE("[Property] a property that is declared again stays at its position") {
 	PropertyList list;
 	list.add({ "first", PropertyType::STRING, "", "", "One of several." });
 	list.add({ "second", PropertyType::BOOL, true, "", "Another one." });

@@ -111,10 +111,10 @@ void draw_status(EditorContext &r_context) {
 		const float frame_x = std::max(
 				ImGui::GetWindowWidth() - ImGui::CalcTextSize(frame).x - ImGui::GetFontSize(),
 				0.0f);
-		const ImVec2 place = ImGui::GetWindowPos();
-		ImGui::PushClipRect(place,
-				ImVec2(place.x + frame_x - ImGui::GetFontSize(),
-						place.y + ImGui::GetWindowHeight()),
+		const ImVec2 position = ImGui::GetWindowPos();
+		ImGui::PushClipRect(position,
+				ImVec2(position.x + frame_x - ImGui::GetFontSize(),
+						position.y + ImGui::GetWindowHeight()),
 				true);
 		const std::string first_line = r_context.status.substr(0, r_context.status.find('\n'));
 		ImGui::TextColored(r_context.is_status_error ? red : plain, "%s", first_line.c_str());

@@ -130,7 +130,7 @@ void draw_images(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
 }
 
-/// In place of a message elsewhere: what is wrong with a shader that was changed.
+/// Instead of a message elsewhere: what is wrong with a shader that was changed.
 void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p_size) {
 	std::string lines;
 	for (const auto &[shader, failure] : p_context.shader_errors) {

@@ -30,20 +30,20 @@ double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 }
 
 /// A sun for a light, a frame for a camera.
-void draw_mark(ImDrawList &r_list, const ImVec2 &p_place, bool p_is_light, ImU32 p_color) {
+void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, ImU32 p_color) {
 	const float radius = 0.3f * ImGui::GetFontSize();
 	if (!p_is_light) {
-		r_list.AddRect(ImVec2(p_place.x - 1.5f * radius, p_place.y - radius),
-				ImVec2(p_place.x + 1.5f * radius, p_place.y + radius), p_color, 0.0f,
+		r_list.AddRect(ImVec2(p_position.x - 1.5f * radius, p_position.y - radius),
+				ImVec2(p_position.x + 1.5f * radius, p_position.y + radius), p_color, 0.0f,
 				ImDrawFlags_None, 1.5f);
 		return;
 	}
-	r_list.AddCircleFilled(p_place, radius, p_color);
+	r_list.AddCircleFilled(p_position, radius, p_color);
 	for (int ray = 0; ray < 8; ++ray) {
 		const float angle = 0.785398f * float(ray);
 		const ImVec2 way(std::cos(angle), std::sin(angle));
-		r_list.AddLine(ImVec2(p_place.x + 1.4f * radius * way.x, p_place.y + 1.4f * radius * way.y),
-				ImVec2(p_place.x + 2.0f * radius * way.x, p_place.y + 2.0f * radius * way.y),
+		r_list.AddLine(ImVec2(p_position.x + 1.4f * radius * way.x, p_position.y + 1.4f * radius * way.y),
+				ImVec2(p_position.x + 2.0f * radius * way.x, p_position.y + 2.0f * radius * way.y),
 				p_color, 1.5f);
 	}
 }
@@ -53,17 +53,17 @@ void draw_mark(ImDrawList &r_list, const ImVec2 &p_place, bool p_is_light, ImU32
 void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_projection) {
 	Node3D *clicked = nullptr;
 	const auto draw = [&](Node3D &p_node, bool p_is_light) {
-		const std::optional<ImVec2> place =
+		const std::optional<ImVec2> position =
 				p_projection.project(glm::dvec3(p_node.compute_world_from_node()[3]));
-		if (!place || !p_projection.is_inside(*place)) {
+		if (!position || !p_projection.is_inside(*position)) {
 			return;
 		}
 		const bool is_selected = r_context.document.get_selected() == &p_node;
-		draw_mark(*ImGui::GetWindowDrawList(), *place, p_is_light,
+		draw_mark(*ImGui::GetWindowDrawList(), *position, p_is_light,
 				is_selected ? SELECTED_COLOR : MARK_COLOR);
 		const float half = 0.7f * ImGui::GetFontSize();
 		ImGui::PushID(&p_node);
-		ImGui::SetCursorScreenPos(ImVec2(place->x - half, place->y - half));
+		ImGui::SetCursorScreenPos(ImVec2(position->x - half, position->y - half));
 		if (ImGui::InvisibleButton("mark", ImVec2(2.0f * half, 2.0f * half))) {
 			clicked = &p_node;
 		}
@@ -120,12 +120,12 @@ void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projectio
 		const int SIDES = 64;
 		for (int side = 0; side <= SIDES; ++side) {
 			const double angle = 6.283185307179586 * side / SIDES;
-			const glm::dvec3 place = center +
+			const glm::dvec3 position = center +
 					gizmo.radius_m *
 							(axes *
 									(std::cos(angle) * gizmo.axis_x +
 											std::sin(angle) * gizmo.axis_y));
-			if (const std::optional<ImVec2> point = p_projection.project(place)) {
+			if (const std::optional<ImVec2> point = p_projection.project(position)) {
 				points.push_back(*point);
 			}
 		}

@@ -91,7 +91,7 @@ TEST_CASE("[EditorSettings] a folder that cannot be written to only warns") {
 	const TemporaryConfig folder;
 	write(folder, "{}");
 	std::filesystem::remove_all(folder.path);
-	save_file_atomically(folder.path, std::string_view("a file in its place"));
+	save_file_atomically(folder.path, std::string_view("a file instead"));
 	CHECK_NOTHROW(EditorSettings().save());
 	CHECK(EditorSettings::load().recent.empty());
 }

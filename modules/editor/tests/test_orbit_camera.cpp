@@ -27,9 +27,9 @@ TEST_CASE("[OrbitCamera] it begins as the scene's camera, and turns about what t
 	start.vertical_fov_rad = 0.5f;
 	OrbitCamera orbit;
 	orbit.look_as(start, glm::length(to - from));
-	const glm::dmat4 place = make_camera(orbit)->parent_from_node;
+	const glm::dmat4 transform = make_camera(orbit)->parent_from_node;
 	for (int column = 0; column < 4; ++column) {
-		CHECK(glm::length(place[column] - start.parent_from_node[column]) < 1e-9);
+		CHECK(glm::length(transform[column] - start.parent_from_node[column]) < 1e-9);
 	}
 	CHECK(make_camera(orbit)->vertical_fov_rad == 0.5f);
 	orbit.orbit(0.7, -9.0); // not over the top
@@ -39,12 +39,12 @@ TEST_CASE("[OrbitCamera] it begins as the scene's camera, and turns about what t
 	CHECK(glm::length(get_position(orbit) - to) == doctest::Approx(0.5 * glm::length(to - from)));
 }
 
-TEST_CASE("[OrbitCamera] turning keeps its place, moving and panning keep its direction") {
+TEST_CASE("[OrbitCamera] turning keeps its position, moving and panning keep its direction") {
 	OrbitCamera orbit;
 	orbit.orbit(0.4, -0.3);
-	const glm::dvec3 place = get_position(orbit);
+	const glm::dvec3 position = get_position(orbit);
 	orbit.turn(0.5, 0.2);
-	CHECK(glm::length(get_position(orbit) - place) < 1e-12);
+	CHECK(glm::length(get_position(orbit) - position) < 1e-12);
 	const glm::dmat4 before = make_camera(orbit)->parent_from_node;
 	orbit.move({ 1, 2, 3 });
 	orbit.pan({ 0.25, -0.5 });

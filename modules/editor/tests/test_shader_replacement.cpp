@@ -18,9 +18,9 @@ struct ReplacedShader : DeviceFixture {
 
 	std::vector<uint32_t> compile(const std::string &p_from, const std::string &p_to) {
 		std::string text = source;
-		const size_t place = text.find(p_from);
-		REQUIRE(place != std::string::npos);
-		text.replace(place, p_from.size(), p_to);
+		const size_t position = text.find(p_from);
+		REQUIRE(position != std::string::npos);
+		text.replace(position, p_from.size(), p_to);
 		std::filesystem::create_directories((folder.path / NAME).parent_path());
 		save_file_atomically(folder.path / NAME, std::string_view(text));
 		return compile_shader(folder.path, NAME);

@@ -37,10 +37,10 @@
 
 	function getHeatColor(error) {
 		const { range, colors } = report.data.heat_map;
-		const place = (Math.max(-1, Math.min(1, error / range)) + 1) / 2 * (colors.length - 1);
-		const low = Math.floor(place);
+		const position = (Math.max(-1, Math.min(1, error / range)) + 1) / 2 * (colors.length - 1);
+		const low = Math.floor(position);
 		const high = Math.min(low + 1, colors.length - 1);
-		return colors[low].map((value, channel) => value + (colors[high][channel] - value) * (place - low));
+		return colors[low].map((value, channel) => value + (colors[high][channel] - value) * (position - low));
 	}
 
 	/* p_get_color(index of the pixel's first byte) gives [r, g, b, a]. */

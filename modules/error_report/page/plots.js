@@ -4,7 +4,7 @@
 
 	const report = window.GnomonReport;
 	const make = report.make;
-	// Below this an error is the noise of the reference and its 8-bit image; a logarithmic axis has no place for 0.
+	// Below this an error is the noise of the reference and its 8-bit image; a logarithmic axis has no room for 0.
 	const LEAST_ERROR_FLOOR = 1e-4;
 	// A narrower axis would show a difference of a few percent as large.
 	const LEAST_SPAN = Math.log(3);
@@ -102,13 +102,13 @@
 		});
 		svg.setAttribute("role", "img");
 		const [x, y] = [svg.scale("x"), svg.scale("y")];
-		const places = plot.points.map((point) => ({ point, x_px: x.apply(point.x), y_px: y.apply(point.y) }));
+		const dots = plot.points.map((point) => ({ point, x_px: x.apply(point.x), y_px: y.apply(point.y) }));
 		if (isLabelled) {
-			const placed = plot.labels === "end" ? placeAtEnd(groups, places) : placeNearBest(groups, places, width_px, plot.height_px);
+			const placed = plot.labels === "end" ? placeAtEnd(groups, dots) : placeNearBest(groups, dots, width_px, plot.height_px);
 			addLabels(svg, placed);
 		}
 		host.replaceChildren(svg);
-		return { mark: addPointer(svg, places, plot) };
+		return { mark: addPointer(svg, dots, plot) };
 	};
 
 	function addLabels(svg, labels) {
@@ -118,9 +118,9 @@
 	}
 
 	/* Right of the last points, pushed apart where they would overlap. */
-	function placeAtEnd(groups, places) {
+	function placeAtEnd(groups, dots) {
 		const labels = groups.map(([id]) => {
-			const last = d3.greatest(places.filter((place) => place.point.technique === id), (place) => place.x_px);
+			const last = d3.greatest(dots.filter((dot) => dot.point.technique === id), (dot) => dot.x_px);
 			return { technique: report.getTechnique(id), x_px: last.x_px + 11, y_px: last.y_px };
 		});
 		labels.sort((a, b) => a.y_px - b.y_px);
@@ -131,18 +131,18 @@
 	}
 
 	/* Next to the dot of least error of each technique, on the side with the least in the way. */
-	function placeNearBest(groups, places, width_px, height_px) {
-		const taken = places.map((place) => ({ left: place.x_px - 6, right: place.x_px + 6, top: place.y_px - 6, bottom: place.y_px + 6 }));
+	function placeNearBest(groups, dots, width_px, height_px) {
+		const taken = dots.map((dot) => ({ left: dot.x_px - 6, right: dot.x_px + 6, top: dot.y_px - 6, bottom: dot.y_px + 6 }));
 		const getOverlap = (a, b) => Math.max(0, Math.min(a.right, b.right) - Math.max(a.left, b.left)) *
 			Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
 		return groups.map(([id]) => {
 			const technique = report.getTechnique(id);
 			const text_px = measuring.measureText(technique.name).width + 4;
-			const own = d3.sort(places.filter((place) => place.point.technique === id), (place) => place.point.y);
-			const candidates = own.flatMap((place, rank) => [[10, 0], [-10 - text_px, 0], [-text_px / 2, -15], [-text_px / 2, 15],
+			const own = d3.sort(dots.filter((dot) => dot.point.technique === id), (dot) => dot.point.y);
+			const candidates = own.flatMap((dot, rank) => [[10, 0], [-10 - text_px, 0], [-text_px / 2, -15], [-text_px / 2, 15],
 				[8, -13], [8, 13], [-8 - text_px, -13], [-8 - text_px, 13]].map(([x_px, y_px], side) => {
-				const box = { left: place.x_px + x_px, right: place.x_px + x_px + text_px,
-					top: place.y_px + y_px - LABEL_HEIGHT_PX / 2, bottom: place.y_px + y_px + LABEL_HEIGHT_PX / 2 };
+				const box = { left: dot.x_px + x_px, right: dot.x_px + x_px + text_px,
+					top: dot.y_px + y_px - LABEL_HEIGHT_PX / 2, bottom: dot.y_px + y_px + LABEL_HEIGHT_PX / 2 };
 				const isOutside = box.left < MARGIN_PX.left || box.right > width_px || box.top < MARGIN_PX.top ||
 					box.bottom > height_px - MARGIN_PX.bottom;
 				return { box, cost: d3.sum(taken, (other) => getOverlap(box, other)) + (isOutside ? 1e6 : 0) + side + 3 * rank };
@@ -154,26 +154,26 @@
 	}
 
 	/* The tip and the rings; returns what moves the ring of the chosen item. */
-	function addPointer(svg, places, plot) {
+	function addPointer(svg, dots, plot) {
 		const chosen = d3.select(svg).append("circle").attr("class", "chosen").attr("r", 10).attr("visibility", "hidden");
 		const ring = d3.select(svg).append("circle").attr("class", "ring").attr("r", 8).attr("visibility", "hidden");
-		const move = (circle, place) => circle.attr("visibility", place ? "visible" : "hidden")
-			.attr("cx", place ? place.x_px : 0).attr("cy", place ? place.y_px : 0);
+		const move = (circle, dot) => circle.attr("visibility", dot ? "visible" : "hidden")
+			.attr("cx", dot ? dot.x_px : 0).attr("cy", dot ? dot.y_px : 0);
 
 		function find(event) {
 			const box = svg.getBoundingClientRect();
 			const scale = svg.viewBox.baseVal.width / box.width;
 			const [x_px, y_px] = [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
-			const seen = places.filter((place) => !hidden.has(place.point.technique));
-			const nearest = d3.least(seen, (place) => Math.hypot(place.x_px - x_px, place.y_px - y_px));
+			const seen = dots.filter((dot) => !hidden.has(dot.point.technique));
+			const nearest = d3.least(seen, (dot) => Math.hypot(dot.x_px - x_px, dot.y_px - y_px));
 			return nearest && Math.hypot(nearest.x_px - x_px, nearest.y_px - y_px) < PICK_DISTANCE_PX ? nearest : null;
 		}
 
 		function point(event) {
-			const place = find(event);
-			move(ring, place);
-			svg.style.cursor = place && plot.onPick ? "pointer" : "";
-			showTip(place && plot.describe(place.point), place && place.point, event);
+			const dot = find(event);
+			move(ring, dot);
+			svg.style.cursor = dot && plot.onPick ? "pointer" : "";
+			showTip(dot && plot.describe(dot.point), dot && dot.point, event);
 		}
 
 		svg.addEventListener("pointermove", point);
@@ -183,12 +183,12 @@
 			showTip(null);
 		});
 		svg.addEventListener("click", (event) => {
-			const place = find(event);
-			if (place && plot.onPick) {
-				plot.onPick(place.point.item);
+			const dot = find(event);
+			if (dot && plot.onPick) {
+				plot.onPick(dot.point.item);
 			}
 		});
-		return (item) => move(chosen, places.find((place) => place.point.item === item));
+		return (item) => move(chosen, dots.find((dot) => dot.point.item === item));
 	}
 
 	function showTip(lines, point, event) {

@@ -18,11 +18,11 @@ const std::string NAME = "scene-technique-0123456789abcdef";
 const Json CONTENT = { { "status", "ok" }, { "value", 0.1 }, { "list", { 1, 2.5, "x" } } };
 const std::vector<uint8_t> IMAGE = { 1, 2, 3, 4, 5 };
 
-/// Writes other bytes over a file from p_place on.
-void damage_file(const fs::path &p_path, size_t p_place) {
+/// Writes other bytes over a file from p_offset on.
+void damage_file(const fs::path &p_path, size_t p_offset) {
 	std::vector<uint8_t> bytes = load_file(p_path);
-	REQUIRE(p_place < bytes.size());
-	bytes[p_place] ^= 1;
+	REQUIRE(p_offset < bytes.size());
+	bytes[p_offset] ^= 1;
 	save_file_atomically(p_path, bytes);
 }
 
@@ -69,9 +69,9 @@ TEST_CASE("[ErrorReport] a damaged record is noticed and counts as absent") {
 	const fs::path png = folder.path / (NAME + ".png");
 	store.save(NAME, CONTENT, IMAGE);
 	const std::string whole = load_text_file(json);
-	for (size_t place = 0; place + 1 < whole.size(); ++place) { // the last is the line's end
-		damage_file(json, place);
-		CAPTURE(place);
+	for (size_t offset = 0; offset + 1 < whole.size(); ++offset) { // the last is the line's end
+		damage_file(json, offset);
+		CAPTURE(offset);
 		CHECK(!store.load(NAME));
 		save_file_atomically(json, whole);
 	}

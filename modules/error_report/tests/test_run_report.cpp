@@ -61,7 +61,7 @@ TEST_CASE("[ErrorReport] a run measures every cell against its reference") {
 	CHECK(report.configurations[0].reference.penumbra_pixel_count == 16 * 14);
 }
 
-TEST_CASE("[ErrorReport] a run that is killed at any place and resumed gives the same report") {
+TEST_CASE("[ErrorReport] a run that is killed at any point and resumed gives the same report") {
 	const ReportPlan plan = make_scripted_plan(2);
 	const size_t cell_count = plan.report.cells.size();
 	TemporaryFolder whole_folder;
@@ -113,9 +113,9 @@ TEST_CASE("[ErrorReport] a damaged record is measured again, and only that one")
 	const fs::path cells = get_record_folder(folder.path);
 	const fs::path json = cells / (plan.report.cells[3].record + ".json");
 	std::string record = load_text_file(json);
-	const size_t place = record.find("\"mae\":");
-	REQUIRE(place != std::string::npos);
-	record[place + 8] = record[place + 8] == '5' ? '6' : '5';
+	const size_t offset = record.find("\"mae\":");
+	REQUIRE(offset != std::string::npos);
+	record[offset + 8] = record[offset + 8] == '5' ? '6' : '5';
 	save_file_atomically(json, record);
 	const fs::path png = cells / (plan.report.cells[9].record + ".png");
 	save_file_atomically(png, load_text_file(png).substr(0, 20));

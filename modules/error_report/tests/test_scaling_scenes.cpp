@@ -137,12 +137,12 @@ TEST_CASE("[ErrorReport] light and camera of the generated scene are the study's
 	CHECK(glm::degrees(camera.vertical_fov_rad) == doctest::Approx(36.87).epsilon(1e-5));
 }
 
-TEST_CASE("[ErrorReport] many lights are numbered, in different places and aimed at one point") {
+TEST_CASE("[ErrorReport] many lights are numbered, in different positions and aimed at one point") {
 	for (const uint32_t count : { 2u, 4u, 64u, 1024u }) {
 		CAPTURE(count);
 		const auto scene = build(*make_scaling_scene({ 1000, count, 0.4 }));
 		REQUIRE(scene->lights.size() == count);
-		std::set<std::pair<long, long>> places; // in millimetres
+		std::set<std::pair<long, long>> positions; // in millimetres
 		float intensity = 0;
 		for (uint32_t index = 0; index < count; ++index) {
 			const LightSnapshot &light = scene->lights[index];
@@ -156,11 +156,11 @@ TEST_CASE("[ErrorReport] many lights are numbered, in different places and aimed
 			CHECK(light.position_world.y == doctest::Approx(6));
 			CHECK(std::hypot(light.position_world.x, light.position_world.z) ==
 					doctest::Approx(std::hypot(1.8, 1.2)));
-			places.insert({ std::lround(light.position_world.x * 1000),
+			positions.insert({ std::lround(light.position_world.x * 1000),
 					std::lround(light.position_world.z * 1000) });
 			intensity += light.intensity;
 		}
-		CHECK(places.size() == count);
+		CHECK(positions.size() == count);
 		CHECK(intensity == doctest::Approx(500)); // however many, the image is as bright
 		CHECK(glm::length(scene->lights[0].position_world - glm::dvec3(1.8, 6, 1.2)) < EXACT);
 	}

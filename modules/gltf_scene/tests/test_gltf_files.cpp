@@ -42,15 +42,15 @@ std::string compare_lights(const Light3D &p_first, const Light3D &p_second) {
 }
 
 std::string compare_nodes(const Node3D &p_first, const Node3D &p_second) {
-	const std::string place = "node \"" + p_first.name + "\": ";
+	const std::string location = "node \"" + p_first.name + "\": ";
 	if (typeid(p_first) != typeid(p_second) || p_first.name != p_second.name) {
-		return place + "class or name, \"" + p_second.name + "\"";
+		return location + "class or name, \"" + p_second.name + "\"";
 	}
 	// A turned node is written as a quaternion, which rounds.
 	for (int column = 0; column < 4; ++column) {
 		if (glm::length(p_first.parent_from_node[column] - p_second.parent_from_node[column]) >
 				1e-12) {
-			return place + "transform";
+			return location + "transform";
 		}
 	}
 	std::string difference;
@@ -66,10 +66,10 @@ std::string compare_nodes(const Node3D &p_first, const Node3D &p_second) {
 				: "camera";
 	}
 	if (!difference.empty()) {
-		return place + difference;
+		return location + difference;
 	}
 	if (p_first.children.size() != p_second.children.size()) {
-		return place + "child count";
+		return location + "child count";
 	}
 	for (size_t index = 0; index < p_first.children.size(); ++index) {
 		difference = compare_nodes(*p_first.children[index], *p_second.children[index]);

@@ -60,7 +60,7 @@ TEST_CASE("[GltfMaterials] transmission and volume are read, and what they leave
 	CHECK(Material().compute_transmittance(1.0f) == glm::vec3(0.0f));
 }
 
-TEST_CASE("[GltfMaterials] bad values are refused with their place and range") {
+TEST_CASE("[GltfMaterials] bad values are refused with their location and range") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_waxes(folder);
@@ -79,7 +79,7 @@ TEST_CASE("[GltfMaterials] bad values are refused with their place and range") {
 			log.errors, "shading_model is \"toon\", must be metallic_roughness or phong"));
 }
 
-TEST_CASE("[GltfMaterials] a changed material changes alone in the file, in its place") {
+TEST_CASE("[GltfMaterials] a changed material changes alone in the file, at its index") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json expected = make_waxes(folder);
@@ -130,7 +130,7 @@ TEST_CASE("[GltfMaterials] a node whose material changes leaves those that share
 	const auto again = load_gltf(folder.path / "again.gltf");
 	CHECK(get_instances(*again)[0]->surfaces[0].material->scatter == 0.5f);
 	CHECK(get_instances(*again)[1]->surfaces[0].material->scatter == 1.0f);
-	// Changed alike, both take the old place.
+	// Changed alike, both take the old index.
 	set_node_property(*get_instances(*scene)[0], "scatter", 1.0);
 	save_gltf(*scene, folder.path / "alike.gltf");
 	const Json alike = folder.read_json("alike.gltf");

@@ -138,7 +138,7 @@ TEST_CASE("gltf motion: bytes and shorts as weights, and a second set of joints"
 	CHECK(rig.joints[4] == 1);
 }
 
-TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its place") {
+TEST_CASE("gltf motion: what a skin lacks or exceeds is refused with its location") {
 	const GltfTestFolder folder;
 	const auto find = [&](const Json &p_json, const std::string &p_part) {
 		const std::string message = get_load_error(folder, p_json);

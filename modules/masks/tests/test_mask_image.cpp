@@ -79,7 +79,7 @@ TEST_CASE("[MaskImage] a saved mask is loaded bit for bit, odd sizes and odd val
 	CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
-TEST_CASE("[MaskImage] images without pixels, unwritable places and missing files are errors") {
+TEST_CASE("[MaskImage] images without pixels, unwritable paths and missing files are errors") {
 	TemporaryFolder folder;
 	CHECK_THROWS_AS(save_mask_exr(folder.path / "mask.exr", MaskImage()), Error);
 	CHECK_THROWS_AS(save_mask_exr(folder.path / "none" / "mask.exr", make_image(2, 2)), Error);

@@ -19,11 +19,11 @@ Bounds make_box(const glm::dvec3 &p_minimum, const glm::dvec3 &p_maximum) {
 
 std::vector<Bounds> make_boxes(uint32_t p_seed, size_t p_count) {
 	std::mt19937 random(p_seed);
-	std::uniform_real_distribution<double> place(-10, 10);
+	std::uniform_real_distribution<double> coordinate(-10, 10);
 	std::uniform_real_distribution<double> size(0, 2);
 	std::vector<Bounds> boxes;
 	for (size_t i = 0; i < p_count; ++i) {
-		const glm::dvec3 minimum(place(random), place(random), place(random));
+		const glm::dvec3 minimum(coordinate(random), coordinate(random), coordinate(random));
 		boxes.push_back(
 				make_box(minimum, minimum + glm::dvec3(size(random), size(random), size(random))));
 	}
@@ -96,7 +96,7 @@ TEST_CASE("[Bvh] finds the boxes that reach into a frustum, as brute force does"
 	}
 }
 
-TEST_CASE("[Bvh] boxes in one place, in a row of growing sizes, or without size are all found") {
+TEST_CASE("[Bvh] boxes at one point, in a row of growing sizes, or without size are all found") {
 	std::vector<Bounds> boxes(300, make_box(glm::dvec3(0), glm::dvec3(1)));
 	for (int i = 0; i < 300; ++i) {
 		boxes.push_back(make_box(glm::dvec3(0), glm::dvec3(std::pow(1.9, i) * 1e-40)));

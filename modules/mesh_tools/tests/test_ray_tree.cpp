@@ -37,20 +37,20 @@ TEST_CASE("A ray without a direction meets nothing") {
 
 TEST_CASE("The tree finds what a look at every triangle finds") {
 	std::mt19937 random(7);
-	std::uniform_real_distribution<float> place(-1.0f, 1.0f);
+	std::uniform_real_distribution<float> coordinate(-1.0f, 1.0f);
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
 	for (uint32_t index = 0; index < 3 * 200; ++index) {
-		positions.push_back({ place(random), place(random), place(random) });
+		positions.push_back({ coordinate(random), coordinate(random), coordinate(random) });
 		indices.push_back(index);
 	}
 	const auto mesh = make_mesh("soup", positions, {}, indices);
 	const RayTree tree(mesh);
 	int hit_count = 0;
 	for (int ray = 0; ray < 300; ++ray) {
-		const glm::dvec3 origin(3.0 * place(random), 3.0 * place(random), 3.0 * place(random));
+		const glm::dvec3 origin(3.0 * coordinate(random), 3.0 * coordinate(random), 3.0 * coordinate(random));
 		const glm::dvec3 direction =
-				0.5 * glm::dvec3(place(random), place(random), place(random)) - origin;
+				0.5 * glm::dvec3(coordinate(random), coordinate(random), coordinate(random)) - origin;
 		double nearest = std::numeric_limits<double>::infinity();
 		for (uint32_t triangle = 0; triangle < mesh->get_triangle_count(); ++triangle) {
 			const glm::dvec3 a(positions[3 * triangle]);

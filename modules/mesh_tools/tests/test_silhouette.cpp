@@ -66,9 +66,9 @@ std::vector<glm::dvec4> make_lights() {
 		{ 0, 0, 0, 1 }, { 0, 0, 1, 0 }, { 0.3, -0.2, 0.9, 0 }, { 1e6, 2e6, 3e5, 1 },
 		{ 2, 2, 2, -1 }, { 0, 0, 0, 0 }, { -3, -3, -3, 1e-12 } };
 	std::mt19937 random(7);
-	std::uniform_real_distribution<double> place(-4, 4);
+	std::uniform_real_distribution<double> coordinate(-4, 4);
 	for (int i = 0; i < 20; ++i) {
-		lights.emplace_back(place(random), place(random), place(random), i % 2);
+		lights.emplace_back(coordinate(random), coordinate(random), coordinate(random), i % 2);
 	}
 	return lights;
 }

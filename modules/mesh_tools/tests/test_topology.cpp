@@ -113,7 +113,7 @@ TEST_CASE("[Topology] an open quad has four boundary edges whose neighbour is th
 			std::vector<uint32_t>{ 0, 2, 1, 0, 2, 3 });
 }
 
-TEST_CASE("[Topology] -0 and 0 are one place, the next float is another") {
+TEST_CASE("[Topology] -0 and 0 are one position, the next float is another") {
 	Mesh mesh = make_quad();
 	mesh = unweld(mesh);
 	mesh.positions_node[0] = glm::vec3(-0.0f, 0.0f, -0.0f);
@@ -187,7 +187,7 @@ TEST_CASE("[Topology] duplicate faces are counted and paired into two equal surf
 
 TEST_CASE("[Topology] triangles with an edge of zero length are skipped and counted") {
 	Mesh mesh = make_cube();
-	mesh.positions_node.push_back(mesh.positions_node[0]); // same place, other index
+	mesh.positions_node.push_back(mesh.positions_node[0]); // same position, other index
 	mesh.indices.insert(mesh.indices.end(), { 0, 8, 3, 5, 5, 6, 7, 7, 7 });
 	const MeshTopology topology = build_topology(mesh);
 	check_invariants(topology);

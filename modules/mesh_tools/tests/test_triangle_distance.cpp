@@ -29,8 +29,8 @@ double find_distance_by_points(const glm::dvec3 &p_point, const glm::dvec3 (&p_c
 
 TEST_CASE("[MeshTools] the distance to a triangle is that of its nearest point") {
 	std::mt19937 random(7);
-	std::uniform_real_distribution<double> place(-1.0, 1.0);
-	const auto get_point = [&] { return glm::dvec3(place(random), place(random), place(random)); };
+	std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+	const auto get_point = [&] { return glm::dvec3(coordinate(random), coordinate(random), coordinate(random)); };
 	for (int round = 0; round < 100; ++round) {
 		const glm::dvec3 corners[3] = { get_point(), get_point(), get_point() };
 		const glm::dvec3 point = get_point();
@@ -50,11 +50,11 @@ TEST_CASE("[MeshTools] triangles without area have the distance of a line or a p
 
 TEST_CASE("[MeshTools] a mesh is near where a triangle of it is, in the world") {
 	const auto box = make_box_mesh("box", glm::vec3(1.0f));
-	const glm::dmat4 place = glm::scale(
+	const glm::dmat4 transform = glm::scale(
 			glm::translate(glm::dmat4(1.0), glm::dvec3(1e6, 0, 0)), glm::dvec3(1.0, 0.5, 1.0));
 	const glm::dvec3 above(1e6, 0.8, 0); // 0.3 above the flattened box
-	CHECK(has_triangle_within(*box, place, above, 0.31));
-	CHECK_FALSE(has_triangle_within(*box, place, above, 0.29));
+	CHECK(has_triangle_within(*box, transform, above, 0.31));
+	CHECK_FALSE(has_triangle_within(*box, transform, above, 0.29));
 	// Inside it no face is near, although the box around it holds the point.
-	CHECK_FALSE(has_triangle_within(*box, place, { 1e6, 0, 0 }, 0.45));
+	CHECK_FALSE(has_triangle_within(*box, transform, { 1e6, 0, 0 }, 0.45));
 }

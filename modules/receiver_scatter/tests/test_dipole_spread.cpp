@@ -99,10 +99,10 @@ TEST_CASE("[ReceiverScatter] samples have the dipole's distances and no directio
 		REQUIRE(samples.size() == SCATTER_SET_COUNT * count);
 		for (size_t index = 0; index < samples.size(); ++index) {
 			// The i-th point of each set takes the i-th share of the light.
-			const double place = double(index % count);
+			const double cell = double(index % count);
 			const double share = DipoleSpread::compute_share(glm::length(samples[index])) * count;
-			CHECK(share > place - 0.01 * count);
-			CHECK(share < place + 1 + 0.01 * count);
+			CHECK(share > cell - 0.01 * count);
+			CHECK(share < cell + 1 + 0.01 * count);
 		}
 		size_t first = 0;
 		for (const size_t set_count : { 1, 4, 16 }) {

@@ -87,7 +87,7 @@ TEST_CASE("[GPU][ReceiverScatter] a receiver of one pixel keeps its own mask") {
 	}
 }
 
-TEST_CASE("[GPU][ReceiverScatter] a scene of another size or place has the same mask") {
+TEST_CASE("[GPU][ReceiverScatter] a scene of another size or position has the same mask") {
 	MaskFixture fixture;
 	for (const LightType type : { LightType::SPOT, LightType::OMNI, LightType::DIRECTIONAL }) {
 		const auto render = [&](double p_scale, const glm::dvec3 &p_origin, float p_distance_m) {
@@ -112,20 +112,20 @@ TEST_CASE("[GPU][ReceiverScatter] a scene of another size or place has the same 
 	}
 }
 
-TEST_CASE("[GPU][ReceiverScatter] lights and places that have no direction to speak of are "
+TEST_CASE("[GPU][ReceiverScatter] lights and positions that have no direction to speak of are "
 		  "survived") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.ground->surfaces[0].material = make_wax(1.0f, 0.7f);
 	scene.box->surfaces[0].material = make_wax(0.4f, 0.0f);
-	const glm::dvec3 places[] = { { 0, 1.0, 0 }, // inside the box
+	const glm::dvec3 positions[] = { { 0, 1.0, 0 }, // inside the box
 		{ 0, 0, 0 }, { 0.3, 1e-6, 0.3 },		 // on the ground
 		{ 0, -3, 0 },							 // below it
 		{ 40, 0.01, 0 } };						 // grazing
-	for (const glm::dvec3 &place : places) {
-		CAPTURE(place.x);
-		CAPTURE(place.y);
-		scene.light->parent_from_node = look_at(place, place + glm::dvec3(0.1, -1, 0.2));
+	for (const glm::dvec3 &position : positions) {
+		CAPTURE(position.x);
+		CAPTURE(position.y);
+		scene.light->parent_from_node = look_at(position, position + glm::dvec3(0.1, -1, 0.2));
 		for (const double size_m : { 0.0, 0.3, 50.0 }) {
 			scene.light->properties["light_size"] = size_m;
 			CHECK(is_valid_mask(fixture.render_mask(scene, find_technique(), glm::uvec2(32))));

@@ -78,8 +78,8 @@ TEST_CASE(
 			double sum = 0;
 			for (uint32_t y = 0; y < factor; ++y) {
 				for (uint32_t x = 0; x < factor; ++x) {
-					const glm::uvec2 place = pixel * factor + glm::uvec2(x, y);
-					sum += decode(larger[4 * (place.y * 24 * factor + place.x) + byte % 4]);
+					const glm::uvec2 texel = pixel * factor + glm::uvec2(x, y);
+					sum += decode(larger[4 * (texel.y * 24 * factor + texel.x) + byte % 4]);
 				}
 			}
 			greatest = std::max(

@@ -41,15 +41,15 @@ int wrap(int p_texel, int p_count, TextureWrap p_wrap) {
 		return std::clamp(p_texel, 0, p_count - 1);
 	}
 	const int period = p_wrap == TextureWrap::MIRROR ? 2 * p_count : p_count;
-	const int place = ((p_texel % period) + period) % period;
-	return place < p_count ? place : period - 1 - place;
+	const int index = ((p_texel % period) + period) % period;
+	return index < p_count ? index : period - 1 - index;
 }
 
 /// What a sampler reads of the first level: 0..1, colours linear.
 glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 	const Image &image = *p_texture.image;
 	p_uv = glm::dmat3x2(p_texture.transform) * glm::dvec3(p_uv, 1.0);
-	const glm::dvec2 place = p_uv * glm::dvec2(image.size_px);
+	const glm::dvec2 position = p_uv * glm::dvec2(image.size_px);
 	const auto fetch = [&](int p_x, int p_y) {
 		const uint8_t *texel =
 				image.get_texel(uint32_t(wrap(p_x, int(image.size_px.x), p_texture.wrap_u)),
@@ -64,10 +64,10 @@ glm::dvec4 sample(const Texture &p_texture, glm::dvec2 p_uv, bool p_is_srgb) {
 		return value;
 	};
 	if (p_texture.is_magnified_nearest) {
-		return fetch(int(std::floor(place.x)), int(std::floor(place.y)));
+		return fetch(int(std::floor(position.x)), int(std::floor(position.y)));
 	}
-	const glm::dvec2 low = glm::floor(place - 0.5);
-	const glm::dvec2 share = place - 0.5 - low;
+	const glm::dvec2 low = glm::floor(position - 0.5);
+	const glm::dvec2 share = position - 0.5 - low;
 	const int x = int(low.x);
 	const int y = int(low.y);
 	return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), share.x),

@@ -33,11 +33,11 @@ TEST_CASE("[PipelineCacheHeader] pipelines of the same driver are taken") {
 
 TEST_CASE("[PipelineCacheHeader] a header that differs in any byte or is cut short is refused") {
 	const std::vector<uint8_t> cache = make_cache();
-	for (size_t place = 0; place < 32; ++place) {
-		CAPTURE(place);
+	for (size_t index = 0; index < 32; ++index) {
+		CAPTURE(index);
 		std::vector<uint8_t> changed = cache;
-		changed[place] ^= 0x80;
+		changed[index] ^= 0x80;
 		CHECK_FALSE(is_pipeline_cache_of(changed, MAKER));
-		CHECK_FALSE(is_pipeline_cache_of(std::span(cache).first(place), MAKER));
+		CHECK_FALSE(is_pipeline_cache_of(std::span(cache).first(index), MAKER));
 	}
 }

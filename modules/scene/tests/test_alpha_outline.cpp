@@ -37,11 +37,11 @@ double compute_area(const AlphaOutline &p_outline) {
 	return double(twice) / 2 / p_outline.size.x / p_outline.size.y;
 }
 
-/// Whether a place, in texels, lies in one of the triangles.
-bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_place) {
-	const glm::dvec2 place = p_place * double(AlphaOutline::UNITS_PER_TEXEL);
+/// Whether a point, in texels, lies in one of the triangles.
+bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_point) {
+	const glm::dvec2 point = p_point * double(AlphaOutline::UNITS_PER_TEXEL);
 	const auto turn = [&](const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
-		return (p_b.x - p_a.x) * (place.y - p_a.y) - (p_b.y - p_a.y) * (place.x - p_a.x);
+		return (p_b.x - p_a.x) * (point.y - p_a.y) - (p_b.y - p_a.y) * (point.x - p_a.x);
 	};
 	for (size_t i = 0; i < p_outline.triangles.size(); i += 3) {
 		const glm::dvec2 a(p_outline.points[p_outline.triangles[i]]);
@@ -54,18 +54,18 @@ bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_place) {
 	return false;
 }
 
-/// How far from the contour, in alpha, a wrongly decided place may lie.
-void check_places(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
+/// How far from the contour, in alpha, a wrongly decided point may lie.
+void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
 	std::minstd_rand random(5);
 	std::uniform_real_distribution<double> uniform(0, 1);
 	const glm::dvec2 size(p_test.image->size_px);
 	for (int i = 0; i < 4000; ++i) {
-		const glm::dvec2 place = glm::dvec2(uniform(random), uniform(random)) * size;
-		// The place and some around it agree: it is not near the contour.
-		const bool expected = sample_alpha(p_test, place / size) >= p_test.cutoff;
+		const glm::dvec2 point = glm::dvec2(uniform(random), uniform(random)) * size;
+		// The point and some around it agree: it is not near the contour.
+		const bool expected = sample_alpha(p_test, point / size) >= p_test.cutoff;
 		bool is_near = false;
 		for (int k = 0; k < 16; ++k) {
-			const glm::dvec2 moved = place +
+			const glm::dvec2 moved = point +
 					p_tolerance_px * glm::dvec2(std::cos(k * 0.4), std::sin(k * 0.4)) *
 							(k % 2 ? 1.0 : 0.5);
 			const bool is_out = glm::any(glm::lessThan(moved, glm::dvec2(0))) ||
@@ -74,9 +74,9 @@ void check_places(const AlphaTest &p_test, const AlphaOutline &p_outline, double
 					(sample_alpha(p_test, moved / size) >= p_test.cutoff) != expected;
 		}
 		if (!is_near) {
-			CAPTURE(place.x);
-			CAPTURE(place.y);
-			CHECK(is_inside(p_outline, place) == expected);
+			CAPTURE(point.x);
+			CAPTURE(point.y);
+			CHECK(is_inside(p_outline, point) == expected);
 		}
 	}
 }
@@ -125,7 +125,7 @@ TEST_CASE("[AlphaOutline] the contour of smooth masks is within a quarter of a t
 			const AlphaOutline outline = make_alpha_outline(test, 20000);
 			REQUIRE(!outline.is_empty());
 			CHECK(outline.block_size_px == 0);
-			check_places(test, outline, 0.5);
+			check_points(test, outline, 0.5);
 		}
 	}
 }
@@ -162,12 +162,12 @@ TEST_CASE(
 			test.wrap_u = test.wrap_v = wrap;
 			const AlphaOutline outline = make_alpha_outline(test, 20000);
 			CHECK(outline.block_size_px == 0);
-			check_places(test, outline, 0.4);
+			check_points(test, outline, 0.4);
 		}
 		test.is_nearest = true;
 		const AlphaOutline squares = make_alpha_outline(test, 20000);
 		CHECK(squares.block_size_px == 0);
-		check_places(test, squares, 0.05);
+		check_points(test, squares, 0.05);
 		// More than the budget: as much is there, in squares.
 		const AlphaOutline half_tone = make_alpha_outline(test, 200);
 		CHECK(half_tone.block_size_px > 1);

@@ -18,8 +18,8 @@ std::shared_ptr<const Material> make_disc_material() {
 	std::vector<uint8_t> texels;
 	for (uint32_t y = 0; y < IMAGE_SIZE_PX; ++y) {
 		for (uint32_t x = 0; x < IMAGE_SIZE_PX; ++x) {
-			const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / double(IMAGE_SIZE_PX) - 0.5;
-			const double beyond = glm::length(place) - std::sqrt(0.5 / 3.141592653589793);
+			const glm::dvec2 position = (glm::dvec2(x, y) + 0.5) / double(IMAGE_SIZE_PX) - 0.5;
+			const double beyond = glm::length(position) - std::sqrt(0.5 / 3.141592653589793);
 			const double alpha = std::clamp(0.5 - beyond * IMAGE_SIZE_PX * 0.25, 0.0, 1.0);
 			texels.insert(texels.end(), { 255, 255, 255, static_cast<uint8_t>(alpha * 255) });
 		}
@@ -137,7 +137,7 @@ TEST_CASE("[CutLevels] the widest image of the disc is that on the way to the fa
 	CHECK(make_light(LightType::DIRECTIONAL, 0.1f).compute_widest_image(caster, bounds) ==
 			doctest::Approx(0.2));
 	CHECK(make_light(LightType::OMNI, 0).compute_widest_image(caster, bounds) == 0);
-	// A caster at the light's place, and one that nothing is behind.
+	// A caster at the light's position, and one that nothing is behind.
 	LightSnapshot light = make_light(LightType::OMNI, 0.3f);
 	light.position_world = glm::dvec3(0, 0, 2);
 	CHECK(light.compute_widest_image(caster, bounds) <= 0.3f);

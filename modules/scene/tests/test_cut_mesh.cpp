@@ -39,9 +39,9 @@ std::shared_ptr<const Mesh> make_grid(uint32_t p_count, double p_repeats, double
 	std::vector<uint32_t> indices;
 	for (uint32_t y = 0; y <= p_count; ++y) {
 		for (uint32_t x = 0; x <= p_count; ++x) {
-			const glm::dvec2 place(double(x) / p_count, double(y) / p_count);
-			positions.emplace_back(place.x, place.y, place.x / 2);
-			attributes.uvs[0].emplace_back(place * p_repeats + p_offset);
+			const glm::dvec2 position(double(x) / p_count, double(y) / p_count);
+			positions.emplace_back(position.x, position.y, position.x / 2);
+			attributes.uvs[0].emplace_back(position * p_repeats + p_offset);
 		}
 	}
 	for (uint32_t y = 0; y < p_count; ++y) {

@@ -2,7 +2,7 @@
 #include "modules/scene/cut_mesh.h"
 #include "modules/scene/mesh_pose.h"
 #include "modules/scene/scene_snapshot.h"
-#include "modules/scene/skin_places.h"
+#include "modules/scene/skin_transforms.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>

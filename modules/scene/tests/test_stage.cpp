@@ -21,13 +21,13 @@ template <typename T> T &add(Scene &r_scene, const std::string &p_name) {
 }
 
 std::unique_ptr<Scene> make_model(
-		double p_scale = 1.0, const glm::dvec3 &p_place = glm::dvec3(0.0)) {
+		double p_scale = 1.0, const glm::dvec3 &p_position = glm::dvec3(0.0)) {
 	auto scene = std::make_unique<Scene>();
 	MeshInstance3D &box = add<MeshInstance3D>(*scene, "Stage light");
 	box.surfaces.push_back(
 			{ make_box_mesh("box", glm::vec3(1, 2, 0.5f)), std::make_shared<Material>() });
 	box.parent_from_node =
-			glm::scale(glm::translate(glm::dmat4(1.0), p_place), glm::dvec3(p_scale));
+			glm::scale(glm::translate(glm::dmat4(1.0), p_position), glm::dvec3(p_scale));
 	return scene;
 }
 
@@ -120,11 +120,11 @@ TEST_CASE("[Stage] the camera fills the image with the model and its shadow") {
 				point = light + ray * ((-half.y - light.y) / ray.y);
 			}
 			const glm::dvec3 seen = find_seen(*snapshot, point);
-			const glm::dvec2 place = glm::dvec2(seen) /
+			const glm::dvec2 position = glm::dvec2(seen) /
 					(-seen.z * std::tan(camera.vertical_fov_rad / 2)) /
 					glm::dvec2(std::min(aspect, 1.0), 1.0);
-			least = glm::min(least, place);
-			greatest = glm::max(greatest, place);
+			least = glm::min(least, position);
+			greatest = glm::max(greatest, position);
 		}
 		const glm::dvec2 extent = greatest - least; // of 2
 		CHECK(std::max(extent.x, extent.y) > 1.7);

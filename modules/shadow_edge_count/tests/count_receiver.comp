@@ -28,8 +28,8 @@ layout(set = 0, binding = 6) readonly buffer Masks {
 	uvec2 masks[];
 };
 
-uvec4 load_count_masks(uint p_place, uint p_pair) {
-	return uvec4(masks[p_place], uvec2(0u)); // one turn
+uvec4 load_count_masks(uint p_index, uint p_pair) {
+	return uvec4(masks[p_index], uvec2(0u)); // one turn
 }
 
 // One list of all faces for every texel.

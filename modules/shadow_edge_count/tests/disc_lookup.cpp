@@ -15,12 +15,12 @@ const double SECTOR_RAD = 2.0 * std::numbers::pi / DiscMasks::SAMPLE_COUNT;
 
 uint32_t DiscLookup::find_sector(const glm::dvec2 &p_direction) const {
 	const double angle = std::atan2(p_direction.y, p_direction.x) / SECTOR_RAD;
-	const double place = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
-	return static_cast<uint32_t>(place) % SAMPLE_COUNT;
+	const double position = angle + 1.0 + SAMPLE_COUNT - (turn + 0.5) / turn_count;
+	return static_cast<uint32_t>(position) % SAMPLE_COUNT;
 }
 
 uint64_t DiscLookup::get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const {
-	const auto before = [](uint32_t p_place) { return (uint64_t(1) << p_place) - 1; };
+	const auto before = [](uint32_t p_index) { return (uint64_t(1) << p_index) - 1; };
 	const uint32_t from = find_sector(p_from);
 	const uint32_t to = find_sector(p_to);
 	const uint64_t between = before(from) ^ before(to);

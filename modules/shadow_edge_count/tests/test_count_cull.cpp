@@ -100,21 +100,21 @@ CullResult find_uses(KernelFixture &r_fixture, const CountScene &p_scene,
 	return result;
 }
 
-enum class LightPlace { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
+enum class LightSetup { SPOT_ON_AXIS, SPOT_FAR_OFF, DIRECTIONAL };
 
 /// Two solids and an open mesh over the ground, anyhow.
-CountScene make_scene(LightPlace p_place, double p_radius_sizes, TestRandom &r_random) {
+CountScene make_scene(LightSetup p_setup, double p_radius_sizes, TestRandom &r_random) {
 	CountScene scene;
-	scene.is_directional = p_place == LightPlace::DIRECTIONAL;
+	scene.is_directional = p_setup == LightSetup::DIRECTIONAL;
 	scene.radius = scene.is_directional ? p_radius_sizes : p_radius_sizes * scene.scene_size;
 	scene.half_extent = scene.is_directional ? 6.0 : 0.95;
-	if (p_place == LightPlace::SPOT_FAR_OFF) {
+	if (p_setup == LightSetup::SPOT_FAR_OFF) {
 		// About 50 degrees off the axis, as in the corner of an omni light's view.
 		scene.light = { 2.2, 3.4, 1.4 };
 		scene.target = { 2.3, 1.4, 1.5 };
 		scene.half_extent = 2.6;
 	}
-	const auto place = [&](double p_least_height, double p_greatest_height) {
+	const auto make_transform = [&](double p_least_height, double p_greatest_height) {
 		const glm::dvec3 position(r_random.next(-0.8, 0.8),
 				r_random.next(p_least_height, p_greatest_height), r_random.next(-0.8, 0.8));
 		return glm::rotate(glm::translate(glm::dmat4(1.0), position), r_random.next(0.0, 6.28),
@@ -125,13 +125,13 @@ CountScene make_scene(LightPlace p_place, double p_radius_sizes, TestRandom &r_r
 	scene.add(make_box_mesh("box",
 					  glm::vec3(r_random.next(0.1, 0.6), r_random.next(0.05, 0.5),
 							  r_random.next(0.1, 0.6))),
-			place(0.3, 1.0));
-	scene.add(make_count_sphere(r_random.next(0.2, 0.7), 6), place(1.0, 2.0));
+			make_transform(0.3, 1.0));
+	scene.add(make_count_sphere(r_random.next(0.2, 0.7), 6), make_transform(1.0, 2.0));
 	scene.add(make_mesh("quad",
 					  { { -0.5f, 0, -0.4f }, { 0.5f, 0, -0.4f }, { 0.5f, 0.1f, 0.4f },
 							  { -0.5f, 0, 0.4f } },
 					  {}, { 0, 1, 2, 0, 2, 3 }),
-			place(0.2, 1.5));
+			make_transform(0.2, 1.5));
 	scene.build();
 	return scene;
 }
@@ -159,18 +159,18 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 	for (size_t box = 0; box < box_count; ++box) {
 		std::vector<CountEdge> used;
 		for (size_t index = 0; index < edges.size(); ++index) {
-			const size_t place = box * edges.size() + index;
-			if (result.is_used[place]) {
+			const size_t item = box * edges.size() + index;
+			if (result.is_used[item]) {
 				used.push_back(edges[index]);
 			}
-			++(result.is_used[place] ? r_check.used_count : r_check.rejected_count);
-			if (result.known_weights[place] == UNKNOWN_WEIGHT) {
+			++(result.is_used[item] ? r_check.used_count : r_check.rejected_count);
+			if (result.known_weights[item] == UNKNOWN_WEIGHT) {
 				continue;
 			}
 			++r_check.known_weight_count;
 			for (const glm::dvec3 &receiver : boxes[box].receivers) {
 				r_check.wrong_weight_count +=
-						result.known_weights[place] != edges[index].compute_weight(receiver) ? 1
+						result.known_weights[item] != edges[index].compute_weight(receiver) ? 1
 																							 : 0;
 			}
 		}
@@ -189,14 +189,14 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 TEST_CASE("[GPU][EdgeCount] edges that a box of receivers rejects change nothing for any of them") {
 	KernelFixture fixture;
 	TestRandom random;
-	for (const LightPlace place :
-			{ LightPlace::SPOT_ON_AXIS, LightPlace::SPOT_FAR_OFF, LightPlace::DIRECTIONAL }) {
+	for (const LightSetup setup :
+			{ LightSetup::SPOT_ON_AXIS, LightSetup::SPOT_FAR_OFF, LightSetup::DIRECTIONAL }) {
 		for (const double radius : { 0.02, 0.1, 0.3, 0.75 }) { // of S, or a tangent
-			CAPTURE(int(place));
+			CAPTURE(int(setup));
 			CAPTURE(radius);
 			CullCheck check;
 			for (int scene = 0; scene < 3; ++scene) {
-				check_boxes(fixture, make_scene(place, radius, random), random, check);
+				check_boxes(fixture, make_scene(setup, radius, random), random, check);
 			}
 			CHECK(check.greatest_change < 1e-12);
 			CHECK(check.wrong_weight_count == 0);

@@ -42,9 +42,9 @@ Agreement compare(const CountScene &p_scene, KernelFixture &r_fixture) {
 	TestRandom random;
 	const size_t count = 2000;
 	for (size_t index = 0; index < count; ++index) {
-		const glm::dvec3 place(random.next(-1.6, 1.4), 0.0, random.next(-1.5, 1.3));
+		const glm::dvec3 position(random.next(-1.6, 1.4), 0.0, random.next(-1.5, 1.3));
 		// What float32 can hold is the question to both.
-		receivers.push_back(glm::dvec3(glm::vec3(p_scene.make_receiver(place, UP))));
+		receivers.push_back(glm::dvec3(glm::vec3(p_scene.make_receiver(position, UP))));
 	}
 	const std::vector<glm::vec4> results = run_receivers(p_scene, r_fixture, receivers);
 	Agreement agreement;
@@ -90,10 +90,10 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overla
 	scene.add(make_box_mesh("box", glm::vec3(4.2, 0.2, 4.2)),
 			glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.2, 0.0)));
 	for (int index = 0; index < 6; ++index) {
-		const glm::dvec3 place(
+		const glm::dvec3 position(
 				0.4 * std::cos(2.1 * index), 0.4 + 0.35 * index, 0.4 * std::sin(2.1 * index));
 		scene.add(make_box_mesh("box", glm::vec3(0.4, 0.04, 0.35)),
-				glm::rotate(glm::translate(glm::dmat4(1.0), place), 0.7 * index,
+				glm::rotate(glm::translate(glm::dmat4(1.0), position), 0.7 * index,
 						glm::dvec3(0.2, 1.0, 0.1)));
 	}
 	scene.build();
@@ -154,9 +154,9 @@ TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and 
 		scene.is_directional = is_directional;
 		scene.radius = 0;
 		for (int index = 0; index < 12; ++index) {
-			const glm::dvec3 place(
+			const glm::dvec3 position(
 					random.next(-0.8, 0.8), random.next(0.2, 5.8), random.next(-0.8, 0.8));
-			const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), place),
+			const glm::dmat4 matrix = glm::rotate(glm::translate(glm::dmat4(1.0), position),
 					random.next(0.0, 6.0), random.next_unit());
 			if (index % 3 == 0) {
 				scene.add(make_mesh("card",
@@ -173,8 +173,8 @@ TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and 
 		scene.build();
 		std::vector<glm::dvec3> receivers;
 		for (int index = 0; index < 4000; ++index) {
-			const glm::dvec3 place(random.next(-1, 1), random.next(-0.5, 6.5), random.next(-1, 1));
-			receivers.push_back(glm::dvec3(glm::vec3(scene.make_receiver(place, UP))));
+			const glm::dvec3 position(random.next(-1, 1), random.next(-0.5, 6.5), random.next(-1, 1));
+			receivers.push_back(glm::dvec3(glm::vec3(scene.make_receiver(position, UP))));
 		}
 		const std::vector<glm::vec4> results = run_receivers(scene, fixture, receivers);
 		size_t apart_count = 0;

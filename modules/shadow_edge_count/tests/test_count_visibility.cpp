@@ -113,10 +113,10 @@ TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do f
 		scene.mask_turns = turns;
 		add_ground(scene);
 		for (int index = 0; index < 4; ++index) {
-			const glm::dvec3 place(
+			const glm::dvec3 position(
 					0.3 * std::cos(2.1 * index), 0.5 + 0.55 * index, 0.3 * std::sin(2.1 * index));
 			scene.add(make_box_mesh("box", glm::vec3(0.35, 0.04, 0.3)),
-					glm::rotate(glm::translate(glm::dmat4(1.0), place), 0.7 * index,
+					glm::rotate(glm::translate(glm::dmat4(1.0), position), 0.7 * index,
 							glm::dvec3(0.2, 1.0, 0.1)));
 		}
 		scene.build();
@@ -131,13 +131,13 @@ TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
 	CountScene scene;
 	scene.radius = 0.4;
 	add_ground(scene);
-	const glm::dmat4 place =
+	const glm::dmat4 transform =
 			glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.2, 0.97, 0.1)), 0.4, UP);
 	const glm::dvec3 half(0.35, 1.02, 0.35);
-	scene.add(make_box_mesh("box", glm::vec3(half)), place);
+	scene.add(make_box_mesh("box", glm::vec3(half)), transform);
 	scene.build();
 	const Difference difference = compare(scene, 1.4, [&](const glm::dvec3 &p_position) {
-		const glm::dvec3 own = glm::dvec3(glm::inverse(place) * glm::dvec4(p_position, 1.0));
+		const glm::dvec3 own = glm::dvec3(glm::inverse(transform) * glm::dvec4(p_position, 1.0));
 		return glm::all(glm::lessThan(glm::abs(own), half));
 	});
 	CHECK(difference.mean < 0.003);
@@ -181,8 +181,8 @@ TEST_CASE("[EdgeCount] scale changes nothing") {
 		add_tilted_box(scene, scale);
 		scene.build();
 		for (int step = 0; step < 100; ++step) {
-			const glm::dvec3 place(-1.4 + 0.011 * step, 0.0, -1.2 + 0.017 * step);
-			values[index].push_back(scene.count(place * scale, UP));
+			const glm::dvec3 position(-1.4 + 0.011 * step, 0.0, -1.2 + 0.017 * step);
+			values[index].push_back(scene.count(position * scale, UP));
 		}
 	}
 	for (size_t step = 0; step < values[0].size(); ++step) {
@@ -213,16 +213,16 @@ TEST_CASE("[EdgeCount] casters that cut the light's disc hide what rays find") {
 	};
 	for (const auto &mesh : meshes) {
 		CAPTURE(mesh->name);
-		for (const glm::dvec3 &place : { glm::dvec3(0.02, 0.01, -0.03), glm::dvec3(0.3, 0.1, 0.1),
+		for (const glm::dvec3 &offset : { glm::dvec3(0.02, 0.01, -0.03), glm::dvec3(0.3, 0.1, 0.1),
 					 glm::dvec3(-0.1, 0.35, 0.2), glm::dvec3(0.05, -0.25, -0.3) }) {
 			for (const double turn : { 0.0, 0.5, 1.4 }) {
-				CAPTURE(place.x);
+				CAPTURE(offset.x);
 				CAPTURE(turn);
 				CountScene scene;
 				scene.mask_turns = 4;
 				add_ground(scene);
 				scene.add(mesh,
-						glm::rotate(glm::translate(glm::dmat4(1.0), scene.light + place), turn,
+						glm::rotate(glm::translate(glm::dmat4(1.0), scene.light + offset), turn,
 								glm::dvec3(0.3, 1.0, 0.1)));
 				scene.build();
 				const Difference difference = compare(scene, 1.4);

@@ -60,7 +60,7 @@ void check_changes(LightType p_type) {
 		{ "budget", set("edge_count_budget", int64_t(100)), true },
 		{ "no budget", set("edge_count_budget", int64_t(-1)), false },
 		{ "map size", set("edge_count_map_size", int64_t(96)), true },
-		{ "light's place", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
+		{ "light's position", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
 		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
 		{ "a caster less", [&] { scene.box->casts_shadow = false; }, true },
 		{ "and again", [&] { scene.box->casts_shadow = true; }, true },

@@ -1,4 +1,4 @@
-// Lights of any size at any place, and meshes that are no solids.
+// Lights of any size at any position, and meshes that are no solids.
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"
@@ -141,10 +141,10 @@ TEST_CASE("[GPU][EdgeCount] a light inside a solid or below the ground shines no
 		CAPTURE(std::string(get_light_type_name(type)));
 		SmallScene scene(type);
 		scene.light->properties["light_size"] = 0.1;
-		const glm::dmat4 places[] = { look_at({ 0.1, 1.0, 0.05 }, { 0, 0, 0.01 }),
+		const glm::dmat4 transforms[] = { look_at({ 0.1, 1.0, 0.05 }, { 0, 0, 0.01 }),
 			look_at({ 0.3, -2.0, 0.2 }, { 0, 0, 0.01 }) };
-		for (const glm::dmat4 &place : places) {
-			scene.light->parent_from_node = place;
+		for (const glm::dmat4 &transform : transforms) {
+			scene.light->parent_from_node = transform;
 			CHECK(compare_with_reference(fixture, scene).mean < 0.001);
 		}
 		// Partly inside a solid it is seen too little of, see the page: no error, that is all.

@@ -1,4 +1,4 @@
-// What must not matter: scale, place and direction of the whole scene, and where an omni light's
+// What must not matter: scale, position and direction of the whole scene, and where an omni light's
 // views meet.
 
 #include "modules/shadow_edge_count/tests/edge_count_fixture.h"
@@ -25,10 +25,10 @@ std::vector<int> find_views(const SmallScene &p_scene, const MaskResult &p_frame
 	const LightSnapshot &light = scene->lights[0];
 	std::vector<int> views;
 	for (size_t index = 0; index < p_frame.surfaces.size(); ++index) {
-		const glm::dvec3 place_world =
+		const glm::dvec3 position_world =
 				scene->camera.position_world + glm::dvec3(p_frame.surfaces[index].position);
 		const glm::dvec3 r =
-				glm::transpose(light.world_from_light) * (place_world - light.position_world);
+				glm::transpose(light.world_from_light) * (position_world - light.position_world);
 		const glm::dvec3 size = glm::abs(r);
 		const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 		views.push_back(p_frame.receiver[index] > 0 ? 2 * axis + (r[axis] < 0 ? 1 : 0) : 6);
@@ -38,14 +38,14 @@ std::vector<int> find_views(const SmallScene &p_scene, const MaskResult &p_frame
 
 /// Another view's receiver lies within three pixels.
 bool is_near_seam(const std::vector<int> &p_views, glm::ivec2 p_size_px, glm::ivec2 p_pixel) {
-	const auto get_view = [&](const glm::ivec2 &p_place) {
-		return p_views[size_t(p_place.y) * size_t(p_size_px.x) + size_t(p_place.x)];
+	const auto get_view = [&](const glm::ivec2 &p_neighbour) {
+		return p_views[size_t(p_neighbour.y) * size_t(p_size_px.x) + size_t(p_neighbour.x)];
 	};
 	for (int y = -3; y <= 3; ++y) {
 		for (int x = -3; x <= 3; ++x) {
-			const glm::ivec2 place =
+			const glm::ivec2 neighbour =
 					glm::clamp(p_pixel + glm::ivec2(x, y), glm::ivec2(0), p_size_px - 1);
-			if (get_view(place) != 6 && get_view(place) != get_view(p_pixel)) {
+			if (get_view(neighbour) != 6 && get_view(neighbour) != get_view(p_pixel)) {
 				return true;
 			}
 		}

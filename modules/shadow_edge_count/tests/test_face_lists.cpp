@@ -107,14 +107,14 @@ Lists list_faces(KernelFixture &r_fixture, const std::vector<CountFace> &p_faces
 }
 
 /// True when the way from the light's centre through a point of the map meets the face.
-bool is_met(bool p_is_directional, const glm::dvec2 &p_place, const CountFace &p_face) {
+bool is_met(bool p_is_directional, const glm::dvec2 &p_position, const CountFace &p_face) {
 	const auto to_plane = [&](const glm::dvec3 &p_point) {
 		return p_is_directional ? glm::dvec3(p_point.x, p_point.y, 1.0) : p_point;
 	};
 	const glm::dvec3 a = to_plane(p_face.corners[0]);
 	const glm::dvec3 b = to_plane(p_face.corners[1]);
 	const glm::dvec3 c = to_plane(p_face.corners[2]);
-	const glm::dvec3 way(p_place, 1.0);
+	const glm::dvec3 way(p_position, 1.0);
 	const double turn = glm::dot(a, glm::cross(b, c)) >= 0 ? 1.0 : -1.0;
 	return turn * glm::dot(way, glm::cross(a, b)) >= 0 &&
 			turn * glm::dot(way, glm::cross(b, c)) >= 0 &&
@@ -147,7 +147,7 @@ TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it co
 			size_t met_count = 0;
 			for (int index = 0; index < 250; ++index) {
 				const glm::dvec2 share(random.next(), random.next());
-				const glm::dvec2 place = (share * 2.0 - 1.0) * double(light.views[0].half_extent.x);
+				const glm::dvec2 position = (share * 2.0 - 1.0) * double(light.views[0].half_extent.x);
 				const glm::uvec2 texel = glm::min(
 						glm::uvec2(share * double(map_size_px)), glm::uvec2(map_size_px - 1));
 				std::set<uint32_t> listed;
@@ -156,7 +156,7 @@ TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it co
 					CHECK(listed.insert(lists.nodes[node - 1].x).second); // each once
 				}
 				for (uint32_t face = 0; face < faces.size(); ++face) {
-					if (is_met(is_directional, place, faces[face])) {
+					if (is_met(is_directional, position, faces[face])) {
 						++met_count;
 						missing_count += listed.contains(face) ? 0 : 1;
 					}

@@ -186,7 +186,7 @@ TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in d
 			scene.is_directional = is_directional;
 			scene.radius = radius;
 			scene.build();
-			const auto place = [](double p_turn, double p_scale) {
+			const auto make_transform = [](double p_turn, double p_scale) {
 				glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), glm::dvec3(0.31, -0.23, 4.1));
 				matrix = glm::rotate(matrix, p_turn, glm::dvec3(0.3, 0.7, -0.2));
 				return glm::scale(matrix, glm::dvec3(p_scale, 1.0, 1.0));
@@ -197,13 +197,13 @@ TEST_CASE("[GPU][EdgeCount] the passes find all casters' faces and edges as in d
 					{}, { 0, 1, 2, 0, 2, 3 });
 			std::vector<Caster> casters(4);
 			casters[0].topology = get_topology(make_count_sphere(0.8, 24)); // several blocks
-			casters[0].light_from_node = place(0.4, 1.0);
+			casters[0].light_from_node = make_transform(0.4, 1.0);
 			casters[1].topology = get_topology(make_box_mesh("box", glm::vec3(0.4, 0.3, 0.2)));
-			casters[1].light_from_node = place(1.3, -1.0); // mirrored
+			casters[1].light_from_node = make_transform(1.3, -1.0); // mirrored
 			casters[2].topology = get_topology(quad);
-			casters[2].light_from_node = place(2.1, 1.0);
+			casters[2].light_from_node = make_transform(2.1, 1.0);
 			casters[3].topology = get_topology(make_count_sphere(0.3, 6));
-			casters[3].light_from_node = place(0.9, 1.5);
+			casters[3].light_from_node = make_transform(0.9, 1.5);
 			const Found found = find_edges(fixture, casters, scene.get_space());
 			CountedCasters expected;
 			for (const Caster &caster : casters) {

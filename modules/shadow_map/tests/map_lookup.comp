@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_map/lookup_inc.glsl"
 
-// xy: a place on the map, z: its w, w: the filter's width. Gives the filtered and the hard lookup.
+// xy: a position on the map, z: its w, w: the filter's width. Gives the filtered and the hard lookup.
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) readonly buffer Input {
 	vec4 points[];

@@ -53,7 +53,7 @@ double compute_overlap(double p_low, double p_width, int p_texel) {
 			0.0, std::min(p_low + p_width, p_texel + 1.0) - std::max(p_low, double(p_texel)));
 }
 
-/// Area of the box about the texel place that lies on lit texels or beyond the map.
+/// Area of the box about the texel position that lies on lit texels or beyond the map.
 double compute_reference(
 		const std::vector<bool> &p_is_hidden, const glm::dvec2 &p_texel, double p_width) {
 	const glm::dvec2 low = p_texel - 0.5 * p_width;

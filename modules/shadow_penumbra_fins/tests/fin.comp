@@ -20,7 +20,7 @@ void main() {
 	if (3u * item >= uint(items.length())) {
 		return;
 	}
-	const vec4 place = items[3u * item];
+	const vec4 position_corner = items[3u * item];
 	const vec4 normal = items[3u * item + 1u];
 	const vec4 widths = items[3u * item + 2u];
 	FinsPush push;
@@ -33,7 +33,7 @@ void main() {
 	view.depth_scale = widths.z > 0.5 ? 0.1 : 0.001;
 	view.outer_width_m = widths.x;
 	view.inner_width_m = widths.y;
-	const uint corner = uint(place.w);
-	results[2u * item] = fin_position_clip(view, push, corner, place.xyz, normal.xyz);
+	const uint corner = uint(position_corner.w);
+	results[2u * item] = fin_position_clip(view, push, corner, position_corner.xyz, normal.xyz);
 	results[2u * item + 1u] = vec4(fin_theta(corner));
 }

@@ -18,13 +18,13 @@ void main() {
 		return;
 	}
 	const vec4 fin = items[2u * item];
-	const vec4 place = items[2u * item + 1u];
+	const vec4 input_m = items[2u * item + 1u];
 	const bool is_outer = fin.y > 0.5;
 	FinsViewConstants view;
-	view.nearest_m = place.y;
-	view.farthest_m = place.z;
-	view.inner_divisor = 2.0 * place.z / place.y;
+	view.nearest_m = input_m.y;
+	view.farthest_m = input_m.z;
+	view.inner_divisor = 2.0 * input_m.z / input_m.y;
 	const bool starts_dark = fin.w > 0.5;
 	results[item] = vec4(penumbra_transition(fin.x, is_outer, int(fin.z), starts_dark),
-			penumbra_depth(view, place.x, is_outer), penumbra_border(int(fin.z)), 0.0);
+			penumbra_depth(view, input_m.x, is_outer), penumbra_border(int(fin.z)), 0.0);
 }

@@ -63,7 +63,7 @@ TEST_CASE("[GPU][PenumbraFins] after any change cached maps give the mask that f
 				false },
 		{ "way to make fins",
 				[&] { scopes.emplace_back("penumbra_fins", "method", "geometry_shader"); }, false },
-		{ "light's place", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
+		{ "light's position", [&] { scene.light->parent_from_node[3].x += 0.3; }, true },
 		{ "intensity", [&] { scene.light->intensity = 3.0f; }, false },
 		{ "no t", set("penumbra_inner_width", 0.0), true },
 		{ "no r either", set("penumbra_outer_width", 0.0), false }, // draws layers, no fins

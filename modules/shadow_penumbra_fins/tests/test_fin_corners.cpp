@@ -12,17 +12,17 @@ using namespace gnomon;
 namespace {
 
 struct FinCase {
-	glm::vec4 place;  // position_node, corner
+	glm::vec4 position_corner;  // position_node, corner
 	glm::vec4 normal; // normal_node, sign
 	glm::vec4 widths; // r, t, is orthographic
 };
 
 glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_node) {
-	glm::dvec3 position = glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.place), 1.0));
+	glm::dvec3 position = glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.position_corner), 1.0));
 	// The definition, where fin_inc.glsl takes cofactors; its sign then makes up for mirroring.
 	const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(p_view_from_node)));
 	const glm::dvec3 normal = glm::normalize(normal_matrix * glm::dvec3(p_case.normal));
-	const uint32_t corner = static_cast<uint32_t>(p_case.place.w) & 6u;
+	const uint32_t corner = static_cast<uint32_t>(p_case.position_corner.w) & 6u;
 	position += corner == 2 ? double(p_case.widths.x) * normal
 			: corner == 4	? -double(p_case.widths.y) * normal
 							: glm::dvec3(0.0);
@@ -57,7 +57,7 @@ TEST_CASE("[GPU][PenumbraFins] corners of fins stand where the paper puts them, 
 		const std::vector<glm::mat4> constants = { glm::mat4(view_from_node) };
 		std::vector<glm::vec4> input;
 		for (const FinCase &fin : cases) {
-			input.insert(input.end(), { fin.place, fin.normal, fin.widths });
+			input.insert(input.end(), { fin.position_corner, fin.normal, fin.widths });
 		}
 		const auto results =
 				fixture.run_with_constants("fin.comp", constants[0], input, cases.size(), 2);
@@ -65,7 +65,7 @@ TEST_CASE("[GPU][PenumbraFins] corners of fins stand where the paper puts them, 
 			const glm::dvec4 expected = compute_clip(cases[item], view_from_node);
 			const double tolerance = 2e-6 * glm::length(expected);
 			CHECK(glm::length(glm::dvec4(results[2 * item]) - expected) < tolerance);
-			const uint32_t corner = static_cast<uint32_t>(cases[item].place.w) & 6u;
+			const uint32_t corner = static_cast<uint32_t>(cases[item].position_corner.w) & 6u;
 			CHECK(results[2 * item + 1].x == (corner == 2 ? 1.0f : corner == 4 ? 0.0f : 0.5f));
 		}
 	}

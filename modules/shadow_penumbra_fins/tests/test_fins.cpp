@@ -107,11 +107,11 @@ TEST_CASE("[GPU][PenumbraFins] compute finds the CPU's silhouette edges, in orde
 			const SilhouetteCaster &item = casters.casters[caster];
 			const MeshTopology &topology = *item.gpu->topology;
 			const auto silhouette = find_silhouette_edges(topology, item.light_node);
-			std::vector<uint32_t> expected; // places in the GPU's order
+			std::vector<uint32_t> expected; // indices in the GPU's order
 			const std::vector<uint32_t> order = order_edges_by_face(topology);
-			for (uint32_t place = 0; place < order.size(); ++place) {
-				if (std::binary_search(silhouette.begin(), silhouette.end(), order[place])) {
-					expected.push_back(place);
+			for (uint32_t order_index = 0; order_index < order.size(); ++order_index) {
+				if (std::binary_search(silhouette.begin(), silhouette.end(), order[order_index])) {
+					expected.push_back(order_index);
 				}
 			}
 			CHECK(expected.size() == silhouette.size());

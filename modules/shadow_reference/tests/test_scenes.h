@@ -50,9 +50,9 @@ inline std::vector<ReceiverPoint> make_ground(uint32_t p_count, float p_half_siz
 	std::vector<ReceiverPoint> points;
 	for (uint32_t y = 0; y < p_count; ++y) {
 		for (uint32_t x = 0; x < p_count; ++x) {
-			const glm::vec2 place =
+			const glm::vec2 position =
 					(glm::vec2(x, y) + 0.5f) / static_cast<float>(p_count) * 2.0f - 1.0f;
-			points.push_back({ glm::vec3(place * p_half_size, 0.0f), glm::vec3(0, 0, 1), true });
+			points.push_back({ glm::vec3(position * p_half_size, 0.0f), glm::vec3(0, 0, 1), true });
 		}
 	}
 	return points;

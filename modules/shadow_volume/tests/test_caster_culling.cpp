@@ -93,8 +93,8 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 		box.add(box.minimum + glm::dvec3(draw(random, 0, 1), draw(random, 0, 1), 0.2));
 	}
 	boxes[17] = Bounds(); // empty: in no subtree
-	const glm::dvec3 place(100, 200, -300);
-	const CullingBoxes found = build_culling_boxes(boxes, place);
+	const glm::dvec3 origin(100, 200, -300);
+	const CullingBoxes found = build_culling_boxes(boxes, origin);
 	CHECK(found.subtree_count >= 1000 / CULLING_CASTERS_PER_SUBTREE);
 	CHECK(found.subtree_count < 200);
 	std::set<uint32_t> seen;
@@ -106,7 +106,7 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 			const shader::CullingBox &box = found.boxes[subtree.first + j];
 			CHECK(seen.insert(box.first).second);
 			const glm::dvec3 centre = 0.5 * (boxes[box.first].minimum + boxes[box.first].maximum);
-			holds = holds && glm::distance(glm::dvec3(box.center_m), centre - place) < 1e-4;
+			holds = holds && glm::distance(glm::dvec3(box.center_m), centre - origin) < 1e-4;
 			for (int axis = 0; axis < 3; ++axis) {
 				const float distance = std::abs(box.center_m[axis] - subtree.center_m[axis]);
 				holds = holds &&
@@ -117,7 +117,7 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 	CHECK(holds);
 	CHECK(seen.size() == 999);
 	CHECK(seen.count(17) == 0);
-	CHECK(build_culling_boxes({}, place).subtree_count == 0);
+	CHECK(build_culling_boxes({}, origin).subtree_count == 0);
 }
 
 TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those next to it and before it not") {

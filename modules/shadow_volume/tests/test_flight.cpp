@@ -12,7 +12,7 @@ const size_t FRAME_COUNT = 300;
 
 /// A recorded flight: where the camera was every 25 frames, and what it looked at.
 struct Pose {
-	glm::dvec3 place, target;
+	glm::dvec3 position, target;
 };
 const std::array<Pose, 13> FLIGHT = { {
 		{ { -2.4, 2.2, 3.0 }, { 0.0, 0.4, 0.0 } }, { { -1.2, 0.9, 1.6 }, { -0.2, 0.2, -0.2 } },
@@ -29,10 +29,10 @@ const std::array<Pose, 13> FLIGHT = { {
 		{ { 1.2, 2.9, 0.7 }, { 0.0, 0.3, -0.1 } },	  // past the light
 } };
 
-/// Catmull-Rom through four places, p_share of the way from the second to the third.
-glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_places, double p_share) {
+/// Catmull-Rom through four positions, p_share of the way from the second to the third.
+glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_positions, double p_share) {
 	const double s = p_share;
-	const auto &[a, b, c, d] = p_places;
+	const auto &[a, b, c, d] = p_positions;
 	return 0.5 *
 			(2.0 * b + (c - a) * s + (2.0 * a - 5.0 * b + 4.0 * c - d) * (s * s) +
 					(3.0 * b - a - 3.0 * c + d) * (s * s * s));
@@ -41,14 +41,14 @@ glm::dvec3 blend(const std::array<glm::dvec3, 4> &p_places, double p_share) {
 glm::dmat4 find_pose(size_t p_frame) {
 	const double way = double(p_frame) * (FLIGHT.size() - 1) / (FRAME_COUNT - 1);
 	const size_t first = std::min(static_cast<size_t>(way), FLIGHT.size() - 2);
-	std::array<glm::dvec3, 4> places, targets;
+	std::array<glm::dvec3, 4> positions, targets;
 	for (size_t i = 0; i < 4; ++i) {
 		const size_t pose = std::clamp(first + i, size_t(1), FLIGHT.size()) - 1;
-		places[i] = FLIGHT[pose].place;
+		positions[i] = FLIGHT[pose].position;
 		targets[i] = FLIGHT[pose].target;
 	}
 	const double share = way - double(first);
-	return look_at(blend(places, share), blend(targets, share));
+	return look_at(blend(positions, share), blend(targets, share));
 }
 
 struct FlightScene : SmallScene {

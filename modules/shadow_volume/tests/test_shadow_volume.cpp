@@ -72,8 +72,8 @@ TEST_CASE("[GPU][ShadowVolume] a camera in the shadow, near it and across its bo
 TEST_CASE("[GPU][ShadowVolume] a light inside a solid, and one in the planes of its faces") {
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);
-	const auto place_light = [&](const glm::dvec3 &p_place) {
-		scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), p_place);
+	const auto place_light = [&](const glm::dvec3 &p_position) {
+		scene.light->parent_from_node = glm::translate(glm::dmat4(1.0), p_position);
 	};
 	place_light({ 0.05, 1.02, 0.03 }); // all is hidden
 	const MaskResult inside = render_volumes(fixture, scene);

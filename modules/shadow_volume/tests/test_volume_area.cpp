@@ -98,18 +98,18 @@ TEST_CASE("[ShadowVolume] a volume's area holds every point that the box hides")
 					std::pow(10.0, situations.draw(-3, 3)));
 			const glm::dvec3 seen =
 					glm::dvec3(situation.camera.view_from_world * glm::dvec4(point, 1.0));
-			const glm::dvec2 place =
+			const glm::dvec2 position =
 					(glm::dvec2(seen) / seen.z / glm::dvec2(situation.camera.half_extent) * 0.5 +
 							0.5) *
 					glm::dvec2(SIZE_PX);
 			const bool is_seen = seen.z > situation.camera.near_m &&
-					glm::all(glm::greaterThan(place, glm::dvec2(0))) &&
-					glm::all(glm::lessThan(place, glm::dvec2(SIZE_PX)));
+					glm::all(glm::greaterThan(position, glm::dvec2(0))) &&
+					glm::all(glm::lessThan(position, glm::dvec2(SIZE_PX)));
 			if (!is_seen || !is_in_range(situation.light, point)) {
 				continue;
 			}
 			++seen_count;
-			const glm::uvec2 pixel(place);
+			const glm::uvec2 pixel(position);
 			CAPTURE(index);
 			REQUIRE(glm::all(glm::greaterThanEqual(pixel, area.offset_px)));
 			REQUIRE(glm::all(glm::lessThan(pixel, area.offset_px + area.size_px)));

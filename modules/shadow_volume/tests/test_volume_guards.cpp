@@ -10,9 +10,9 @@ namespace {
 void add_probes(SmallScene &r_scene) {
 	const auto probe = make_box_mesh("probe", glm::vec3(0.012f));
 	for (int i = 0; i < 125; ++i) {
-		const glm::dvec3 place(i % 5 - 2, i / 5 % 5, i / 25 - 2);
+		const glm::dvec3 position(i % 5 - 2, i / 5 % 5, i / 25 - 2);
 		add_mesh(r_scene.scene, text("Probe ", i), probe,
-				glm::dvec3(0.03, 0.1, -0.02) + place * glm::dvec3(0.36, 0.4, 0.36));
+				glm::dvec3(0.03, 0.1, -0.02) + position * glm::dvec3(0.36, 0.4, 0.36));
 	}
 }
 

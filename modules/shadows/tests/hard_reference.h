@@ -14,7 +14,7 @@ struct HardDifference {
 	size_t receiver_count = 0;
 	size_t hidden_count = 0;
 	size_t wrong_count = 0;
-	/// Of the wrong ones: no place within two offsets of what a 64th of the pixel covers would make
+	/// Of the wrong ones: no point within two offsets of what a 64th of the pixel covers would make
 	/// them right.
 	size_t unexplained_count = 0;
 };
@@ -44,9 +44,9 @@ public:
 				continue;
 			}
 			const glm::dvec3 normal = glm::normalize(glm::dvec3(surface.geometric_normal));
-			const glm::dvec3 place_world =
+			const glm::dvec3 position_world =
 					scene->camera.position_world + glm::dvec3(surface.position) + normal * offset_m;
-			const bool is_hidden = find_hidden(place_world);
+			const bool is_hidden = find_hidden(position_world);
 			const bool is_dark = p_frame.visibility[index] < 0.5f;
 			++difference.receiver_count;
 			difference.hidden_count += is_hidden ? 1 : 0;
@@ -54,18 +54,18 @@ public:
 				continue;
 			}
 			++difference.wrong_count;
-			// The surface's places that lie within a 64th of the pixel, and a little off each.
+			// The surface's points that lie within a 64th of the pixel, and a little off each.
 			const double pixel_m = 2 * std::tan(0.5 * scene->camera.vertical_fov_rad) *
 					glm::length(surface.position) / std::sqrt(double(p_frame.visibility.size()));
 			const glm::dvec3 view = glm::normalize(glm::dvec3(surface.position));
 			const double reach_m =
 					std::min(pixel_m / 64 / std::max(-glm::dot(view, normal), 1e-6), 10 * pixel_m);
 			bool is_explained = false;
-			for (int place = 0; place < 81; ++place) {
-				const glm::dvec3 step(place % 3 - 1, place / 3 % 3 - 1, place / 9 % 3 - 1);
-				const glm::dvec3 along = view * (reach_m * (place / 27 - 1));
+			for (int probe = 0; probe < 81; ++probe) {
+				const glm::dvec3 step(probe % 3 - 1, probe / 3 % 3 - 1, probe / 9 % 3 - 1);
+				const glm::dvec3 along = view * (reach_m * (probe / 27 - 1));
 				is_explained = is_explained ||
-						find_hidden(place_world + along + step * (2 * offset_m)) == is_dark;
+						find_hidden(position_world + along + step * (2 * offset_m)) == is_dark;
 			}
 			difference.unexplained_count += is_explained ? 0 : 1;
 		}
@@ -78,14 +78,14 @@ private:
 		glm::dmat4 node_from_world;
 	};
 
-	bool find_hidden(const glm::dvec3 &p_place_world) const {
+	bool find_hidden(const glm::dvec3 &p_position_world) const {
 		const LightSnapshot &light = scene->lights[0];
 		const bool is_point = light.type != LightType::DIRECTIONAL;
 		const glm::dvec3 ray =
-				is_point ? light.position_world - p_place_world : -light.get_direction_world();
+				is_point ? light.position_world - p_position_world : -light.get_direction_world();
 		for (const Tree &tree : trees) {
 			const auto hit = tree.rays.find_nearest(
-					glm::dvec3(tree.node_from_world * glm::dvec4(p_place_world, 1.0)),
+					glm::dvec3(tree.node_from_world * glm::dvec4(p_position_world, 1.0)),
 					glm::dvec3(tree.node_from_world * glm::dvec4(ray, 0.0)));
 			if (hit && (!is_point || *hit < 1.0)) {
 				return true;

@@ -55,7 +55,7 @@ std::shared_ptr<const Mesh> make_tube(bool p_is_open = false) {
 	return make_mesh("tube", positions, {}, indices, attributes);
 }
 
-/// The small scene with a tube in place of its box, whose upper joint an animation turns.
+/// The small scene with a tube instead of its box, whose upper joint an animation turns.
 struct TubeScene : SmallScene {
 	Node3D *joint = nullptr;
 	MeshInstance3D *tube = nullptr;

@@ -27,9 +27,9 @@ TranslucentCasters find_casters(const SmallScene &p_scene) {
 
 /// A thin pane that hangs level.
 MeshInstance3D &add_pane(SmallScene &r_scene, const std::string &p_name, const glm::vec3 &p_color,
-		const glm::dvec3 &p_place) {
+		const glm::dvec3 &p_position) {
 	MeshInstance3D &pane = add_mesh(
-			r_scene.scene, p_name, make_box_mesh(p_name, glm::vec3(0.4f, 0.02f, 0.4f)), p_place);
+			r_scene.scene, p_name, make_box_mesh(p_name, glm::vec3(0.4f, 0.02f, 0.4f)), p_position);
 	pane.surfaces[0].material = make_glass(p_color);
 	return pane;
 }
@@ -71,9 +71,9 @@ TEST_CASE(
 		CAPTURE(get_light_type_name(type));
 		SmallScene scene(type);
 		scene.box->surfaces[0].material = make_glass(RED);
-		const bool has_place = type != LightType::DIRECTIONAL;
+		const bool has_position = type != LightType::DIRECTIONAL;
 		add_pane(scene, "Far", RED,
-				has_place ? glm::dvec3(2.9, 0.6, -2.4) : glm::dvec3(1.9, 0.6, -1.2));
+				has_position ? glm::dvec3(2.9, 0.6, -2.4) : glm::dvec3(1.9, 0.6, -1.2));
 		CHECK(find_casters(scene).groups.size() == 1);
 		scene.light->properties["light_size"] = 3.0; // so wide that it sees past the other's edge
 		scene.light->properties["light_angular_distance"] = 90.0;

@@ -7,7 +7,7 @@ using namespace gnomon;
 
 namespace {
 
-/// What a directional view over a ground of 200 m sees of a box about the place.
+/// What a directional view over a ground of 200 m sees of a box about the center.
 struct FittedScene {
 	SmallScene scene = SmallScene(LightType::DIRECTIONAL);
 	std::shared_ptr<const SceneSnapshot> snapshot;
@@ -18,17 +18,17 @@ struct FittedScene {
 		snapshot = scene.snap();
 		whole = build_light_views(snapshot->lights[0], *snapshot, 256, 1)[0];
 	}
-	VisibleReceivers make_receivers(const glm::dvec3 &p_place, double p_half_size_m) const {
+	VisibleReceivers make_receivers(const glm::dvec3 &p_center, double p_half_size_m) const {
 		VisibleReceivers receivers;
 		VisibleReceiver receiver;
-		receiver.bounds_world.add(p_place - p_half_size_m);
-		receiver.bounds_world.add(p_place + p_half_size_m);
+		receiver.bounds_world.add(p_center - p_half_size_m);
+		receiver.bounds_world.add(p_center + p_half_size_m);
 		receivers.add(receiver);
 		return receivers;
 	}
-	LightView fit(const glm::dvec3 &p_place, double p_half_size_m, double p_reach_m = 0.5) const {
+	LightView fit(const glm::dvec3 &p_center, double p_half_size_m, double p_reach_m = 0.5) const {
 		LightView view = whole;
-		fit_to_receivers(view, make_receivers(p_place, p_half_size_m), p_reach_m);
+		fit_to_receivers(view, make_receivers(p_center, p_half_size_m), p_reach_m);
 		return view;
 	}
 };
@@ -37,17 +37,17 @@ struct FittedScene {
 
 TEST_CASE("[LightView] a directional view is narrowed to the receivers and what reaches them") {
 	const FittedScene scene;
-	for (const glm::dvec3 &place :
+	for (const glm::dvec3 &center :
 			{ glm::dvec3(0.0), glm::dvec3(31.0, 0.0, -17.0), glm::dvec3(-90.0, 0.0, 80.0) }) {
-		CAPTURE(place.x);
-		const LightView view = scene.fit(place, 2.0);
+		CAPTURE(center.x);
+		const LightView view = scene.fit(center, 2.0);
 		CHECK(view.half_extent.x < 0.1f * scene.whole.half_extent.x);
 		CHECK(view.near_m == scene.whole.near_m);
 		CHECK(view.far_m == scene.whole.far_m);
 		for (int corner = 0; corner < 8; ++corner) {
 			Bounds box;
-			box.add(place - 2.0);
-			box.add(place + 2.0);
+			box.add(center - 2.0);
+			box.add(center + 2.0);
 			const glm::dvec3 seen(view.view_from_world * glm::dvec4(box.get_corner(corner), 1.0));
 			CHECK(std::abs(seen.x) + 0.5 <= view.half_extent.x);
 			CHECK(std::abs(seen.y) + 0.5 <= view.half_extent.y);

@@ -16,7 +16,7 @@ double draw(Random &r_random, double p_least, double p_most) {
 	return std::uniform_real_distribution<double>(p_least, p_most)(r_random);
 }
 
-glm::dvec3 draw_place(Random &r_random, double p_reach) {
+glm::dvec3 draw_point(Random &r_random, double p_reach) {
 	return { draw(r_random, -p_reach, p_reach), draw(r_random, -p_reach, p_reach),
 		draw(r_random, -p_reach, p_reach) };
 }
@@ -27,10 +27,10 @@ bool is_in(const Bounds &p_bounds, const glm::dvec3 &p_point) {
 }
 
 bool is_seen(const CameraSnapshot &p_camera, const glm::dvec3 &p_point) {
-	const glm::dvec3 place =
+	const glm::dvec3 position =
 			glm::transpose(p_camera.world_from_camera) * (p_point - p_camera.position_world);
-	const double reach = std::tan(0.5 * p_camera.vertical_fov_rad) * -place.z;
-	return place.z < 0 && std::abs(place.x) <= reach && std::abs(place.y) <= reach;
+	const double reach = std::tan(0.5 * p_camera.vertical_fov_rad) * -position.z;
+	return position.z < 0 && std::abs(position.x) <= reach && std::abs(position.y) <= reach;
 }
 
 /// A receiver as receivers.comp decides, were it to face the light.
@@ -46,12 +46,12 @@ bool is_lit(const LightSnapshot &p_light, const glm::dvec3 &p_point) {
 SceneSnapshot make_random_scene(Random &r_random) {
 	SceneSnapshot scene;
 	scene.scene_size_m = 4;
-	scene.camera.position_world = draw_place(r_random, 3);
-	scene.camera.world_from_camera = glm::dmat3(look_at(glm::dvec3(0.0), draw_place(r_random, 1)));
+	scene.camera.position_world = draw_point(r_random, 3);
+	scene.camera.world_from_camera = glm::dmat3(look_at(glm::dvec3(0.0), draw_point(r_random, 1)));
 	scene.camera.vertical_fov_rad = static_cast<float>(draw(r_random, 0.1, 2.5));
 	InstanceSnapshot instance;
-	const glm::dvec3 centre = draw_place(r_random, 3);
-	const glm::dvec3 half = glm::abs(draw_place(r_random, 2));
+	const glm::dvec3 centre = draw_point(r_random, 3);
+	const glm::dvec3 half = glm::abs(draw_point(r_random, 2));
 	instance.bounds_world.add(centre - half);
 	instance.bounds_world.add(centre + half);
 	scene.instances.push_back(instance);
@@ -61,8 +61,8 @@ SceneSnapshot make_random_scene(Random &r_random) {
 LightSnapshot make_random_light(Random &r_random) {
 	LightSnapshot light;
 	light.type = draw(r_random, 0, 1) < 0.5 ? LightType::SPOT : LightType::OMNI;
-	light.position_world = draw_place(r_random, 4);
-	light.world_from_light = glm::dmat3(look_at(glm::dvec3(0.0), draw_place(r_random, 1)));
+	light.position_world = draw_point(r_random, 4);
+	light.world_from_light = glm::dmat3(look_at(glm::dvec3(0.0), draw_point(r_random, 1)));
 	light.range_m = draw(r_random, 0, 1) < 0.3 ? 0.0f : float(draw(r_random, 0.2, 6.0));
 	light.outer_cone_rad = static_cast<float>(draw(r_random, 0.02, 1.57));
 	return light;
@@ -107,8 +107,8 @@ TEST_CASE("[Renderer] a light is reported to miss a box only when it lights no p
 		CAPTURE(round);
 		const LightSnapshot light = make_random_light(random);
 		Bounds box;
-		box.add(draw_place(random, 3));
-		box.add(box.minimum + glm::abs(draw_place(random, 2)));
+		box.add(draw_point(random, 3));
+		box.add(box.minimum + glm::abs(draw_point(random, 2)));
 		bool is_any_lit = false;
 		for (int index = 0; index < 200 && !is_any_lit; ++index) {
 			is_any_lit = is_lit(light,

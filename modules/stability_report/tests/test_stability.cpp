@@ -93,7 +93,7 @@ TEST_CASE("[Stability] sweeps have their centre and their quick values, and scen
 	CHECK(find_stability_sweep("no such sweep") == nullptr);
 }
 
-TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every place moved") {
+TEST_CASE("[Stability] a scaled scene has every length scaled, a moved one every position moved") {
 	const auto snap = [](const char *p_sweep, double p_value) {
 		const StabilityCase point = make_stability_case(
 				*find_stability_sweep(p_sweep), LightType::SPOT, p_value, ReportExtent::QUICK);

@@ -41,7 +41,7 @@ static func _add(left: PackedFloat32Array, right: PackedFloat32Array) -> PackedF
 	return sum
 
 
-## Of all kinds, two of them at one place and some on a line of sight, so that neither place nor direction distinguishes them.
+## Of all kinds, two of them at one position and some on a line of sight, so that neither position nor direction distinguishes them.
 func _add_eight_lights(scene: StudyScene) -> Array[Light3D]:
 	scene.light.free()
 	var lights: Array[Light3D] = []
@@ -51,12 +51,12 @@ func _add_eight_lights(scene: StudyScene) -> Array[Light3D]:
 		scene.light.light_color = Color.from_hsv(index / 8.0, 0.7, 1)
 		scene.light.light_energy = 0.3
 		var angle := TAU * index / 7.0
-		var place := Vector3(3 * cos(angle), 4, 3 * sin(angle))
+		var origin := Vector3(3 * cos(angle), 4, 3 * sin(angle))
 		if index == 5:
-			place = lights[0].position
+			origin = lights[0].position
 		elif index == 6:
-			place = lights[0].position * 1.3
-		scene.light.look_at_from_position(place, Vector3(0, 0.3, 0))
+			origin = lights[0].position * 1.3
+		scene.light.look_at_from_position(origin, Vector3(0, 0.3, 0))
 		lights.append(scene.light)
 	return lights
 
@@ -87,7 +87,7 @@ func test_another_light_keeps_the_shadow_of_godot() -> void:
 	other.shadow_enabled = true
 	var viewport := _add_linear(scene)
 	var together := await _draw(viewport)
-	for frame in 3: # it has a size, therefore a light in its place
+	for frame in 3: # it has a size, therefore another light instead
 		check(_find_largest_difference(together, await _draw(viewport, 1)) < ROUNDING, "the image is the same in each frame")
 	other.visible = false
 	var first := await _draw(viewport)

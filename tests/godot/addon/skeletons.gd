@@ -1,5 +1,5 @@
 extends AddonTest
-## Skeletons and blend shapes: their casters are where Godot draws them, as meshes are whose vertices are at those places.
+## Skeletons and blend shapes: their casters are where Godot draws them, as meshes are whose vertices are at those positions.
 
 const HEIGHT := 2.0
 const TALL := 12  # rows of quads
@@ -14,7 +14,7 @@ class Bend:
 		get_skeleton().set_bone_pose_rotation(1, Quaternion(Vector3.BACK, 1.2))
 
 
-## A closed column from y = 0 to HEIGHT whose bones change with its height, `offset` off its place.
+## A closed column from y = 0 to HEIGHT whose bones change with its height, `offset` off its position.
 func _make_arrays(influences := 4, offset := Vector3.ZERO) -> Array:
 	var box := BoxMesh.new()
 	box.size = Vector3(0.5, HEIGHT, 0.3)
@@ -67,7 +67,7 @@ func _bend(skeleton: Skeleton3D, angle: float) -> void:
 	skeleton.set_bone_pose_rotation(2, Quaternion(Vector3.RIGHT, 0.5 * angle))
 
 
-## The caster of a study scene becomes a bent column; neither it nor its skeleton is at the other's place.
+## The caster of a study scene becomes a bent column; neither it nor its skeleton is at the other's position.
 func _skin_caster(scene: StudyScene, mesh: Mesh, angle := 0.8) -> Skeleton3D:
 	var skeleton := _make_skeleton()
 	scene.add_child(skeleton)

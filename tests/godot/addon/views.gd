@@ -191,7 +191,7 @@ func test_meshes_drawn_with_fewer_triangles_have_the_full_mask() -> void:
 		remove(scene)
 
 
-func test_antialiasing_over_time_leaves_the_mask_in_place() -> void:
+func test_antialiasing_over_time_leaves_the_mask_where_it_is() -> void:
 	var scene := add_study()
 	_add_sphere_with_levels(scene)
 	var plain := await read_settled(scene)

@@ -95,20 +95,20 @@ func _count_darker(lit: Image, shadowed: Image) -> int:
 	return count
 
 
-func _click(place: Vector2, is_pressed: bool) -> void:
+func _click(point: Vector2, is_pressed: bool) -> void:
 	var event := InputEventMouseButton.new()
 	event.button_index = MOUSE_BUTTON_LEFT
 	event.pressed = is_pressed
-	event.position = place
-	event.global_position = place
+	event.position = point
+	event.global_position = point
 	event.button_mask = MOUSE_BUTTON_MASK_LEFT if is_pressed else 0
 	get_tree().root.push_input(event)
 
 
-func _move(place: Vector2, mask := 0) -> void:
+func _move(point: Vector2, mask := 0) -> void:
 	var event := InputEventMouseMotion.new()
-	event.position = place
-	event.global_position = place
+	event.position = point
+	event.global_position = point
 	event.button_mask = mask
 	get_tree().root.push_input(event)
 
@@ -128,12 +128,12 @@ func _click_box() -> void:
 	await _draw(4)
 	EditorInterface.get_inspector().ensure_control_visible(box)
 	await _draw(4)
-	var place := box.get_global_rect().get_center()
-	_move(place)
+	var point := box.get_global_rect().get_center()
+	_move(point)
 	await _draw(2)
-	_click(place, true)
+	_click(point, true)
 	await _draw(2)
-	_click(place, false)
+	_click(point, false)
 	await _draw(2)
 
 
@@ -141,7 +141,7 @@ func _drag_size() -> void:
 	var viewport := EditorInterface.get_editor_viewport_3d(0)
 	var camera := viewport.get_camera_3d()
 	var container: Control = viewport.get_parent()
-	var to_window := func(place: Vector3) -> Vector2: return container.get_global_rect().position + camera.unproject_position(place)
+	var to_window := func(point: Vector3) -> Vector2: return container.get_global_rect().position + camera.unproject_position(point)
 	var handle: Vector2 = to_window.call(_light.to_global(Vector3(1, -1, 0).normalized() * _light.light_size))
 	var target: Vector2 = to_window.call(_light.to_global(Vector3(1, -1, 0).normalized() * 0.5))
 	_move(handle)

@@ -78,11 +78,11 @@ func _get_handle_value(gizmo: EditorNode3DGizmo, _handle: int, _secondary: bool)
 ## The handle follows the mouse along its line.
 func _set_handle(gizmo: EditorNode3DGizmo, _handle: int, _secondary: bool, camera: Camera3D, mouse: Vector2) -> void:
 	var light: Light3D = gizmo.get_node_3d()
-	var place := light.global_transform.orthonormalized()
+	var pose := light.global_transform.orthonormalized()
 	var ray := [camera.project_ray_origin(mouse), camera.project_ray_normal(mouse)]
 	var is_sun := light is DirectionalLight3D
-	var start := place * Vector3(0, 0, CONE_LENGTH if is_sun else 0.0)
-	var points := Geometry3D.get_closest_points_between_segments(start, start + place.basis * HANDLE * 1000, ray[0], ray[0] + ray[1] * 10000)
+	var start := pose * Vector3(0, 0, CONE_LENGTH if is_sun else 0.0)
+	var points := Geometry3D.get_closest_points_between_segments(start, start + pose.basis * HANDLE * 1000, ray[0], ray[0] + ray[1] * 10000)
 	var radius := points[0].distance_to(start)
 	if is_sun:
 		light.light_angular_distance = snappedf(clampf(rad_to_deg(2 * atan(radius / CONE_LENGTH)), 0, 90), 0.01)

@@ -1,4 +1,4 @@
-#include "modules/scene/skin_places.h"
+#include "modules/scene/skin_transforms.h"
 
 #include "modules/scene/mesh_rig.h"
 
@@ -32,29 +32,29 @@ WorldTransforms compute_world_transforms(const Node3D &p_root) {
 	return transforms;
 }
 
-SkinPlaces place_skin(const Skin &p_skin, const WorldTransforms &p_world_from_nodes) {
-	SkinPlaces places;
+SkinTransforms compute_skin_transforms(const Skin &p_skin, const WorldTransforms &p_world_from_nodes) {
+	SkinTransforms transforms;
 	const auto frame = p_world_from_nodes.find(p_skin.frame);
 	if (frame != p_world_from_nodes.end() && has_inverse(frame->second)) {
-		places.world_from_mesh = frame->second;
+		transforms.world_from_mesh = frame->second;
 	}
-	const glm::dmat4 mesh_from_world = glm::inverse(places.world_from_mesh);
-	places.joints.reserve(p_skin.joints.size());
+	const glm::dmat4 mesh_from_world = glm::inverse(transforms.world_from_mesh);
+	transforms.joints.reserve(p_skin.joints.size());
 	for (size_t index = 0; index < p_skin.joints.size(); ++index) {
 		const auto joint = p_world_from_nodes.find(p_skin.joints[index]);
 		const glm::dmat4 mesh_from_joint = joint == p_world_from_nodes.end()
 				? glm::dmat4(1.0)
 				: mesh_from_world * joint->second;
-		places.joints.push_back(mesh_from_joint * p_skin.joint_from_mesh[index]);
+		transforms.joints.push_back(mesh_from_joint * p_skin.joint_from_mesh[index]);
 	}
-	return places;
+	return transforms;
 }
 
-SkinPlaces place_surface(const MeshInstance3D &p_node, const Mesh &p_mesh,
+SkinTransforms compute_surface_transforms(const MeshInstance3D &p_node, const Mesh &p_mesh,
 		const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes) {
 	const MeshRig *rig = p_mesh.attributes.rig.get();
-	return p_node.skin && rig && rig->joint_count > 0 ? place_skin(*p_node.skin, p_world_from_nodes)
-													  : SkinPlaces{ p_world_from_node, {} };
+	return p_node.skin && rig && rig->joint_count > 0 ? compute_skin_transforms(*p_node.skin, p_world_from_nodes)
+													  : SkinTransforms{ p_world_from_node, {} };
 }
 
 } // namespace gnomon
