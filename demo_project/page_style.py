@@ -1,4 +1,4 @@
-"""Style sheet and script of the demo page. Both stand alone: the page loads nothing from elsewhere."""
+"""Style sheet and script of the demo page. Both are self-contained: the page loads nothing from elsewhere."""
 
 STYLE = """
 :root { --paper: #f6f4ef; --card: #ffffff; --ink: #23201c; --soft: #6d665c; --line: #e2dcd0;

@@ -37,7 +37,7 @@ def run_gnomon(*arguments):
 
 
 def parse_common_properties(text):
-    """The properties that every light has; they stand in the text only, not in the JSON."""
+    """The properties that every light has; they are in the text only, not in the JSON."""
     lines = text.splitlines()
     if COMMON_HEADING not in lines:
         raise SystemExit('ERROR: `gnomon techniques` printed no section "%s".' % COMMON_HEADING)

@@ -189,7 +189,7 @@ def make_three_lights_scene():
 
 
 def make_wall():
-    """Upright, behind the things that stand before it."""
+    """Upright, behind the things in front of it."""
     return make_box((4.2, 2.4, 0.1))
 
 

@@ -26,7 +26,7 @@ public:
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
 	/// line.
 	static Project load(const std::filesystem::path &p_path);
-	/// The same for the text of a project.cfg that stands at p_path.
+	/// The same for the text of a project.cfg that is at p_path.
 	static Project parse(const std::string &p_text, const std::filesystem::path &p_path);
 	/// Writes disabled_modules into project.cfg and leaves all else in it as it is. Without a
 	/// project.cfg nothing is stored.

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// Where the panels stand: shares of the window, which the lines between them change.
+/// Where the panels are: shares of the window, which the lines between them change.
 struct EditorLayout {
 	static constexpr float LEAST_SHARE = 0.08f;
 	static constexpr float GREATEST_SHARE = 0.45f;

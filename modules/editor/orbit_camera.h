@@ -10,7 +10,7 @@ namespace gnomon {
 /// The viewport's camera: it turns about a point in front of it, and stays upright.
 class OrbitCamera {
 public:
-	/// Where a camera of the scene stands; it turns about a point that is so far away.
+	/// Where a camera of the scene is; it turns about a point that is so far away.
 	void look_as(const Camera3D &p_camera, double p_distance_m);
 	/// Radians.
 	void orbit(double p_yaw_rad, double p_pitch_rad);
@@ -18,7 +18,7 @@ public:
 	void pan(const glm::dvec2 &p_heights);
 	/// Nearer by factors below 1.
 	void zoom(double p_factor);
-	/// Turns where it stands.
+	/// Turns without moving.
 	void turn(double p_yaw_rad, double p_pitch_rad);
 	/// Flies: x right, y up, z back, in metres.
 	void move(const glm::dvec3 &p_way_m);

@@ -12,7 +12,7 @@ namespace gnomon {
 
 namespace {
 
-/// Of a light that was directional, in S: the study's lights stand about that far away.
+/// Of a light that was directional, in S: the study's lights are about that far away.
 const double DISTANCE_IN_SCENE_SIZES = 1.5;
 const double WIDEST_CONE_RAD = 1.4; // half; beyond, one perspective view has no resolution left
 const double CONE_MARGIN = 1.1;		// the cone's rim would else touch the casters' ball

@@ -17,7 +17,7 @@ struct LightVariant {
 };
 
 /// The scene with that one light changed. A light that changes its type stays where it is and looks
-/// at the middle of the casters; one that was directional stands 1.5 S away from it. p_properties
+/// at the middle of the casters; one that was directional is 1.5 S away from it. p_properties
 /// replace those of the light. The scene is as before when the function returns.
 std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,
 		Light3D &r_light, const LightVariant &p_variant, const PropertyValues &p_properties);

@@ -192,7 +192,7 @@ private:
 	void run_cell(size_t p_index) {
 		ReportCell &cell = report.cells[p_index];
 		const ReportConfiguration &configuration = report.configurations[cell.configuration_index];
-		// One question may stand on several curves; it is measured once.
+		// One question may be on several curves; it is measured once.
 		if (measured.count(cell.record) != 0) {
 			if (const std::optional<Json> content = store.load(cell.record)) {
 				read_cell_result(*content, report, cell);

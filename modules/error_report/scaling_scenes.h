@@ -36,7 +36,7 @@ struct ScalingScene {
 };
 
 /// The study's knot over its ground under its spot light, in as many triangles as requested;
-/// further lights of the same kind stand around on a circle, each aimed at the knot. Lights are
+/// further lights of the same kind are around it on a circle, each aimed at the knot. Lights are
 /// named "Light 1" and so on, the camera "Camera". S is 4 m.
 std::unique_ptr<Scene> make_scaling_scene(const ScalingScene &p_description);
 

@@ -37,7 +37,7 @@ private:
 	enum class Components { NUMBERS, INDICES }; // floats or small integers; unsigned integers
 	Layout read_layout(size_t p_index, int p_fewest, int p_most,
 			Components p_components = Components::NUMBERS);
-	/// Finds the elements in a view. p_path: where its index and the offset in it stand.
+	/// Finds the elements in a view. p_path: where its index and the offset in it are.
 	void find_bytes(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);
 	template <typename Convert>
 	void read_elements(size_t p_index, const Layout &p_layout, const Convert &p_convert);

@@ -13,7 +13,7 @@ namespace gnomon {
 struct GltfContainer {
 	Json json;
 	std::optional<std::vector<uint8_t>> bin_chunk; // binary form only
-	std::vector<uint8_t> other_chunks; // with their headers, as they stood behind the BIN chunk
+	std::vector<uint8_t> other_chunks; // with their headers, as they were behind the BIN chunk
 };
 
 /// Reads either form; the first bytes decide, not the name. Truncated, of another version or not

@@ -50,7 +50,7 @@ public:
 	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, LightSettings> lights;			   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
-	/// Where a light's properties stand in addition to its node: see find_blender_owner.
+	/// Where a light's properties are in addition to its node: see find_blender_owner.
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;
@@ -62,7 +62,7 @@ public:
 	std::map<const Mesh *, size_t> primitive_indices;
 	/// Whether nodes that the scene does not have may show the file's materials too.
 	bool shares_materials = false;
-	/// Keep the meshes alive whose pointers stand above.
+	/// Keep the meshes alive whose pointers are above.
 	std::vector<std::vector<MeshInstance3D::Surface>> retained_surfaces;
 
 	static SurfaceKey make_key(const std::vector<MeshInstance3D::Surface> &p_surfaces) {
@@ -80,7 +80,7 @@ tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages)
 
 /// The document that tinygltf writes of a changed model. p_read, p_before: the document as it was
 /// read, and tinygltf's model of it; all that the model does not hold, and all that did not change,
-/// stays in it as it stands, in its order. Both null for a new document.
+/// stays in it unchanged, in its order. Both null for a new document.
 Json write_gltf_model(
 		const tinygltf::Model &p_model, const Json *p_read, const tinygltf::Model *p_before);
 

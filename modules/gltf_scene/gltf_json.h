@@ -58,7 +58,7 @@ std::string describe_json(const Json &p_value);
 /// Parses a file's JSON. Text that is not JSON, or exceeds the limits above, is an Error.
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
-/// An object of a document and where it stands; every access is checked. "Fails" below: throws
+/// An object of a document and where it is; every access is checked. "Fails" below: throws
 /// Error with file, path, value and range.
 class GltfObject {
 public:

@@ -31,7 +31,7 @@ const PropertyAlias ALIASES[] = {
 /// What a node's extras hold for meshes, and a light does not take for a technique's property.
 const std::string_view NODE_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
 
-/// Bools, numbers and texts as they stand; other values are no properties.
+/// Bools, numbers and texts as they are; other values are no properties.
 std::optional<PropertyValue> to_property(const Json &p_value) {
 	if (p_value.is_boolean()) {
 		return p_value.get<bool>();

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// Where one light's values stand: the first object that has a value wins (doc/scene_files.md).
+/// Where one light's values are: the first object that has a value wins (doc/scene_files.md).
 struct GltfLightSources {
 	size_t light_index = 0;			// of KHR_lights_punctual's lights
 	std::optional<GltfObject> area; // an element of EXT_lights_area's lights

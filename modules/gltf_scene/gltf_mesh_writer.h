@@ -15,7 +15,7 @@ namespace gnomon {
 /// are collected for one buffer, which the caller stores.
 class GltfMeshWriter {
 public:
-	/// p_buffer_index, p_first_byte: where the bytes will stand. p_document may be null. p_used:
+	/// p_buffer_index, p_first_byte: where the bytes will be. p_document may be null. p_used:
 	/// the materials of the scene that is written. r_model and p_document must outlive it.
 	GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
 			const GltfDocument *p_document, std::set<const Material *> p_used);

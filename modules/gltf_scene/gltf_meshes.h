@@ -32,7 +32,7 @@ public:
 	}
 
 private:
-	/// p_path: where it stands.
+	/// p_path: where it is.
 	std::shared_ptr<const Mesh> load_primitive(const tinygltf::Primitive &p_primitive,
 			const std::string &p_path, const Material &p_material, std::string p_name,
 			bool p_has_skin);

@@ -27,7 +27,7 @@ public:
 	void write(const Scene &p_scene);
 
 private:
-	/// Where a node of the scene stands in the file.
+	/// Where a node of the scene is in the file.
 	struct Entry {
 		const Node3D *node = nullptr;
 		size_t index = 0;

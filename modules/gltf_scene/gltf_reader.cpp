@@ -132,7 +132,7 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 		if (p_tree.parents[index] != GltfTree::NONE || !seen.insert(index).second) {
 			messages.fail(text(path, ".nodes[", i, "]"),
 					text("is ", index,
-							", which stands elsewhere in the tree too. Export it again."));
+							", which is elsewhere in the tree too. Export it again."));
 		}
 		roots.push_back(index);
 	}
@@ -321,7 +321,7 @@ void GltfReader::remember(size_t p_index, const Node3D &p_node) {
 	}
 }
 
-/// Where the file stands, and what it may refer to.
+/// Where the file is, and what it may refer to.
 GltfLocation find_location(const std::filesystem::path &p_path, const GltfLoadOptions &p_options) {
 	GltfLocation location;
 	location.folder = std::filesystem::absolute(p_path).parent_path();

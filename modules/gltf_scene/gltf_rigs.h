@@ -11,7 +11,7 @@
 namespace gnomon {
 
 /// Joints and weights (JOINTS_0 and 1, where p_has_skin) and morph targets of a primitive, before
-/// make_mesh_rig; without both: a rig with neither. p_path: where the primitive stands.
+/// make_mesh_rig; without both: a rig with neither. p_path: where the primitive is.
 /// p_vertex_count: of its POSITION.
 MeshRig read_rig(const tinygltf::Primitive &p_primitive, const std::string &p_path, bool p_has_skin,
 		size_t p_vertex_count, GltfAccessors &p_accessors, GltfMessages &r_messages);

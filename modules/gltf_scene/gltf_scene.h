@@ -16,7 +16,7 @@ struct GltfLoadOptions {
 	/// Files outside of it are refused, whatever a URI or a link names. Empty = the scene's folder.
 	std::filesystem::path project_folder;
 	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
-	/// that are found are checked and converted; others are preserved as they stand. May be empty.
+	/// that are found are checked and converted; others are preserved as they are. May be empty.
 	std::function<const PropertyInfo *(std::string_view)> find_technique_property;
 };
 
@@ -27,7 +27,7 @@ struct GltfLoadOptions {
 /// read; one warning reports it.
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
-/// The same for the bytes of a file. p_path: where it stands, for messages and the files that it
+/// The same for the bytes of a file. p_path: where it is, for messages and the files that it
 /// refers to; it need not exist.
 std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// A camera that is flown: it starts where a node's camera stands, and stays upright.
+/// A camera that is flown: it starts where a node's camera is, and stays upright.
 class FlyCamera {
 public:
 	/// p_speed_m: metres a second at normal speed.

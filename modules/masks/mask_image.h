@@ -33,7 +33,7 @@ void save_mask_exr(const std::filesystem::path &p_path, const MaskImage &p_image
 /// here.
 MaskImage load_mask_exr(const std::filesystem::path &p_path);
 
-/// The same for bytes in memory; p_name stands for the file in messages.
+/// The same for bytes in memory; p_name is used for the file in messages.
 std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string &p_name);
 MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p_name);
 

@@ -46,7 +46,7 @@ double compute_percentile(std::vector<double> p_values, double p_share);
 /// Collects the passes of frame after frame.
 class TimingSamples {
 public:
-	/// Passes of one frame. The first frame that has a pass decides where it stands.
+	/// Passes of one frame. The first frame that has a pass decides its position.
 	void add_frame(const std::vector<PassCost> &p_passes);
 	uint32_t get_frame_count() const { return static_cast<uint32_t>(costs_ms.size()); }
 	/// Standard error of cost_ms as a share of it, from the spread of the frames: 1.2533 times that

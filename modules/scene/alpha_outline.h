@@ -20,7 +20,7 @@ struct AlphaOutline {
 			triangles;		 // three points each, all turned one way; none: nothing is there
 	bool is_whole = false;	 // all of the tile is there
 	uint32_t edge_count = 0; // of its border
-	/// 0: the contour itself. Else its squares stand for blocks of so many texels a side.
+	/// 0: the contour itself. Else its squares represent blocks of so many texels a side.
 	uint32_t block_size_px = 0;
 
 	bool is_empty() const { return triangles.empty(); }

@@ -28,7 +28,7 @@ uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);
 /// width and height. Beyond the image as its wrapping defines; 0 where a coordinate is not finite.
 float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv);
 
-/// The texel that stands for one beyond the image's edge; p_index: -1 .. p_count.
+/// The texel that replaces one beyond the image's edge; p_index: -1 .. p_count.
 uint32_t wrap_texel(int64_t p_index, uint32_t p_count, TextureWrap p_wrap);
 
 } // namespace gnomon

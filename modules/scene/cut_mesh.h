@@ -17,7 +17,7 @@ struct CutMesh {
 	/// triangle cut along the alpha's contour, so that all that reads triangles and edges sees the
 	/// holes. It has no coordinates and no colours.
 	std::shared_ptr<const Mesh> mesh;
-	/// Above 0: the mask has more edges than the budget, and squares stand for blocks of so many
+	/// Above 0: the mask has more edges than the budget, and squares represent blocks of so many
 	/// texels a side, see AlphaOutline.
 	uint32_t block_size_px = 0;
 	/// Of the alpha that cut it, which the mesh follows only as closely as its outline does; 0 of

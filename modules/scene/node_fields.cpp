@@ -48,7 +48,7 @@ struct TransformParts {
 		double x = 0;
 		double z = 0;
 		glm::extractEulerAngleYXZ(glm::dmat4(axes), y, x, z);
-		const double STEP_DEG = 1e-6; // files have floats, and 1.5e-8 stands for 0
+		const double STEP_DEG = 1e-6; // files have floats, and 1.5e-8 means 0
 		rotation_deg =
 				glm::round(DEGREES * glm::dvec3(x, y, z) / STEP_DEG) * STEP_DEG + 0.0; // no -0
 	}

@@ -70,7 +70,7 @@ public:
 	virtual void assign(const Node3D &p_other);
 	/// Takes the child and sets its parent. Returns it.
 	Node3D *add_child(std::unique_ptr<Node3D> p_child);
-	/// As add_child, before the child that stands at the index; at the end where there is none.
+	/// As add_child, before the child at the index; at the end where there is none.
 	Node3D *insert_child(std::unique_ptr<Node3D> p_child, size_t p_index);
 	/// Takes a child out of the tree.
 	std::unique_ptr<Node3D> remove_child(const Node3D &p_child);
@@ -143,7 +143,7 @@ struct LightSettings {
 /// A light of KHR_lights_punctual, which shines along -Z of its node, and its shadow.
 class Light3D : public Node3D, public LightSettings {
 public:
-	/// Where the properties stand in the file, for errors and for saving: "lights[0]". Empty =
+	/// Where the properties are in the file, for errors and for saving: "lights[0]". Empty =
 	/// none.
 	std::string file_path;
 

@@ -68,7 +68,7 @@ private:
 	AlphaTest test;
 	double tolerance_px;
 	uint32_t edge_budget;
-	double tile_size = 1; // in tiles, where one outline stands for many
+	double tile_size = 1; // in tiles, where one outline represents many
 	uint32_t block_size_px = 0;
 	std::map<std::pair<int, int>, Tile> tiles;
 };

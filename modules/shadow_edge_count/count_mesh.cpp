@@ -12,7 +12,7 @@ static_assert(NO_FACE == EDGE_COUNT_NO_FACE);
 
 namespace {
 
-/// Of 10 bits each becomes one number; the bits of one stand three apart.
+/// Of 10 bits each becomes one number; the bits of one are three apart.
 uint32_t spread_bits(uint32_t p_value) {
 	uint32_t value = (p_value | p_value << 16) & 0x030000ffu;
 	value = (value | value << 8) & 0x0300f00fu;

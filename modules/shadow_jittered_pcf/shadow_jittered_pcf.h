@@ -6,7 +6,7 @@ namespace gnomon {
 
 /// A shadow map filtered over a disc of one radius for all pixels, with taps that differ from pixel
 /// to pixel, so that banding becomes noise. The outermost ring of taps decides whether the rest is
-/// needed: where it is all lit or all hidden, its answer stands. Blind to the light's size.
+/// needed: where it is all lit or all hidden, its answer is final. Blind to the light's size.
 class ShadowJitteredPcf : public DepthMapTechnique {
 public:
 	ShadowJitteredPcf() :

@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// The light shrunk to one of p_count points that stand for its area; p_index below p_count.
+/// The light shrunk to one of p_count points that represent its area; p_index below p_count.
 ///
 /// Spot: a Vogel disc of radius R across the axis. Omni: points in a ball with density
 /// 1 / sqrt(R^2 - r^2), whose projection along any direction is the uniform disc of radius R that

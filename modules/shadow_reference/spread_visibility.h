@@ -23,7 +23,7 @@ struct SpreadMean {
 
 /// The exact mask of translucent receivers: the light's visibility, averaged over the points where
 /// light enters that leaves at the receiver. A point at a distance on the receiver's tangent plane
-/// stands for the nearest one of the same body along the receiver's normal, up or down by that
+/// represents the nearest one of the same body along the receiver's normal, up or down by that
 /// radius at most; a flat body is therefore exactly the semi-infinite slab that the dipole is made
 /// for. Points that the light cannot reach, or where there is no such surface, do not count.
 class SpreadVisibility {

@@ -16,7 +16,7 @@ void ShadowTemplate::get_light_properties(PropertyList &r_list) const {
 			"How dark a hidden point is: 0 = as if lit, 1 = no light.", "", "Template" });
 }
 
-// Which cameras stand at the light: the casters of each are culled to it.
+// Which cameras are at the light: the casters of each are culled to it.
 void ShadowTemplate::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const auto size_px =

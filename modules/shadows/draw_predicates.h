@@ -16,7 +16,7 @@ struct DrawPredicates {
 	/// The instances that have a word, ascending, in the words' order.
 	std::shared_ptr<const std::vector<uint32_t>> instances;
 
-	/// Where the instance's word stands.
+	/// Where the instance's word is.
 	std::optional<uint64_t> find_offset_bytes(uint32_t p_instance_index) const;
 	/// Declares the use of the words in a pass.
 	void add_to(PassBuilder &r_pass) const;

@@ -66,7 +66,7 @@ struct ShadowLimits {
 ///
 /// The shadow system owns one instance per shadow-casting light, and one more for each group of
 /// translucent casters (see sees_translucent_casters), and calls it on the render thread, each
-/// frame in the order in which the methods stand here. The engine knows the id, never the class.
+/// frame in the order in which the methods are declared here. The engine knows the id, never the class.
 class ShadowTechnique {
 public:
 	/// Valid from plan() to resolve() of one frame. All textures have the size `size_px`.

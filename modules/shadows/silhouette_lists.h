@@ -20,7 +20,7 @@ struct SilhouetteCaster {
 	const GpuTopology *gpu = nullptr;
 	glm::vec4 light_node = glm::vec4(0.0f); // as SilhouettePush::light_node
 	uint32_t vertices_per_edge = 0;			// what its draw needs for each listed edge
-	// Where its edges stand in the buffers that all casters share.
+	// Where its edges are in the buffers that all casters share.
 	uint32_t word_count = 0;
 	uint32_t first_word = 0;
 	uint32_t first_block = 0;

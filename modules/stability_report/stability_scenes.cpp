@@ -25,7 +25,7 @@ glm::dmat4 look_at(const glm::dvec3 &p_position, const glm::dvec3 &p_target) {
 	return glm::inverse(glm::lookAtRH(p_position, p_target, up));
 }
 
-/// A floating box, a globe and a box that stands: contact, gap, edges and curves.
+/// A floating box, a globe and a box on the ground: contact, gap, edges and curves.
 StabilityDraft make_start() {
 	StabilityDraft draft;
 	draft.add_box("ground", { 0, -0.2, 0 }, { 4.2f, 0.2f, 4.2f });

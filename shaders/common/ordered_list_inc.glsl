@@ -11,7 +11,7 @@ shared uint list_count_before;
 
 /// How many items are marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
 /// p_word - 1, those of the work group's own block. Called by a whole work group, of p_group_size
-/// invocations (gl_WorkGroupSize is 1 in what stands before the entry point's layout).
+/// invocations (gl_WorkGroupSize is 1 in what is before the entry point's layout).
 uint find_list_index(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,
 		uint p_word) {
 	if (gl_LocalInvocationID.x == 0u) {

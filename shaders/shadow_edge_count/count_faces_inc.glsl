@@ -5,7 +5,7 @@
 
 #include "shadow_edge_count/count_space_inc.glsl"
 
-/// Read where it stands: drivers copy all views of constants that are handed on.
+/// Read in place: drivers copy all views of constants that are handed on.
 CountViewConstants load_count_view(uint p_view);
 /// The first node of a texel's list, counted from 1; 0: the list is empty. Texels of all views one after
 /// the other, by view, row and column.

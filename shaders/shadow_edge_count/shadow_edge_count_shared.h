@@ -39,7 +39,7 @@ struct SHARED_ALIGN CountEdgeBundle {
 };
 SHARED_SIZE(CountEdgeBundle, 32);
 #define EDGE_COUNT_BUNDLE_SIZE 32
-// Behind the bundles of a light stand the bounds of so many bundles each.
+// Behind the bundles of a light are the bounds of so many bundles each.
 #define EDGE_COUNT_BUNDLES_PER_GROUP 32
 
 // Edges are found 32 to a word, 64 words to a block, so that the list has their own order.
@@ -101,7 +101,7 @@ SHARED_SIZE(CountCasterPush, 96);
 #define EDGE_COUNT_CONSTANT_GROUP_SIZE 0 // invocations of a subgroup
 #define EDGE_COUNT_CONSTANT_VIEW_COUNT 1 // so that one view needs no search
 #define EDGE_COUNT_CONSTANT_HAS_NO_LIST 2 // the blocks of the pass read all edges of the light
-// The list of a part of a block is a chain of chunks. Behind all chunks stands the next one of each.
+// The list of a part of a block is a chain of chunks. Behind all chunks is the next one of each.
 #define EDGE_COUNT_CHUNK_SIZE 64
 // Of each block and part: the first chunk, and how many edges are listed.
 #define EDGE_COUNT_CHAIN_FIRST 0

@@ -28,7 +28,7 @@ struct FinsResult {
 	uint case_number;
 };
 
-/// What stands in the 3 x 3 texels about an undecided pixel, whose class was interpolated.
+/// What is in the 3 x 3 texels about an undecided pixel, whose class was interpolated.
 struct Neighbourhood {
 	bool has_outer;
 	bool has_inner;

@@ -1,4 +1,4 @@
-// Where a texel of a view's level stands among the bounds.
+// Where a texel of a view's level is among the bounds.
 #ifndef BOUNDS_INC_GLSL
 #define BOUNDS_INC_GLSL
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
-// Welded positions of a deformed mesh, from one of the vertices that each stands for.
+// Welded positions of a deformed mesh, from one of the vertices that each represents.
 layout(local_size_x = DEFORM_GROUP_SIZE) in;
 layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
 	float positions[];

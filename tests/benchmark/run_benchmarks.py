@@ -177,7 +177,7 @@ def publish_tables(tables, measured, writes):
 
 
 def write_table(name, lines, page=PAGE):
-    """Replaces what stands between the page's two markers of that name."""
+    """Replaces what is between the page's two markers of that name."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name

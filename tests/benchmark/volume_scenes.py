@@ -24,7 +24,7 @@ def add_sun(document, from_direction):
 
 def make_yard(caster_count, has_walls, folder):
     """Balls of 80 triangles between rows of long walls that a low sun leaves in their shadow; some stick
-    out over them, some stand in the gaps. Returns the scene's path."""
+    out over them, some are in the gaps. Returns the scene's path."""
     document = Document(YARD_M)
     document.add_camera("Camera", (-6.0, 14.0, 26.0), (0.0, 0.0, 2.0), math.radians(60.0))
     add_sun(document, (30.0, 10.0, 3.0))

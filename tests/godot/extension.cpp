@@ -1,5 +1,5 @@
 // A library that Godot loads: runs the tests on a device of Godot's own, and ends Godot with their
-// exit code. Arguments of doctest stand in $GNOMON_TEST_ARGUMENTS, separated by lines.
+// exit code. Arguments of doctest are in $GNOMON_TEST_ARGUMENTS, separated by lines.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_godot/godot_interface.h"

@@ -247,7 +247,7 @@ def check_technique_names(tree):
             for number, line in enumerate(tree.get_text(path).splitlines(), 1):
                 code = line.split("//")[0] if path.endswith(CPP) else ""
                 for name in sorted(ids):
-                    # A plain word is a technique's id only when it stands alone in quotes; an id
+                    # A plain word is a technique's id only when it is alone in quotes; an id
                     # with an underscore also begins the names of its properties.
                     ending = r"(_\w+)?" if "_" in name else ""
                     if re.search(r"[\"']%s%s[\"']" % (name, ending), line):

@@ -14,7 +14,7 @@ SCENE = os.path.join(ROOT, "demo_project", "scenes", "sphere.gltf")
 QUICK_TECHNIQUES = ("shadow_map", "pcss", "outer_fins", "edge_count")
 # Nonsense by what the technique is, not by a light beyond its limits.
 BY_DESIGN = {
-    "planar": None,  # shadows on declared receivers alone, of what stands before their plane
+    "planar": None,  # shadows on declared receivers alone, of what is in front of their plane
     "edge_count": ("fin_width",),  # r and t are the size of its light: it draws the light that they imply
 }
 HELD_SWEEPS = {"light_size": 0.75, "scale": 1e3, "offset": 1e6}  # up to which values edge_count must hold

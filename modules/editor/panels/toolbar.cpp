@@ -36,7 +36,7 @@ void request_open(EditorContext &r_context, const std::filesystem::path &p_path)
 void draw_scenes(EditorContext &r_context, const char *p_heading,
 		const std::vector<std::filesystem::path> &p_scenes) {
 	ImGui::TextDisabled("%s", p_heading);
-	ImGui::PushID(p_heading); // the same scene may stand in both lists
+	ImGui::PushID(p_heading); // the same scene may be in both lists
 	for (const std::filesystem::path &scene : p_scenes) {
 		if (ImGui::Selectable(scene.string().c_str(), scene == r_context.document.get_path())) {
 			request_open(r_context, scene);

@@ -6,7 +6,7 @@
 	const make = report.make;
 	const PLOT_HEIGHT_PX = 300;
 
-	/* p_key: which number of a point. Times stand side by side: x is 2 to the power of the index, on a logarithmic axis. */
+	/* p_key: which number of a point. Times are side by side: x is 2 to the power of the index, on a logarithmic axis. */
 	function drawCurves(host, plot, key, y_label) {
 		const times = [...new Set(plot.series.flatMap((series) => series.points.map((point) => point.time_s)))].sort((a, b) => a - b);
 		const all = plot.series.flatMap((series) => series.points.map((point) => ({ ...point, technique: series.technique })));

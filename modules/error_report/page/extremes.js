@@ -33,7 +33,7 @@
 		return [...lines, ...[stability.refusal, cell.message].filter((text) => text)];
 	}
 
-	/* Values stand side by side, whatever lies between them: x is 2 to the power of the index, on a logarithmic axis. */
+	/* Values are side by side, whatever is between them: x is 2 to the power of the index, on a logarithmic axis. */
 	function drawSweep(host, plot, onPick) {
 		const labels = [...new Set(plot.series.flatMap((series) => series.points.map((point) => point.label)))];
 		const drawn = getPoints(plot).filter((point) => report.isNumber(point.mae));

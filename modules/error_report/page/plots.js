@@ -24,7 +24,7 @@
 		return positive.length < errors.length ? Math.max(LEAST_ERROR_FLOOR, Number((least / 2).toPrecision(2))) : least;
 	};
 
-	/* p_has_front: with room for its name, which stands below everything. */
+	/* p_has_front: with room for its name, which is below everything. */
 	report.getDomain = function (values, hasFront) {
 		const low = Math.log(d3.min(values));
 		const high = Math.log(d3.max(values));

@@ -120,7 +120,7 @@ TEST_CASE("[ErrorReport] an omni light made a spot light has all casters in its 
 	CHECK(small.build(LightType::SPOT, 0.4).outer_cone_rad == doctest::Approx(1.4));
 }
 
-TEST_CASE("[ErrorReport] a light that was directional stands 1.5 S from the casters' middle") {
+TEST_CASE("[ErrorReport] a light that was directional is 1.5 S from the casters' middle") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene small;
 		small.light->type = LightType::DIRECTIONAL;
@@ -192,7 +192,7 @@ TEST_CASE("[ErrorReport] a disc is seen whole until its rim touches the surface'
 	CHECK_FALSE(sees(0, { 0, 0, 0 })); // exactly at the point: there is no direction to it
 }
 
-TEST_CASE("[ErrorReport] a directional disc is seen whole wherever it stands above the horizon") {
+TEST_CASE("[ErrorReport] a directional disc is seen whole wherever it is above the horizon") {
 	LightSnapshot light; // shines along -Z
 	light.type = LightType::DIRECTIONAL;
 	light.light_angular_distance_deg = 60;

@@ -1,5 +1,5 @@
 // A scene as Blender 3.4's exporter wrote it (binary form, "Custom Properties", "Punctual Lights"
-// and "Cameras" ticked): Suzanne and a torus over a plane, one light of each type. The sizes stand
+// and "Cameras" ticked): Suzanne and a torus over a plane, one light of each type. The sizes are
 // on the light data of Key and Sun and on the object of Fill.
 
 #include "modules/core/files.h"

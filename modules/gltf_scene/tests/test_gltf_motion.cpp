@@ -102,7 +102,7 @@ TEST_CASE("gltf motion: a skin, a morph target and an animation are read") {
 	pose_scene(*scene, scene->animations[0].get(), 0.5);
 	snapshot = build_snapshot(*scene, camera);
 	mesh = snapshot->instances[0].get_posed_mesh();
-	// The knee stands at x = 1, as at rest; the weight is 0 until 1 s.
+	// The knee is at x = 1, as at rest; the weight is 0 until 1 s.
 	CHECK(mesh->positions_node[1] == glm::vec3(1, 0, 0));
 	pose_scene(*scene, scene->animations[0].get(), 3);
 	snapshot = build_snapshot(*scene, camera);

@@ -55,7 +55,7 @@ TEST_CASE("[ErrorReport] without frames there are no passes and no cost") {
 	CHECK(timing.cost_ms == 0);
 }
 
-TEST_CASE("[ErrorReport] passes stand as in the first frame that has them") {
+TEST_CASE("[ErrorReport] passes are ordered as in the first frame that has them") {
 	TimingSamples samples;
 	samples.add_frame({ { "view 1", 1, 1 }, { "fins", 1, 1 } });
 	samples.add_frame({ { "fins", 1, 1 }, { "view 1", 1, 1 }, { "a late pass", 1, 1 } });

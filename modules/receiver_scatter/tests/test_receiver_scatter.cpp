@@ -197,7 +197,7 @@ TEST_CASE("[GPU][ReceiverScatter] every opaque pixel next to a translucent body 
 	size_t count = 0;
 	for (size_t index = 0; index < before.visibility.size(); ++index) {
 		const SurfacePoint &surface = empty.surfaces[index];
-		// On the ground where the box does not stand before it.
+		// On the ground where the box is not in front of it.
 		const bool is_ground = surface.is_there && before.receiver[index] > 0 &&
 				before.visibility[index] > 0 && before.visibility[index] < 1;
 		count += is_ground;

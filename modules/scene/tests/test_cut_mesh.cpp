@@ -205,7 +205,7 @@ TEST_CASE("[CutMesh] a mesh without coordinates shows one texel, and odd ones en
 		}
 	}
 	material.base_color_texture.wrap_v = TextureWrap::REPEAT;
-	// More tiles than the mesh may have edges: squares stand for many of them.
+	// More tiles than the mesh may have edges: squares represent many of them.
 	const OutlineBudget small = { 1 << 10, 1 << 14 };
 	const CutMesh many = cut_mesh(make_grid(1, 400), material, small);
 	REQUIRE(many.mesh);
@@ -340,7 +340,7 @@ TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
 		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
 		const double share =
 				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
-		// A line stands for a hyperbola: of masks that change from texel to texel that shows.
+		// A line approximates a hyperbola: of masks that change from texel to texel that shows.
 		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;
 		CHECK(std::abs(share - sample_share(material, repeats, offset)) < tolerance);
 	}

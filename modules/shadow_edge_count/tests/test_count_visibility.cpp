@@ -127,7 +127,7 @@ TEST_CASE("[EdgeCount] shadows of solids behind one another overlap as they do f
 	}
 }
 
-TEST_CASE("[EdgeCount] a solid that stands in the ground leaks no light") {
+TEST_CASE("[EdgeCount] a solid that is sunk into the ground leaks no light") {
 	CountScene scene;
 	scene.radius = 0.4;
 	add_ground(scene);

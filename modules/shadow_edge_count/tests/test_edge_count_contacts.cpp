@@ -39,7 +39,7 @@ MaskDifference check_mask(MaskFixture &r_fixture, SmallScene &r_scene, double p_
 
 } // namespace
 
-TEST_CASE("[GPU][EdgeCount] solids that stand in the ground leak no light") {
+TEST_CASE("[GPU][EdgeCount] solids that are sunk into the ground leak no light") {
 	MaskFixture fixture;
 	for (const LightType type : ALL_TYPES) {
 		for (const int64_t map_size_px : { 64, 256 }) {

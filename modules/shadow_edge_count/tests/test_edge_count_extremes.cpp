@@ -37,7 +37,7 @@ std::shared_ptr<const Mesh> make_double_box(bool p_is_turned) {
 	return make_mesh("double box", box->positions_node, {}, indices);
 }
 
-/// A box on whose top stand triangles of no area, and slivers.
+/// A box on whose top are triangles of no area, and slivers.
 std::shared_ptr<const Mesh> make_box_with_slivers() {
 	const auto box = make_box_mesh("box", { 0.5f, 0.3f, 0.4f });
 	std::vector<glm::vec3> positions = box->positions_node;

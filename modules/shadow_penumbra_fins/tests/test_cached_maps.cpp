@@ -121,7 +121,7 @@ TEST_CASE("[GPU][PenumbraFins] a frame that is refused half-way leaves nothing t
 }
 
 TEST_CASE("[GPU][PenumbraFins] fins of a caster outside an omni light's view reach into it") {
-	// The box stands outside the view downwards; its outer fins reach into it and darken the
+	// The box is outside the view downwards; its outer fins reach into it and darken the
 	// ground.
 	MaskFixture fixture;
 	SmallScene scene(LightType::OMNI);

@@ -33,7 +33,7 @@ glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_nod
 
 } // namespace
 
-TEST_CASE("[GPU][PenumbraFins] corners of fins stand where the paper puts them, under any "
+TEST_CASE("[GPU][PenumbraFins] corners of fins are where the paper puts them, under any "
 		  "transform") {
 	KernelFixture fixture;
 	TestRandom random;

@@ -33,7 +33,7 @@ MaskResult render_culled(MaskFixture &r_fixture, SmallScene &r_scene, const char
 			{ { "culling", std::string(p_wish) }, { "extrusion", std::string(p_extrusion) } });
 }
 
-/// A wall upright between the light and rows of small boxes on the ground. One row more stands on
+/// A wall upright between the light and rows of small boxes on the ground. One row more is on
 /// the wall's lit side.
 struct WallScene : SmallScene {
 	MeshInstance3D *wall = nullptr;
