@@ -134,7 +134,7 @@ def find_rail(x, side):
 
 
 def make_hull(strake_count=6, station_count=24):
-    """Strakes that lie side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
+    """Strakes that are side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
 

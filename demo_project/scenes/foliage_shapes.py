@@ -21,7 +21,7 @@ def make_card(half_x, half_y, repeats=(1.0, 1.0)):
 
 
 def get_leaf_depth(shape, x, y):
-    """How deep a point lies in a leaf, in widths of the image: below 0 outside. x, y: -0.5 .. 0.5."""
+    """How deep a point is in a leaf, in widths of the image: below 0 outside. x, y: -0.5 .. 0.5."""
     if shape == "oval":  # a lens: where two discs meet
         radius, offset = 0.52, 0.28
         return radius - max(math.hypot(x - offset, y), math.hypot(x + offset, y))
@@ -30,7 +30,7 @@ def get_leaf_depth(shape, x, y):
 
 
 def get_chain_depth(u, v):
-    """How deep a point lies in a wire of chain link, in tiles; both wires of a tile go from corner to corner."""
+    """How deep a point is in a wire of chain link, in tiles; both wires of a tile go from corner to corner."""
     distance = min(abs((along + 0.5) % 1.0 - 0.5) for along in (u + v, u - v)) / math.sqrt(2.0)
     return CHAIN_WIRE - distance
 

@@ -53,7 +53,7 @@ def find_cell_point(samples, planes, cell):
 
 
 def find_surface(field, planes):
-    """(points, quads) of a field that is negative inside; its surface must lie inside the outermost planes."""
+    """(points, quads) of a field that is negative inside; its surface must be inside the outermost planes."""
     counts = [len(plane) for plane in planes]
     samples = {}
     for i, x in enumerate(planes[0]):

@@ -26,7 +26,7 @@ std::string load_text_file(
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
-/// How the files end that save_file_atomically has not renamed yet. They lie next to the target, and
+/// How the files end that save_file_atomically has not renamed yet. They are next to the target, and
 /// are locked as long as their writer lives: what a killed process left is removed by the next one
 /// that saves into the folder.
 inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";
@@ -38,7 +38,7 @@ void remove_left_over_files(const std::filesystem::path &p_folder);
 /// empty function ends that. Returns the hook before.
 std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 
-/// True when the path, with `..` and links resolved, lies in the folder or below it.
+/// True when the path, with `..` and links resolved, is in the folder or below it.
 bool is_inside_folder(const std::filesystem::path &p_path, const std::filesystem::path &p_folder);
 
 /// Where data that can be made again is cached: $GNOMON_CACHE_DIR, else $XDG_CACHE_HOME/gnomon,

@@ -11,7 +11,7 @@ namespace gnomon {
 /// list ["a", "b"], a number, true or false. Lines that begin with ; or # are comments.
 class Project {
 public:
-	std::filesystem::path folder; // everything a project uses lies below it
+	std::filesystem::path folder; // everything a project uses is below it
 	std::string name;
 	std::filesystem::path start_scene;		   // absolute; empty = none named
 	std::vector<std::filesystem::path> scenes; // absolute; those that exist
@@ -45,7 +45,7 @@ private:
 
 /// What a path on the command line names.
 struct ProjectScene {
-	/// The project that the path is, or that the scene lies in. Without a project.cfg it has a
+	/// The project that the path is, or that the scene is in. Without a project.cfg it has a
 	/// folder alone: the scene's.
 	Project project;
 	std::filesystem::path scene_path; // of the .gltf or .glb file

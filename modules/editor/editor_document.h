@@ -120,7 +120,7 @@ private:
 	Timeline timeline;
 	Node3D *selected = nullptr;
 	bool is_recovered = false;
-	bool owns_recovery = false; // what lies aside is this document's, not an earlier one's
+	bool owns_recovery = false; // what was put aside is this document's, not an earlier one's
 	FileTimes file_times;
 	std::chrono::seconds autosave_interval = AUTOSAVE_INTERVAL;
 	uint64_t autosaved_serial = 0;

@@ -12,7 +12,7 @@ namespace {
 // Shares of a ray's length, so that what it starts or ends at does not count as met.
 const double AT_EDGE = 1e-3;
 const double AT_RECEIVER = 5e-3;
-/// A line that is longer than this many times its edge's own image lies on two receivers.
+/// A line that is longer than this many times its edge's own image is on two receivers.
 const double LONGEST_LINE = 3.0;
 
 /// A silhouette edge in the world.

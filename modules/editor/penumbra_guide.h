@@ -14,7 +14,7 @@ struct PenumbraLine {
 	bool is_outer = false; // towards the light, by r; else towards the umbra, by t
 };
 
-/// Where the penumbra of a light whose rim lies r (outer) and t (inner) from its centre ends: rays
+/// Where the penumbra of a light whose rim is r (outer) and t (inner) from its centre ends: rays
 /// from the rim through the silhouette edges that the light's centre sees, to the receiver that
 /// they meet. With r = t = R that is where the exact penumbra ends, edge by edge. Only what the
 /// camera sees; of a scene with more silhouette edges than p_edge_count, an even choice of them.

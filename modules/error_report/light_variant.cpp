@@ -119,7 +119,7 @@ bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_posi
 	if (!(distance > 0.0f)) {
 		return false;
 	}
-	// The disc is perpendicular to the way to its centre; its lowest point lies R sin below that.
+	// The disc is perpendicular to the way to its centre; its lowest point is R sin below that.
 	const float cosine = glm::dot(to_light, p_normal) / distance;
 	const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
 	return cosine * distance >= p_light.get_disc_radius() * sine;

@@ -25,7 +25,7 @@ std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const C
 /// The light of that name in a snapshot, which must be there.
 const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &p_name);
 
-/// True when no part of the light's disc lies below the surface's own horizon: the population of
+/// True when no part of the light's disc is below the surface's own horizon: the population of
 /// the study (doc/benchmarks.md, the study's scenes). Positions in one space; p_normal is unit.
 bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_position,
 		const glm::vec3 &p_position, const glm::vec3 &p_normal);

@@ -29,7 +29,7 @@ Key make_key(const Report &p_report, const ReportCell &p_cell) {
 	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
 }
 
-/// How far the 90th percentile of what most of the cost is lies above the median, as a share.
+/// How far the 90th percentile of what most of the cost is exceeds the median, as a share.
 double compute_spread(const ReportCell &p_cell) {
 	const FrameCost &total = p_cell.time.total;
 	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;

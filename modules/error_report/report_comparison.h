@@ -41,7 +41,7 @@ struct ReportComparison {
 ///
 /// An error differs when it does so by more than 0.0005 + 1 %, and, where the references have different
 /// numbers of samples, by more than both standard errors too. Compared are penumbra pixels, and all
-/// receivers, where a leak shows that lies in the lit. A time is compared as ratio to the baseline
+/// receivers, where a leak shows that is in the lit. A time is compared as ratio to the baseline
 /// of its own report, so that a slower machine alone is no difference, and differs by more than
 /// 15 % and by more than the distances from median to 90th percentile of all that it was made of.
 /// The baseline, and cells without one, are compared in milliseconds, on the same machine only and

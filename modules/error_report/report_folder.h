@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-// Where in a report's folder its plan and its records lie.
+// Where in a report's folder its plan and its records are.
 std::filesystem::path get_plan_path(const std::filesystem::path &p_folder);
 std::filesystem::path get_record_folder(const std::filesystem::path &p_folder);
 /// Names of all records that the plan needs.

@@ -132,7 +132,7 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	replace_marker("{{LIBRARIES}}", join_files("third_party", ".js"), page);
 	replace_marker("{{SCRIPT}}", join_files("", ".js"), page);
 	const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-	replace_marker("{{DATA}}", replace_all(json, "<", "\\u003c"), page); // it lies in a script
+	replace_marker("{{DATA}}", replace_all(json, "<", "\\u003c"), page); // it is in a script
 	return page;
 }
 

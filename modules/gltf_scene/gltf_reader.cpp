@@ -328,7 +328,7 @@ GltfLocation find_location(const std::filesystem::path &p_path, const GltfLoadOp
 	location.project_folder =
 			p_options.project_folder.empty() ? location.folder : p_options.project_folder;
 	if (!is_inside_folder(p_path, location.project_folder)) {
-		fail("\"", p_path.string(), "\" lies outside of the project folder ", location.project_folder,
+		fail("\"", p_path.string(), "\" is outside of the project folder ", location.project_folder,
 				". Move it into the project.");
 	}
 	return location;

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// Where Godot's base materials with alpha scissor, hash or depth prepass are there: their albedo's
-/// alpha, texture, threshold, and how the texture lies on the mesh. Hash and depth prepass, which
+/// alpha, texture, threshold, and how the texture is mapped to the mesh. Hash and depth prepass, which
 /// have no threshold, count as one of a half. Main thread only.
 class CutOutMaterials {
 public:

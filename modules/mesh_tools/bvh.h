@@ -25,7 +25,7 @@ public:
 	/// Item i is box i. Empty boxes and boxes with NaN are never found; infinite ones are allowed.
 	explicit Bvh(std::span<const Bounds> p_boxes);
 
-	/// The root is node 0; empty when there is no box. At most 64 levels lie below it.
+	/// The root is node 0; empty when there is no box. At most 64 levels are below it.
 	const std::vector<Node> &get_nodes() const { return nodes; }
 	const std::vector<uint32_t> &get_items() const { return items; }
 

@@ -44,8 +44,8 @@ std::vector<FacePair> pair_faces_at_edge(
 		return p_left < p_right;
 	});
 
-	// A face that runs along the edge looks toward growing angles, so the inside lies below its
-	// angle; for the others it lies above. Hence an opening and a closing bracket, on a circle:
+	// A face that runs along the edge looks toward growing angles, so the inside is below its
+	// angle; for the others it is above. Hence an opening and a closing bracket, on a circle:
 	// the second round closes the wedges that contain the angle of +-pi.
 	std::vector<FacePair> pairs;
 	std::vector<bool> is_paired(p_faces.size(), false);

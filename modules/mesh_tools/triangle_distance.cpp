@@ -44,7 +44,7 @@ bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node
 				glm::dvec4(glm::dvec3(p_mesh.positions_node[p_mesh.indices[p_index]]), 1.0));
 	};
 	// The box about the ball, in the mesh's own space, where most triangles are ruled out as they
-	// lie there. A flattened mesh has no such space.
+	// are there. A flattened mesh has no such space.
 	Bounds near_node;
 	near_node.add(p_point_world - p_distance);
 	near_node.add(p_point_world + p_distance);

@@ -14,7 +14,7 @@ public:
 	virtual ~CommandList() = default;
 
 	/// A named span with timestamps around it; also the breadcrumb that a lost device reports.
-	/// Spans do not nest and lie outside begin_rendering .. end_rendering.
+	/// Spans do not nest and are outside begin_rendering .. end_rendering.
 	virtual void begin_span(const std::string &p_name) = 0;
 	virtual void end_span() = 0;
 

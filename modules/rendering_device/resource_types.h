@@ -233,7 +233,7 @@ struct RasterPipelineDesc {
 	bool writes_depth = true;
 	CompareOp depth_compare = CompareOp::LESS;
 	bool clamps_depth = false; // depth clamp instead of near and far clipping
-	/// Only where the depth that is there lies in CommandList::set_depth_bounds.
+	/// Only where the depth in the attachment is in CommandList::set_depth_bounds.
 	bool has_depth_bounds = false;
 	float depth_bias_constant = 0.0f;
 	float depth_bias_slope = 0.0f;

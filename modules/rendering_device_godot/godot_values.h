@@ -180,7 +180,7 @@ public:
 	void is_built_in() const {}
 };
 
-// Of the packed array of a type that lies at r_array or p_array.
+// Of the packed array of a type that is at r_array or p_array.
 void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size); // its first element
 const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size);
 void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value);

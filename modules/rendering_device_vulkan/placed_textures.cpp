@@ -69,7 +69,7 @@ TextureRID VulkanDevice::create_placed_texture(
 			", does not fit into memory '", memory.desc.name, "' of ", memory.desc.size_bytes,
 			" bytes at ", p_offset_bytes);
 	GNOMON_ASSERT((needs.memoryTypeBits & (1u << block.memory_type)) != 0, "texture '", p_desc.name,
-			"' cannot lie in memory type ", block.memory_type);
+			"' cannot be in memory type ", block.memory_type);
 	texture.placed_in = p_memory;
 	try {
 		check(vkBindImageMemory(device, texture.image, block.memory, offset), "vkBindImageMemory");

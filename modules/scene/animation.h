@@ -18,7 +18,7 @@ enum class Interpolation { STEP, LINEAR, CUBIC_SPLINE };
 /// What an animation moves of a node.
 enum class AnimatedPath { TRANSLATION, ROTATION, SCALE, WEIGHTS };
 
-/// Values at times, and what lies between them (glTF 2.0, 3.11 and appendix C).
+/// Values at times, and what is between them (glTF 2.0, 3.11 and appendix C).
 struct AnimationSampler {
 	Interpolation interpolation = Interpolation::LINEAR;
 	std::vector<float> times_s; // growing; at least one

@@ -291,7 +291,7 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 			MeshSource{ p_mesh, std::move(sources), std::move(points) });
 }
 
-/// Where each point lies in one of the triangles that have it: those at a side have the same position
+/// Where each point is in one of the triangles that have it: those at a side have the same position
 /// in both, up to rounding, and are one point.
 std::vector<TrianglePoint> MeshCutter::find_points() const {
 	std::vector<TrianglePoint> points(positions.size());

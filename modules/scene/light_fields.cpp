@@ -39,7 +39,7 @@ bool has_position(const Node3D &p_node) {
 	return to<Light3D>(p_node).type != LightType::DIRECTIONAL;
 }
 
-/// The inner cone lies within the outer one.
+/// The inner cone is within the outer one.
 void write_inner_cone(Node3D &r_node, const PropertyValue &p_value) {
 	write_degrees<Light3D, &Light3D::inner_cone_rad>(r_node, p_value);
 	Light3D &light = to<Light3D>(r_node);

@@ -61,7 +61,7 @@ struct TrianglePoint {
 	glm::vec3 shares = glm::vec3(1, 0, 0); // barycentric, sum 1
 };
 
-/// Of a mesh that was cut out of another: in which of its triangles each one lies. Their planes are
+/// Of a mesh that was cut out of another: in which of its triangles each one is. Their planes are
 /// the source's, as rounding bends those of small triangles.
 struct MeshSource {
 	std::weak_ptr<const Mesh> mesh; // null: the mesh is its own

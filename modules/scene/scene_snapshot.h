@@ -18,7 +18,7 @@ struct CameraSnapshot {
 	glm::dmat3 world_from_camera = glm::dmat3(1.0); // rotation only; looks along -Z
 	float vertical_fov_rad = 0.785398163f;
 	float near_m = 0.05f;
-	/// Where the image's middle lies off the axis, right and up, in halves of its width and height:
+	/// Where the image's middle is off the axis, right and up, in halves of its width and height:
 	/// antialiasing over time moves it by parts of a pixel.
 	glm::vec2 shift = glm::vec2(0.0f);
 

@@ -29,7 +29,7 @@ struct Image {
 std::shared_ptr<const Image> make_image(
 		std::string p_name, glm::uvec2 p_size_px, std::vector<uint8_t> p_texels);
 
-/// What lies beyond an image's edge: its edge, or the image again, as it is or mirrored.
+/// What is beyond an image's edge: its edge, or the image again, as it is or mirrored.
 enum class TextureWrap { CLAMP, REPEAT, MIRROR };
 /// How levels of detail are used: the first alone, the nearest, or two of them blended.
 enum class MipFilter { NONE, NEAREST, LINEAR };

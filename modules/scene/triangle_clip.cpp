@@ -120,7 +120,7 @@ ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) con
 	const glm::dvec2 along = side.uv[1] - side.uv[0];
 	const glm::dvec2 across = p_line.b - p_line.a;
 	point.side = p_side;
-	// Of the whole line: other sides may cut off what lies beyond this one's ends.
+	// Of the whole line: other sides may cut off what is beyond this one's ends.
 	point.share = cross(p_line.a - side.uv[0], across) / cross(along, across);
 	point.uv = side.uv[0] + along * point.share;
 	return point;

@@ -160,7 +160,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 					: 0;
 		}
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
-		// All casters: also those known to lie outside the view.
+		// All casters: also those known to be outside the view.
 		for (const uint32_t index : with_faces) {
 			if (is_bounded) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];

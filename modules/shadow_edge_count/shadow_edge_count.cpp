@@ -44,7 +44,7 @@ void ShadowEdgeCount::get_quality_settings(
 void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const CountSettings view_settings = read_count_settings(p_light, p_scene.scene, p_properties);
-	// A directional light's view holds all casters, and what lies outside it has none before it.
+	// A directional light's view holds all casters, and what is outside it has none before it.
 	const float margin_m = p_light.type == LightType::DIRECTIONAL
 			? 0.0f
 			: static_cast<float>(view_settings.disc_radius);

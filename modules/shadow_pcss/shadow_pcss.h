@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Percentage-closer soft shadows (Fernando 2005), as games use them: the mean depth of what lies
+/// Percentage-closer soft shadows (Fernando 2005), as games use them: the mean depth of what is
 /// between receiver and light, from N taps of a depth map, gives the penumbra's width, and N more
 /// taps over that width the visibility. One depth map, so that what one caster hides from the light
 /// is unknown; noise where N is small for the width.

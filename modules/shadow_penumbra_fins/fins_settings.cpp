@@ -41,12 +41,12 @@ void add_fins_properties(const std::string &p_id, bool p_has_inner_half, Propert
 			"px", group });
 	if (p_has_inner_half) {
 		r_list.add({ p_id + "_beta", PropertyType::FLOAT, -1.0, "0,10000,0.01",
-				"How far behind the surface nearest to the light an inner fin may lie; what is "
+				"How far behind the surface nearest to the light an inner fin may be; what is "
 				"farther belongs to an edge that the light does not see. -1 means a quarter of the "
 				"scene's size.",
 				"m", group, "-1" });
 		r_list.add({ p_id + "_layers", PropertyType::INT, int64_t(3), "1,3,1",
-				"Depth layers peeled from the light. 2 skips the test of what lies behind the "
+				"Depth layers peeled from the light. 2 skips the test of what is behind the "
 				"inner penumbra, 1 also that of hidden inner fins.",
 				"", group });
 	}

@@ -51,7 +51,7 @@ void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const Lig
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =
 			read_fins_view_settings(id, has_inner_half, p_light, p_properties);
-	// Inner fins lie behind their own casters, so that only the outer ones reach farther.
+	// Inner fins are behind their own casters, so that only the outer ones reach farther.
 	r_views = build_light_views(
 			p_light, p_scene, view_settings.map_size_px, BORDER_PX, view_settings.outer_width_m);
 }

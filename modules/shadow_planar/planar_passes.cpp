@@ -13,7 +13,7 @@ namespace {
 
 const uint32_t ON_PLANE = 1; // in the stencil: of the plane, and not dark yet
 
-const float SAME_PLANE = 1e-5f; // of S: a pixel so near to the plane lies in it
+const float SAME_PLANE = 1e-5f; // of S: a pixel so near to the plane is in it
 const float SAME_PLANE_PER_DISTANCE = 2e-6f;
 
 /// What the shaders read of the host's surfaces.

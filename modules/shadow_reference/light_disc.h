@@ -10,7 +10,7 @@ struct AreaLight {
 	glm::vec3 position = glm::vec3(0.0f);	   // L, the disc's centre; spot and omni
 	glm::vec3 direction = glm::vec3(0, -1, 0); // towards which it shines; any length above 0
 	/// 0..1e18. Spot and omni: R; the disc at L is perpendicular to L - P. Directional: the tangent
-	/// of half the apparent diameter; the disc lies at unit distance. 0: a hard shadow, one ray.
+	/// of half the apparent diameter; the disc is at unit distance. 0: a hard shadow, one ray.
 	float disc_radius = 0.0f;
 	float range_m = 0.0f;	 // 0 = unlimited
 	float cos_outer = -1.0f; // of the spot's outer half angle; -1: it shines all round

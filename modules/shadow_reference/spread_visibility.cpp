@@ -45,7 +45,7 @@ SpreadVisibility::SpreadVisibility(
 	}
 }
 
-/// The body on which the receiver lies; null: none is as near.
+/// The body on which the receiver is; null: none is as near.
 const EmbreeScene *SpreadVisibility::find_body(
 		const ReceiverPoint &p_receiver, float p_reach_m) const {
 	const EmbreeScene *nearest = nullptr;

@@ -39,7 +39,7 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 
 /// Vertices far from the node's origin lose their low bits. Boxes are made in double: what float32
 /// may move an occluder by must be small compared with the gap that cull.comp leaves to it, or it could
-/// come to lie before a caster that is behind it.
+/// come before a caster that is behind it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
 	const Bounds &box = p_instance.caster_bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));

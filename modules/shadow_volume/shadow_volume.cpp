@@ -47,7 +47,7 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	}
 	if (casters.unseen_count > 0) {
 		r_plan.skip(text("volumes of ", casters.unseen_count, " casters"),
-				"their shadows lie outside the image");
+				"their shadows are outside the image");
 	}
 	if (casters.flat_count > 0) {
 		r_plan.skip(

@@ -164,7 +164,7 @@ bool may_shade_near_plane(
 		glm::dvec3 normal = glm::cross(along, glm::dvec3(light) - corner * light.w);
 		const double inside = glm::dot(normal, centre - corner);
 		if (std::abs(inside) <= 1e-9 * glm::length(normal) * near_m) {
-			continue; // the light lies in the near plane: no inside
+			continue; // the light is in the near plane: no inside
 		}
 		normal *= inside > 0 ? 1.0 : -1.0;
 		if (are_all_behind(corners, normal, -glm::dot(normal, corner))) {

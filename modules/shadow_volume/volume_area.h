@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-// Where a caster's shadow volume lies in the image. Camera view space, metres, double precision:
+// Where a caster's shadow volume is in the image. Camera view space, metres, double precision:
 // x right, y down, z along the view.
 
 namespace gnomon {
@@ -25,7 +25,7 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 		const LightView &p_camera, glm::uvec2 p_size_px);
 
 /// False when the box is certainly outside the space between the light and the camera's near
-/// rectangle: then the rectangle lies outside the box's shadow volume and z-pass is safe.
+/// rectangle: then the rectangle is outside the box's shadow volume and z-pass is safe.
 bool may_shade_near_plane(
 		const Bounds &p_box_world, const LightSnapshot &p_light, const LightView &p_camera);
 

@@ -49,7 +49,7 @@ bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_
 			glm::all(glm::lessThanEqual(light, p_instance.bounds_world.maximum + margin_m));
 }
 
-/// Counts how many layers may lie over each part of the image, and begins a group when a stencil
+/// Counts how many layers may cover each part of the image, and begins a group when a stencil
 /// could no longer hold them.
 class GroupSplitter {
 public:

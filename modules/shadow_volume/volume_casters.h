@@ -31,7 +31,7 @@ struct VolumeCasters {
 	uint32_t geometry_shader_count = 0;
 	uint32_t flat_count = 0;		// with a singular transform: they have no inside
 	uint32_t spared_caps_count = 0; // counted by z-pass, as it is safe
-	uint32_t unseen_count = 0;		// whose shadow lies outside the image
+	uint32_t unseen_count = 0;		// whose shadow is outside the image
 };
 
 /// The camera that volumes are drawn for: moved by the receivers' offset, see VOLUMES_MOVED_AXIS.
@@ -39,11 +39,11 @@ LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs);
 
 /// Decides for every caster of p_instances (ascending) how it is drawn. Robust are the faces of
 /// parts that are not solid, and all when the light is within the caster's box. A stencil counts to
-/// 255: where more volumes may lie over one another, the casters are split into groups.
+/// 255: where more volumes may overlap one another, the casters are split into groups.
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
 
-/// At most so many solids of the mesh are taken to lie over one another: of convex ones as many as
+/// At most so many solids of the mesh are taken to overlap one another: of convex ones as many as
 /// there are, of others one for every 8 triangles, up to 32.
 uint32_t estimate_layers(const MeshTopology &p_topology);
 

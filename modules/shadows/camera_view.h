@@ -6,7 +6,7 @@
 
 namespace gnomon {
 
-/// The camera as a view, for culling: its sides and what lies behind it. Its shift moves nothing.
+/// The camera as a view, for culling: its sides and what is behind it. Its shift moves nothing.
 LightView make_camera_view(const CameraSnapshot &p_camera, glm::uvec2 p_size_px);
 
 /// What the camera's shift does in clip space, where w is the distance.

@@ -17,7 +17,7 @@ const double MOST_CASTERS_PER_SIZE = 5e3;
 
 const char *const WHERE_TO_READ = "; doc/stability.md lists the limits of each technique.";
 
-/// True when all of the box lies behind the light by more than its radius: what a spot does not
+/// True when all of the box is behind the light by more than its radius: what a spot does not
 /// shine at.
 bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 	const glm::dvec3 direction = p_light.get_direction_world();
@@ -123,7 +123,7 @@ std::string describe_unfit_size(const SceneSnapshot &p_scene) {
 	const double rest_m = rest.get_diagonal();
 	if (rest_m > 0 && size_m > MOST_SIZE_PER_CASTERS * rest_m) {
 		return text("The scene's size is ", format_number(size_m), " m, and all casters but \"",
-				largest->node_name, "\" lie within ", format_number(rest_m),
+				largest->node_name, "\" are within ", format_number(rest_m),
 				" m: their shadows begin ", format_number(double(RECEIVER_OFFSET) * size_m),
 				" m away from them. Set scene_size, in the scene's extras, to about ",
 				format_number(rest_m), ".");

@@ -36,7 +36,7 @@ struct LightView {
 	/// As above, also of the instance's own box, which fits closer where it is turned.
 	bool may_see(const InstanceSnapshot &p_instance) const;
 	/// Least and greatest distance of the box along the view, metres; negative behind the view. Of
-	/// the whole box, wherever it lies.
+	/// the whole box, wherever it is.
 	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
 	glm::dvec2 compute_distance_range_m(const InstanceSnapshot &p_instance) const;
 	bool operator==(const LightView &) const = default;

@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-/// Distance along the view before which none of the box lies, as far as the view sees it.
+/// Distance along the view before which none of the box is, as far as the view sees it.
 double compute_nearest_distance_m(
 		const LightView &p_view, const LightSnapshot &p_light, const InstanceSnapshot &p_instance) {
 	const double along_m = p_view.compute_distance_range_m(p_instance).x;

@@ -23,7 +23,7 @@ struct CasterList {
 	std::vector<uint32_t> instances; // indices into SceneSnapshot::instances
 	/// Changes when the view, a caster or a caster's transform changes: equal hashes, equal map.
 	uint64_t content_hash = 0;
-	/// False: no receiver that the camera sees lies in the view, so that only filters that look
+	/// False: no receiver that the camera sees is in the view, so that only filters that look
 	/// across into other views can read its map.
 	bool has_receivers = true;
 };
@@ -133,7 +133,7 @@ public:
 	/// from the light.
 	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
 			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
-	/// True: directional views may be narrowed to what the camera sees and what lies a penumbra
+	/// True: directional views may be narrowed to what the camera sees and what is a penumbra
 	/// from it, since the technique queries its maps for receivers only.
 	virtual bool queries_receivers_only() const { return false; }
 	/// Called once a frame before any pass: what will run, what is skipped and why.

@@ -9,7 +9,7 @@ namespace gnomon {
 double compute_fit_reach_m(
 		const LightView &p_view, const LightSnapshot &p_light, const SceneSnapshot &p_scene);
 
-/// Narrows a directional view, which holds all casters, to the receivers and what lies within the
+/// Narrows a directional view, which holds all casters, to the receivers and what is within the
 /// reach of them, so that a large ground does not take the texels of what the camera sees. Its size
 /// is halved until it would be too small, and it moves in steps, so that it stays the same while
 /// the camera moves a little. Other views, and those of which most is seen, stay as they are.

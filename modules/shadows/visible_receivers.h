@@ -6,10 +6,10 @@
 
 namespace gnomon {
 
-/// Where the camera may see an instance: all of its pixels' receivers lie in these bounds.
+/// Where the camera may see an instance: all of its pixels' receivers are in these bounds.
 struct VisibleReceiver {
 	uint32_t instance_index = 0;
-	/// Of the part of the instance's box that lies in the camera's view, grown by what rounding on
+	/// Of the part of the instance's box that is in the camera's view, grown by what rounding on
 	/// the GPU and the receiver's offset from its surface may add.
 	Bounds bounds_world;
 };
@@ -36,7 +36,7 @@ bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world)
 VisibleReceivers find_lit_receivers(
 		const LightSnapshot &p_light, const VisibleReceivers &p_receivers);
 
-/// False only when no receiver lies in the light view.
+/// False only when no receiver is in the light view.
 bool may_view_hold_any(const LightView &p_view, const VisibleReceivers &p_receivers);
 
 } // namespace gnomon

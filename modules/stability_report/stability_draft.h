@@ -66,7 +66,7 @@ std::shared_ptr<const Mesh> make_cut_box(double p_half_size_m, double p_aspect_r
 std::shared_ptr<const Mesh> make_turned_box(double p_half_size_m);
 /// One leaning triangle without thickness.
 std::shared_ptr<const Mesh> make_open_mesh();
-/// Triangles of no area, slivers, faces that lie on each other, and normals of length 0.
+/// Triangles of no area, slivers, faces that coincide, and normals of length 0.
 std::shared_ptr<const Mesh> make_odd_mesh();
 
 /// Makes the draft the hostile scene of that index, see list_guard_names().

@@ -10,7 +10,7 @@ vec3 vector_to_light(LightConstants p_light, vec3 p_position) {
 												  : p_light.position_radius.xyz - p_position;
 }
 
-/// A receiver faces the light and lies inside its cone and range (doc/glossary.md).
+/// A receiver faces the light and is inside its cone and range (doc/glossary.md).
 bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 	const vec3 to_light = vector_to_light(p_light, p_position);
 	const float distance_m = length(to_light);

@@ -49,7 +49,7 @@ MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_norma
 	return point;
 }
 
-/// Map coordinates to texels: texel centres lie at whole numbers plus a half.
+/// Map coordinates to texels: texel centres are at whole numbers plus a half.
 vec2 texels_from_map(LightViewConstants p_view, vec2 p_xy) {
 	return (p_xy / p_view.half_extent * 0.5 + 0.5) * vec2(p_view.size_px);
 }

@@ -26,7 +26,7 @@ MapPoint load_map_point(ivec2 p_pixel, out uint r_view) {
 	return project_to_map(light_views.views[r_view], receiver.position, receiver.normal);
 }
 
-/// True when nothing can hide the receiver: it lies behind its view, or the view has no casters.
+/// True when nothing can hide the receiver: it is behind its view, or the view has no casters.
 /// p_empty_views: bit i for a view i without casters.
 bool is_surely_lit(MapPoint p_point, uint p_view, uint p_empty_views) {
 	return (p_empty_views & (1u << p_view)) != 0u || p_point.w <= 0.0;

@@ -43,7 +43,7 @@ float lookup_w(
 	return w;
 }
 
-/// Does what lies at a tap hide the receiver? r_w: of what lies there.
+/// Does what is at a tap hide the receiver? r_w: of what is there.
 bool is_hidden_at(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view,
 		MapPoint p_point, float p_margin, vec2 p_xy, out float r_w) {
 	// The receiver's own plane at the texel's centre, not at the tap: no depth bias to tune.

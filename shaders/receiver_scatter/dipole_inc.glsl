@@ -15,7 +15,7 @@ vec3 project(vec4 p_position) {
 	return (frame.clip_from_camera_relative * p_position).xyw;
 }
 
-/// The pixel that shows a point; outside the image where it lies behind the camera.
+/// The pixel that shows a point; outside the image where it is behind the camera.
 ivec2 find_pixel_of(vec3 p_projected) {
 	if (!(p_projected.z > frame.near_m)) {
 		return ivec2(-1);

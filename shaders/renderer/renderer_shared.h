@@ -43,7 +43,7 @@ struct SHARED_ALIGN InstancePush {
 };
 SHARED_SIZE(InstancePush, 112);
 
-/// Where a texture lies on the surface. Of coordinates (x, y, 1) each row makes one of the image's.
+/// How a texture is mapped to the surface. Of coordinates (x, y, 1) each row makes one of the image's.
 struct SHARED_ALIGN TextureTransform {
 	vec4 row_u; // a: 1: of the second coordinates
 	vec4 row_v; // a: 1: there is a texture

@@ -1,9 +1,9 @@
 // Which edges may matter to any receiver of a box: one test for blocks' lists and for groups of a resolve.
 // It never rejects an edge that adds something.
 //
-// A point q of an edge that hides X from a receiver P lies at q = (1 - s) P + s X, |X| <= R. Where the
-// receivers lie on one side of a plane, q's height above it bounds s: a linear function of q, above 0 where q
-// may matter (`above`). And where they lie on one side of a plane through the light's centre, q lies at most
+// A point q of an edge that hides X from a receiver P is at q = (1 - s) P + s X, |X| <= R. Where the
+// receivers are on one side of a plane, q's height above it bounds s: a linear function of q, above 0 where q
+// may matter (`above`). And where they are on one side of a plane through the light's centre, q is at most
 // s R beyond it: again linear, above 0 where q cannot matter (`outside`). Four such planes bound the box's
 // rectangle; the fifth is the plane through the light's centre and the edge itself. So an edge is rejected
 // when one of these functions rejects both its ends: separating axes for the rectangle and the widening fin.
@@ -205,9 +205,9 @@ bool may_use_bundle(CountBox p_box, CountEdgeBundle p_bundle) {
 }
 
 /// Least distance of the box's receivers from the plane through the light's centre and an edge, as a part of
-/// their distance along the view (directional: metres); 0 where they lie on both sides.
+/// their distance along the view (directional: metres); 0 where they are on both sides.
 float find_least_aside(CountBox p_box, vec3 p_a, vec3 p_b) {
-	const float LEAST_SINE = 1e-4; // below, rounding decides where the plane lies
+	const float LEAST_SINE = 1e-4; // below, rounding decides where the plane is
 	vec2 across;
 	float middle;
 	if (p_box.is_directional) {
@@ -280,7 +280,7 @@ int find_count_side(CountBox p_box, vec4 p_plane) {
 	return side > reach ? 1 : (side < -reach ? -1 : 0);
 }
 
-/// Where a point lies for the light's discs that face the receivers of the box: +1 before all, -1 behind all of
+/// Where a point is for the light's discs that face the receivers of the box: +1 before all, -1 behind all of
 /// them, 0 for some before. A directional light has all before it.
 int find_light_side(CountBox p_box, vec3 p_point) {
 	const vec2 across = vec2(dot(p_box.view.axis_x.xyz, p_point), dot(p_box.view.axis_y.xyz, p_point));

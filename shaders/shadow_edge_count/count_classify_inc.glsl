@@ -30,7 +30,7 @@ vec4 make_count_plane(vec3 p_a, vec3 p_b, vec3 p_c) {
 	return vec4(unit, -dot(unit, p_a));
 }
 
-/// +1 when the whole light lies in front of the face, -1 when behind it, 0 when it is divided.
+/// +1 when the whole light is in front of the face, -1 when behind it, 0 when it is divided.
 /// p_tolerance: what rounding may move the face's plane; metres, directional: a cosine.
 int count_find_light_side(bool p_is_directional, float p_radius, float p_tolerance, vec4 p_plane) {
 	const float reach = p_radius * (p_is_directional ? length(p_plane.xy) : 1.0) + p_tolerance;
@@ -50,7 +50,7 @@ CountEdgeKind make_count_kind(uint p_face0, uint p_face1) {
 			(p_face0 & EDGE_COUNT_INCONSISTENT) != 0u, p_face1 != EDGE_COUNT_NO_FACE);
 }
 
-/// Signed weight: how the number of solids changes across the edge, for a viewpoint that lies in front of the
+/// Signed weight: how the number of solids changes across the edge, for a viewpoint that is in front of the
 /// first face or not, and of the second (of an inconsistent one: of its negated plane).
 int count_sum_weights(bool p_is_before0, bool p_is_before1, CountEdgeKind p_kind) {
 	const int first = p_is_before0 ? 1 : -1;

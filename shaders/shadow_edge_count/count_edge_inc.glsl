@@ -116,7 +116,7 @@ void count_sectors(CountSector p_first, CountSector p_second, inout CountState r
 #endif
 }
 
-/// Moves one end of a segment of offsets along it until d lies in a range, which has some of the segment's.
+/// Moves one end of a segment of offsets along it until d is in a range, which has some of the segment's.
 vec3 cut_count_offset(vec3 p_end, vec3 p_other, float p_least, float p_most) {
 	const float d = clamp(p_end.z, p_least, p_most);
 	const float share = (d - p_end.z) / (p_other.z - p_end.z);
@@ -143,7 +143,7 @@ CountSector find_edge_sector(CountReceiver p_receiver, vec3 p_a, vec3 p_b, int p
 }
 
 /// Adds the line along which a face passes through the disc's plane: there ends what hides the light, as at an edge.
-/// Of closed parts only the faces before the receiver, or those behind which it lies, end what is counted.
+/// Of closed parts only the faces before the receiver, or those behind which it is, end what is counted.
 void count_add_cut(CountReceiver p_receiver, CountFaceRecord p_face, vec4 p_plane, bool p_has_before,
 		inout CountState r_state) {
 	const vec3 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz));

@@ -24,7 +24,7 @@ struct CountCrossings {
 	int both;	// faces of other parts
 };
 
-/// Adds a face where it lies between the receiver and the light's centre. p_is_before: the receiver lies in
+/// Adds a face where it is between the receiver and the light's centre. p_is_before: the receiver is in
 /// front of it, and the light's centre does not, or the other way round.
 void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_before, inout CountCrossings r_found) {
 	const vec2 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz)).xy;
@@ -38,7 +38,7 @@ void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_befo
 	r_found.toward += is_crossed && !is_open && !p_is_before ? 1 : 0;
 }
 
-/// Solids between a receiver and the light's centre. Where the receiver lies inside closed parts, more faces
+/// Solids between a receiver and the light's centre. Where the receiver is inside closed parts, more faces
 /// are light-facing, where the light does, more are back-facing: the larger number is that of
 /// the parts that hide it.
 int sum_crossings(CountCrossings p_found) {

@@ -16,7 +16,7 @@ void load_count_constants() {
 	light_from_camera = light_views.views[0].view_from_camera_relative;
 }
 
-/// A block's pixels so that those that follow one another lie close together: the position of each in the block.
+/// A block's pixels so that those that follow one another are close together: the position of each in the block.
 uvec2 find_pixel_in_block(uint p_index) {
 	const uint x = (p_index & 1u) | ((p_index >> 1) & 2u) | ((p_index >> 2) & 4u);
 	const uint y = ((p_index >> 1) & 1u) | ((p_index >> 2) & 2u) | ((p_index >> 3) & 4u);
@@ -51,7 +51,7 @@ CountPoint load_count_point(ivec2 p_pixel) {
 	return point;
 }
 
-/// False where no caster of the view can hide the receiver: it lies behind the view, or the view has no
+/// False where no caster of the view can hide the receiver: it is behind the view, or the view has no
 /// casters.
 bool may_count_at(CountPoint p_point) {
 	const bool is_before = light.is_directional != 0u || p_point.warped.z > 0.0;

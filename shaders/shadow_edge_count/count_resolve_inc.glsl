@@ -126,7 +126,7 @@ CountChoice choose_from_bundles(uint p_first, uint p_end, CountBox p_box) {
 	return choice;
 }
 
-/// False: the part of the edge that lies between a receiver and its disc hides nothing of it. Wider than
+/// False: the part of the edge that is between a receiver and its disc hides nothing of it. Wider than
 /// what find_edge_sector does by more than rounding.
 bool may_hide(vec3 p_receiver, vec3 p_to_light, vec3 p_a, vec3 p_b) {
 	const float ROUNDING = 4e-6;
@@ -388,7 +388,7 @@ CountPixel count_pixel_of_block(uint p_block, uint p_parts, uvec2 p_pixel, uint 
 	const uint own_part = is_sorted ? p_sorted_part : point.view;
 	bool waits = is_counted;
 	do {
-		// Those of one part: what lies between parts would make them read edges that none of them needs.
+		// Those of one part: what is between parts would make them read edges that none of them needs.
 		const uvec4 waiting = subgroup_ballot(waits);
 		const bool is_any = subgroupBallotBitCount(waiting) > 0u;
 		const uint leader = is_any ? subgroupBallotFindLSB(waiting) : 0u;

@@ -79,13 +79,13 @@ bool is_count_left(vec2 p_a, vec2 p_b) {
 			(side == 0.0 && (p_b.y > p_a.y || (p_b.y == p_a.y && p_b.x < p_a.x)));
 }
 
-/// True where a point lies in front of the face n.r + d = 0. A face without area, all 0, has none before it.
+/// True where a point is in front of the face n.r + d = 0. A face without area, all 0, has none before it.
 bool is_count_before(vec4 p_plane, vec3 p_point) {
 	precise const float side = p_plane.x * p_point.x + p_plane.y * p_point.y + p_plane.z * p_point.z + p_plane.w;
 	return side > 0.0;
 }
 
-/// True where the light's centre lies in front of the face.
+/// True where the light's centre is in front of the face.
 bool is_count_light_before(bool p_is_directional, vec4 p_plane) {
 	return (p_is_directional ? -p_plane.z : p_plane.w) > 0.0;
 }

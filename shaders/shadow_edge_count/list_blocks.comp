@@ -112,7 +112,7 @@ vec2 find_w_range_of_tile(uvec2 p_tile, uint p_parts) {
 	return vec2(subgroup_min(w.x), subgroup_max(w.y));
 }
 
-/// The bounds of those boxes of parts whose middle w lies in a range, about the plane of the first; each
+/// The bounds of those boxes of parts whose middle w is in a range, about the plane of the first; each
 /// invocation has some of the boxes.
 CountBounds find_bounds(uvec2 p_tile, uint p_parts, float p_least_w, float p_greatest_w) {
 	CountBounds bounds = make_count_bounds();
@@ -371,7 +371,7 @@ void list_bundles(BoxPair p_pair, uvec2 p_tile, uint p_view, uint p_parts, uint 
 const uint MOST_STEPS = 2048u;
 uint step_count = 0u;
 
-/// True where the face lies wholly before the receivers of the box, or wholly behind them.
+/// True where the face is wholly before the receivers of the box, or wholly behind them.
 bool is_face_off(CountBox p_box, uint p_face) {
 	const CountFaceRecord face = load_count_face(p_face);
 	const vec3 a = uintBitsToFloat(face.a_kind.xyz);

@@ -26,7 +26,7 @@ int find_side(uint p_face) {
 			push.side_tolerance, planes[push.first_face + (p_face & EDGE_COUNT_FACE_MASK)]);
 }
 
-/// False where the whole light lies on one side of both faces: no point of it sees a silhouette. A boundary
+/// False where the whole light is on one side of both faces: no point of it sees a silhouette. A boundary
 /// edge always is one.
 bool may_be_silhouette(CountMeshEdge p_edge) {
 	const CountEdgeKind kind = make_count_kind(p_edge.face0, p_edge.face1);

@@ -43,7 +43,7 @@ CountPoint load_point(uint p_index, inout bool r_is_lit) {
 	return point;
 }
 
-/// How far a receiver lies from the camera in metres.
+/// How far a receiver is from the camera in metres.
 float find_depth(CountPoint p_point) {
 	return distance(p_point.position, light_from_camera[3].xyz);
 }

@@ -147,13 +147,13 @@ SHARED_SIZE(CountLightConstants, 464);
 SHARED_OFFSET(CountLightConstants, disc_radius, 384);
 SHARED_OFFSET(CountLightConstants, block_count, 400);
 
-// The receivers of a block are divided into parts, each with a box of its own. Where all are in one view and lie at
+// The receivers of a block are divided into parts, each with a box of its own. Where all are in one view and are at
 // very different distances from the camera, as at an object's outline, they are sorted by that, and each quarter of its
-// range is a part: a block is a thin cone of camera rays, so that receivers at like distances lie close together in any
+// range is a part: a block is a thin cone of camera rays, so that receivers at like distances are close together in any
 // light's view. Else those in view i are part i.
 #define EDGE_COUNT_SORTED_PARTS 4
 #define EDGE_COUNT_PARTS(view_count) ((view_count) == 1u ? EDGE_COUNT_SORTED_PARTS : EDGE_COUNT_MAX_VIEWS)
-/// Receivers of one part: (x', y') lies in a rectangle, and w in a range about a plane.
+/// Receivers of one part: (x', y') is in a rectangle, and w in a range about a plane.
 struct SHARED_ALIGN CountBlockBox {
 	vec4 least_greatest; // x' and y'
 	vec4 slope_range;	 // w per x' and y' of the plane; least and greatest of w - slope.(x', y')

@@ -50,7 +50,7 @@ struct SHARED_ALIGN FinsViewConstants {
 	float beta_m;		 // inner fins farther than this behind the first layer are invisible
 	float nearest_m;	 // fins nearer to the light are taken to be here; above 0
 	float farthest_m;	 // no fin is farther
-	float inner_divisor; // K: inner depths divided by it lie below every outer one
+	float inner_divisor; // K: inner depths divided by it are below every outer one
 };
 SHARED_SIZE(FinsViewConstants, 48);
 

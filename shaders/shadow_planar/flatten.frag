@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_planar/shadow_planar_shared.h"
 
-// What lies behind the plane hides nothing of it, nor what is higher than the light.
+// What is behind the plane hides nothing of it, nor what is higher than the light.
 layout(location = 0) in float in_height_m;
 layout(location = 0) out float out_visibility;
 layout(push_constant) uniform Push {

@@ -21,7 +21,7 @@ layout(std430, set = 0, binding = CULLING_BINDING_WORDS) writeonly buffer Words 
 // Boxes are grown by this part of their distance, for the rounding of float32.
 const float GROWTH = 1e-5;
 const float GROWTH_PX = 0.01;
-// A box must lie behind the bound by this part of its distance; orthographic: of the view's depth.
+// A box must be behind the bound by this part of its distance; orthographic: of the view's depth.
 const float LEAST_GAP = 1e-3;
 const int MOST_TEXELS = 6; // of a level along a box
 
@@ -53,7 +53,7 @@ bool is_behind(uint p_view, vec2 p_least_ndc, vec2 p_greatest_ndc, float p_depth
 	return true;
 }
 
-/// What the view knows about the part of the box that lies in it. Depths that are compared are greater
+/// What the view knows about the part of the box that is in it. Depths that are compared are greater
 /// than the box's by the gap.
 uint look_at(uint p_view, CullingBox p_box) {
 	const CullingView view = constants.views[p_view];
@@ -100,7 +100,7 @@ uint look_at(uint p_view, CullingBox p_box) {
 	}
 	const bool is_within = all(greaterThanEqual(least, vec2(-1.0))) && all(lessThanEqual(greatest, vec2(1.0)));
 	if (constants.view_count == 1u && !is_within) {
-		return SEEN; // what lies outside the view nothing is known of
+		return SEEN; // what is outside the view nothing is known of
 	}
 	return is_behind(p_view, least, greatest, depth) ? HIDDEN : SEEN;
 }

@@ -51,7 +51,7 @@ float compute_change(vec4 p_a, vec4 p_b, vec4 p_c) {
 	return length(slope.xy) * 2.0 / float(CULLING_MAP_SIZE_PX) * REACH_PX;
 }
 
-/// Reversed; what lies before the near plane is at 1.
+/// Reversed; what is before the near plane is at 1.
 float get_depth(vec4 p_clip) {
 	return p_clip.z >= p_clip.w ? 1.0 : max(p_clip.z / p_clip.w, 0.0);
 }

@@ -1,4 +1,4 @@
-// Where the corners of a shadow volume lie, the same for every way to make one, so that sides and
+// Where the corners of a shadow volume are, the same for every way to make one, so that sides and
 // caps meet without a crack.
 #ifndef VOLUME_INC_GLSL
 #define VOLUME_INC_GLSL

@@ -5,9 +5,9 @@
 #include "common/normal_inc.glsl"
 #include "shadows/shadows_shared.h"
 
-// Geometric normals for a host that draws none: on each axis from the neighbours that lie on the same
+// Geometric normals for a host that draws none: on each axis from the neighbours that are on the same
 // surface. Stored depth, near / z, is linear in pixels on a plane: of the three pixels ahead, around and
-// behind, those are taken whose depths lie closest to a line; where none do, the side with the smaller step.
+// behind, those are taken whose depths are closest to a line; where none are, the side with the smaller step.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;

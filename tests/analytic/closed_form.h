@@ -18,7 +18,7 @@ inline double compute_half_plane_visibility(double p_distance) {
 	return 1 - hidden / M_PI;
 }
 
-/// Share of a unit disc that stays when a disc of radius p_radius, its centre p_distance away, lies
+/// Share of a unit disc that stays when a disc of radius p_radius, its centre p_distance away, is
 /// before it. Both in radii of the light. (Area of the lens.)
 inline double compute_disc_visibility(double p_radius, double p_distance) {
 	if (p_distance >= 1 + p_radius) {
@@ -40,7 +40,7 @@ inline double compute_disc_visibility(double p_radius, double p_distance) {
 }
 
 /// Visibility of a disc of radius p_radius at p_light, perpendicular to p_light - p_point, behind a
-/// half-plane with the edge p_edge_point + s p_edge_direction. Whatever lies on the side of
+/// half-plane with the edge p_edge_point + s p_edge_direction. Whatever is on the side of
 /// p_open_side stays visible. Exact for any position: a plane through the point cuts the disc in a
 /// straight line. A directional light: p_light one unit from the point against its direction.
 inline double compute_edge_visibility(const glm::dvec3 &p_point, const glm::dvec3 &p_light,

@@ -37,7 +37,7 @@ def drop_times(value):
 
 class ReportCase(CommandLineTest):
     def report(self, name, *arguments, project=PROJECT, **environment):
-        """The finished process; its report, where there is one, lies in the folder of that name."""
+        """The finished process; its report, where there is one, is in the folder of that name."""
         return run("report", project, "--out", self.path(name), *QUICK, *arguments, **environment)
 
     def report_techniques(self):

@@ -104,7 +104,7 @@ class DownloadedModels(CommandLineTest):
         self.check_sides(mask)
 
     def check_sides(self, mask):
-        """The shadow lies within the image: it does not reach the lower half of a side."""
+        """The shadow is within the image: it does not reach the lower half of a side."""
         for column in (0, mask.width - 1):
             for row in range(mask.height // 2, mask.height):
                 pixel = row * mask.width + column

@@ -11,7 +11,7 @@ Target = namedtuple("Target", "name corpus dictionary")
 
 
 def find_targets():
-    """All targets of the tree, whether built or not; the corpus lies next to the source."""
+    """All targets of the tree, whether built or not; the corpus is next to the source."""
     found = []
     for pattern in ("tests/fuzz/*", "modules/*/tests/*"):
         for path in sorted(glob.glob(os.path.join(ROOT, pattern + ENDING))):

@@ -15,7 +15,7 @@ using namespace gnomon;
 
 namespace {
 
-/// Vertices at a pose lie within its bounds, up to rounding.
+/// Vertices at a pose are within its bounds, up to rounding.
 void check_poses(const SceneSnapshot &p_snapshot) {
 	for (const InstanceSnapshot &instance : p_snapshot.instances) {
 		if (!instance.pose) {

@@ -195,7 +195,7 @@ def check_backends(tree):
 
 
 def check_test_headers(tree):
-    """What lies in a folder of tests is included by tests: such as what they may do to a device."""
+    """What is in a folder of tests is included by tests: such as what they may do to a device."""
     for path in tree.find_sources(CPP):
         if path.startswith("tests/") or "/tests/" in path:
             continue

@@ -92,7 +92,7 @@ TEST_CASE("[GPU][Brdf] what is reflected does not change when light and viewer s
 	}
 }
 
-TEST_CASE("[GPU][Brdf] Phong's highlight lies where a mirror would send the light") {
+TEST_CASE("[GPU][Brdf] Phong's highlight is where a mirror would send the light") {
 	KernelFixture fixture;
 	const std::vector<double> values = reflect(fixture, { 0.0f, -1.3f },
 			{ { 0.5, 0.5, PI }, { 0.5, 0.45, PI }, { 0.5, 0.55, PI }, { 0.5, 0.5, 0.0 } });

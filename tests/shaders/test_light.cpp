@@ -68,7 +68,7 @@ double compute_illuminance(
 
 } // namespace
 
-TEST_CASE("[GPU][Shaders] a receiver faces the light and lies in its cone and range") {
+TEST_CASE("[GPU][Shaders] a receiver faces the light and is in its cone and range") {
 	KernelFixture fixture;
 	const glm::vec3 up(0, 1, 0);
 	const glm::vec3 below(1, 1, 2); // 4 m under the light

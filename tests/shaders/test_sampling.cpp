@@ -4,7 +4,7 @@
 
 using namespace gnomon;
 
-TEST_CASE("[GPU][Sampling] the points of a disc lie in it, evenly, and turn with the angle") {
+TEST_CASE("[GPU][Sampling] the points of a disc are in it, evenly, and turn with the angle") {
 	KernelFixture fixture;
 	for (uint32_t count : { 4u, 16u, 64u, 256u }) {
 		CAPTURE(count);

@@ -67,7 +67,7 @@ void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_proje
 		if (ImGui::InvisibleButton("mark", ImVec2(2.0f * half, 2.0f * half))) {
 			clicked = &p_node;
 		}
-		ImGui::SetItemAllowOverlap(); // a handle may lie on it
+		ImGui::SetItemAllowOverlap(); // a handle may be on it
 		r_context.note_item("mark " + p_node.name);
 		if (ImGui::IsItemHovered()) {
 			ImGui::SetTooltip("%s", p_node.name.c_str());

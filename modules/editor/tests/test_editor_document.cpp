@@ -268,7 +268,7 @@ TEST_CASE("[EditorDocument] a full disk or a folder that is gone loses nothing")
 	CHECK(document.is_changed());
 	CHECK(get_size(document) == 0.75);
 	CHECK(load_text_file(project.scene) == before);
-	// Nothing half written lies about.
+	// Nothing half written is left.
 	CHECK(std::distance(fs::directory_iterator(project.path), fs::directory_iterator()) == 3);
 	document.save();
 	CHECK_FALSE(document.is_changed());
@@ -301,7 +301,7 @@ TEST_CASE("[EditorDocument] a scene that is not there is an error") {
 	CHECK_THROWS_AS(EditorDocument(project.path / "none.gltf"), Error);
 }
 
-TEST_CASE("[EditorDocument] what lies aside and cannot be read stays under another name") {
+TEST_CASE("[EditorDocument] what was put aside and cannot be read stays under another name") {
 	const EditedProject project;
 	EditorDocument document(project.path);
 	const fs::path aside = document.get_recovery_path();

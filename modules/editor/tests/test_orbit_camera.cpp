@@ -53,7 +53,7 @@ TEST_CASE("[OrbitCamera] turning keeps its position, moving and panning keep its
 	CHECK(glm::length(after[3] - before[3]) > 1.0);
 }
 
-TEST_CASE("[OrbitCamera] what is framed lies within the view; nothing to frame changes nothing") {
+TEST_CASE("[OrbitCamera] what is framed is within the view; nothing to frame changes nothing") {
 	OrbitCamera orbit;
 	const uint64_t revision = orbit.get_revision();
 	orbit.frame({});

@@ -185,7 +185,7 @@ TEST_CASE("[ErrorReport] a disc is seen whole until its rim touches the surface'
 	// The disc's lowest point is 3 - R * 4 / 5 above the plane.
 	CHECK(sees(3.74f, { 4, 3, 0 }));
 	CHECK_FALSE(sees(3.76f, { 4, 3, 0 }));
-	CHECK(sees(1e4f, { 0, 1e-3f, 0 }));	   // straight above it lies parallel to the surface
+	CHECK(sees(1e4f, { 0, 1e-3f, 0 }));	   // straight above it is parallel to the surface
 	CHECK_FALSE(sees(1e-3f, { 4, 0, 0 })); // a grazing surface sees half of it
 	CHECK(sees(0, { 4, 0, 0 }));
 	CHECK_FALSE(sees(0, { 4, -1e-3f, 0 }));

@@ -76,7 +76,7 @@ TEST_CASE("[ErrorReport] generated meshes are closed and wind outwards") {
 }
 
 TEST_CASE(
-		"[ErrorReport] the knot's surface lies one tube radius off the study's line, faces away") {
+		"[ErrorReport] the knot's surface is one tube radius off the study's line, faces away") {
 	const auto scene = build(*make_scaling_scene({ 2000, 1, 0.4 }));
 	std::vector<glm::dvec3> line;
 	for (int step = 0; step < 4000; ++step) {

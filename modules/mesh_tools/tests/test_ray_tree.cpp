@@ -17,7 +17,7 @@ TEST_CASE("A ray meets the near side of a box, and from within the far one") {
 	const std::optional<double> inside = tree.find_nearest({ 0.1, 0.2, 0.3 }, { 0.0, -1.0, 0.0 });
 	REQUIRE(inside);
 	CHECK(*inside == doctest::Approx(2.2));
-	// What lies before p_begin does not count.
+	// What is before p_begin does not count.
 	const std::optional<double> beyond =
 			tree.find_nearest({ 0.1, 0.2, 10.0 }, { 0.0, 0.0, -1.0 }, 7.5);
 	REQUIRE(beyond);

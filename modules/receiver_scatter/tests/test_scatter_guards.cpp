@@ -44,7 +44,7 @@ TEST_CASE("[GPU][ReceiverScatter] extreme materials and images give valid masks"
 			CHECK(is_valid_mask(render(1.0f, distance_m, size_px)));
 		}
 	}
-	// Everything lit stays lit up to the image's border: what lies outside does not count.
+	// Everything lit stays lit up to the image's border: what is outside does not count.
 	scene.box->casts_shadow = false;
 	scene.light->properties["receiver_scatter_refusal"] = std::string("on");
 	for (const float distance_m : { 0.0f, 2.0f }) {

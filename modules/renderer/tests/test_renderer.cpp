@@ -243,7 +243,7 @@ TEST_CASE("[GPU][Renderer] mirrored and single-sided meshes show their lit sides
 	CHECK(compute_mask_difference(plain, mirrored) < 1e-3);
 }
 
-TEST_CASE("[GPU][Renderer] surfaces lie on the meshes and face the camera") {
+TEST_CASE("[GPU][Renderer] surfaces are on the meshes and face the camera") {
 	RenderFixture fixture;
 	SmallScene scene;
 	RenderRequest request;

@@ -10,7 +10,7 @@ using SubmitMode = RenderingDevice::SubmitMode;
 namespace {
 
 const uint32_t SIDE_PX = 8;
-const float FAR = 0.75f; // of what is there before anything is counted; TRIANGLE lies nearer
+const float FAR = 0.75f; // of what is there before anything is counted; TRIANGLE is nearer
 
 /// Triangles that count into a stencil, then one that is drawn where the count is not 0.
 struct StencilFixture : DeviceFixture {
@@ -130,7 +130,7 @@ TEST_CASE("[GPU][RenderingDevice] what fails the depth test has an operation of 
 	CHECK(fixture.count_drawn(failing, 1) != 0);
 }
 
-TEST_CASE("[GPU][RenderingDevice] depth bounds cull what lies elsewhere, or are refused") {
+TEST_CASE("[GPU][RenderingDevice] depth bounds cull what is elsewhere, or are refused") {
 	StencilFixture fixture;
 	RasterPipelineDesc bounded = fixture.make_desc(
 			"bounded", make_passing(StencilOp::INCREMENT_WRAP, StencilOp::INCREMENT_WRAP));

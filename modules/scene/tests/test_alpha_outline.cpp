@@ -37,7 +37,7 @@ double compute_area(const AlphaOutline &p_outline) {
 	return double(twice) / 2 / p_outline.size.x / p_outline.size.y;
 }
 
-/// Whether a point, in texels, lies in one of the triangles.
+/// Whether a point, in texels, is in one of the triangles.
 bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_point) {
 	const glm::dvec2 point = p_point * double(AlphaOutline::UNITS_PER_TEXEL);
 	const auto turn = [&](const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
@@ -54,7 +54,7 @@ bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_point) {
 	return false;
 }
 
-/// How far from the contour, in alpha, a wrongly decided point may lie.
+/// How far from the contour, in alpha, a wrongly decided point may be.
 void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
 	std::minstd_rand random(5);
 	std::uniform_real_distribution<double> uniform(0, 1);

@@ -52,7 +52,7 @@ struct CountedCasters {
 	std::vector<CountEdge> edges;
 	std::vector<CountFace> faces;
 
-	/// Edges that lie between faces which the whole light sees from one side are not there.
+	/// Edges that are between faces which the whole light sees from one side are not there.
 	void add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
 			const CountSpace &p_space);
 };

@@ -27,7 +27,7 @@ glm::dvec3 warp(const CountScene &p_scene, const glm::dvec3 &p_r) {
 			: glm::dvec3(p_r.x, p_r.y, 1.0) / p_r.z;
 }
 
-/// Points that lie close together or far apart, on a plane or anyhow.
+/// Points that are close together or far apart, on a plane or anyhow.
 ReceiverBox make_box(
 		const CountScene &p_scene, TestRandom &r_random, double p_width_m, bool p_is_flat) {
 	for (;;) {

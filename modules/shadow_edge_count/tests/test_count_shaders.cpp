@@ -100,7 +100,7 @@ TEST_CASE("[GPU][EdgeCount] the shader counts as double does where solids overla
 	const Agreement agreement = compare(scene, fixture);
 	CHECK(agreement.mean < 5e-4);
 	CHECK(agreement.greatest < 0.05);  // one point of 64 more or less, in two layers
-	CHECK(agreement.apart_count < 60); // of 2000: a point that lies on an edge
+	CHECK(agreement.apart_count < 60); // of 2000: a point that is on an edge
 }
 
 // A ray through a vertex meets all its faces in one point, and one through an edge two of them.

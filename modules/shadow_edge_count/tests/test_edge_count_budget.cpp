@@ -25,7 +25,7 @@ FramePlanEntry find_entry(const MaskResult &p_result, const std::string &p_begin
 	return {};
 }
 
-/// How many of the pixels lie in blocks of a kind, EDGE_COUNT_BLOCKS_*.
+/// How many of the pixels are in blocks of a kind, EDGE_COUNT_BLOCKS_*.
 size_t count_pixels(
 		MaskFixture &r_fixture, const SmallScene &p_scene, glm::uvec2 p_size_px, int p_kind) {
 	MaskRequest request;
@@ -163,7 +163,7 @@ TEST_CASE("[GPU][EdgeCount] face lists without room are made again, and the firs
 		}
 		CHECK(std::count(masks[0].begin(), masks[0].end(), 1.0f) > 100);
 		CHECK(std::count(masks[0].begin(), masks[0].end(), 0.0f) > 20);
-		// Nothing that is seen lies below the floors.
+		// Nothing that is seen is below the floors.
 		size_t apart_count = 0;
 		for (size_t index = 0; index < masks[0].size(); ++index) {
 			apart_count += std::abs(masks[0][index] - masks[1][index]) > 1e-3f ? 1 : 0;

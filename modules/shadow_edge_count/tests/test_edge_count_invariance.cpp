@@ -36,7 +36,7 @@ std::vector<int> find_views(const SmallScene &p_scene, const MaskResult &p_frame
 	return views;
 }
 
-/// Another view's receiver lies within three pixels.
+/// Another view's receiver is within three pixels.
 bool is_near_seam(const std::vector<int> &p_views, glm::ivec2 p_size_px, glm::ivec2 p_pixel) {
 	const auto get_view = [&](const glm::ivec2 &p_neighbour) {
 		return p_views[size_t(p_neighbour.y) * size_t(p_size_px.x) + size_t(p_neighbour.x)];
@@ -144,7 +144,7 @@ TEST_CASE("[GPU][EdgeCount] how an omni light is turned does not matter") {
 		const MaskDifference difference =
 				compare_masks(render_frame(fixture, scene).visibility, expected);
 		CHECK(difference.mean < 2e-4);
-		// Where two solids overlap the points of the light lie otherwise, up to three of 64.
+		// Where two solids overlap the points of the light are elsewhere, up to three of 64.
 		CHECK(difference.greatest < 0.05);
 		CHECK(double(difference.apart_count) < 0.01 * double(difference.receiver_count));
 	}

@@ -89,7 +89,7 @@ TEST_CASE("[GPU][EdgeCount] a thin wall ends what is interpolated, however far a
 		scene.camera->parent_from_node = look_at({ 0.1, 4.0, 3.0 }, { 0.1, 0.0, 0.0 });
 		scene.box->surfaces[0].mesh = make_box_mesh("wall", { 0.0005f, 0.9f, 2.4f });
 		scene.box->parent_from_node = glm::translate(glm::dmat4(1.0), { 0.1, 0.3, 0.0 });
-		// Its penumbra lies on both sides.
+		// Its penumbra is on both sides.
 		add_mesh(scene.scene, "Plate", make_box_mesh("plate", { 0.02f, 0.2f, 0.6f }),
 				{ 1.8, 0.95, 0.0 });
 		const MaskResult counted = render_interpolated(fixture, scene, 0.0);

@@ -22,7 +22,7 @@ shader::LightViewConstants make_view() {
 	return view;
 }
 
-/// Receivers lie at w = 5 of 10; texels are hidden by a caster at 9 or hold nothing.
+/// Receivers are at w = 5 of 10; texels are hidden by a caster at 9 or hold nothing.
 std::vector<glm::vec4> look_up(KernelFixture &r_fixture, const std::vector<bool> &p_is_hidden,
 		const std::vector<glm::vec2> &p_texels, float p_width) {
 	std::vector<float> depths;
@@ -53,7 +53,7 @@ double compute_overlap(double p_low, double p_width, int p_texel) {
 			0.0, std::min(p_low + p_width, p_texel + 1.0) - std::max(p_low, double(p_texel)));
 }
 
-/// Area of the box about the texel position that lies on lit texels or beyond the map.
+/// Area of the box about the texel position that is on lit texels or beyond the map.
 double compute_reference(
 		const std::vector<bool> &p_is_hidden, const glm::dvec2 &p_texel, double p_width) {
 	const glm::dvec2 low = p_texel - 0.5 * p_width;

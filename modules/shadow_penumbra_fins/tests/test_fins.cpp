@@ -201,7 +201,7 @@ TEST_CASE("[GPU][PenumbraFins] inner fins of edges that the light does not see a
 
 TEST_CASE("[GPU][PenumbraFins] beta drops the inner fins deep in a solid that hides their edge") {
 	// Figure 4 (b) of the paper. A mushroom's foot is a silhouette that the cap hides; its inner
-	// fin lies in the stem, before the second layer, so that the layers alone would keep it.
+	// fin is in the stem, before the second layer, so that the layers alone would keep it.
 	FinsFixture fixture;
 	const auto draw = [&](const std::vector<glm::vec2> &p_profile, float p_beta_m) {
 		SmallScene scene = make_scene(share("lathed", make_lathed(p_profile)));

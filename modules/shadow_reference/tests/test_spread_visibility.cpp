@@ -110,7 +110,7 @@ TEST_CASE("[SpreadVisibility] a step counts as far as the radius, up and down, a
 	}
 }
 
-TEST_CASE("[SpreadVisibility] of several bodies the one counts on which the receiver lies") {
+TEST_CASE("[SpreadVisibility] of several bodies the one counts on which the receiver is") {
 	Triangles near_body;
 	add_square(near_body, glm::vec3(0), 10);
 	Triangles far_body;

@@ -107,7 +107,7 @@ TEST_CASE("[GPU][ShadowVolume] slivers, duplicates, collapsed faces and edges of
 	});
 }
 
-TEST_CASE("[GPU][ShadowVolume] surfaces that coincide, touch and lie in one another") {
+TEST_CASE("[GPU][ShadowVolume] surfaces that coincide, touch and are in one another") {
 	check_for_each_type([](SmallScene &r_scene) {
 		const auto box = make_box_mesh("twin", glm::vec3(0.5f, 0.3f, 0.4f));
 		add_mesh(r_scene.scene, "Twin", box, { 0, 1.0, 0 });	 // the same box

@@ -54,7 +54,7 @@ public:
 				continue;
 			}
 			++difference.wrong_count;
-			// The surface's points that lie within a 64th of the pixel, and a little off each.
+			// The surface's points that are within a 64th of the pixel, and a little off each.
 			const double pixel_m = 2 * std::tan(0.5 * scene->camera.vertical_fov_rad) *
 					glm::length(surface.position) / std::sqrt(double(p_frame.visibility.size()));
 			const glm::dvec3 view = glm::normalize(glm::dvec3(surface.position));

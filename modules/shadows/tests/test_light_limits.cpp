@@ -110,7 +110,7 @@ TEST_CASE("[LightLimits] a caster is searched again only when it or the light mo
 	CHECK(limits.get_search_count() == 4);
 }
 
-TEST_CASE("[LightLimits] what lies behind a spot is not near it") {
+TEST_CASE("[LightLimits] what is behind a spot is not near it") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene scene(type);
 		const glm::dvec3 way = glm::normalize(glm::dvec3(1.2, 4.0, 0.8));

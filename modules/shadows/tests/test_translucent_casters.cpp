@@ -87,7 +87,7 @@ TEST_CASE(
 	CHECK(find_casters(scene).groups.size() == 2);
 }
 
-TEST_CASE("[TranslucentCasters] a slanting ray meets two that lie far apart along the light") {
+TEST_CASE("[TranslucentCasters] a slanting ray meets two that are far apart along the light") {
 	SmallScene scene(LightType::DIRECTIONAL);
 	scene.light->parent_from_node = look_at({ 0, 50, 0 }, { 0, 0, 0 });
 	scene.light->properties["light_angular_distance"] = 10.0;

@@ -10,7 +10,7 @@ using namespace gnomon;
 
 namespace {
 
-/// A wide plate at a height above the origin whose edge lies at x = 0, and a light above it.
+/// A wide plate at a height above the origin whose edge is at x = 0, and a light above it.
 struct HalfPlane {
 	SceneSnapshot scene;
 
