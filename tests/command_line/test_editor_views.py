@@ -72,7 +72,7 @@ class EditorViewsTest(EditorCase):
         self.assertEqual(self.get_state()["pictures"], count)
         self.finish()
 
-    def test_two_techniques_stand_side_by_side(self):
+    def test_two_techniques_are_side_by_side(self):
         self.open_editor()
         left, right = self.photograph(0.0, 0.49), self.photograph(0.51, 1.0)
         self.choose("against", find_technique("is_fallback"))

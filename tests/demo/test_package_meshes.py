@@ -91,7 +91,7 @@ class PackageMeshes(unittest.TestCase):
         self.assertEqual(points[3], (0.0, 8.0, 0.0))
         self.assertEqual(triangles, [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2), (0, 1, 3), (0, 3, 2)])
 
-    def test_a_mesh_is_scaled_to_the_scene_and_stands_above_the_ground(self):
+    def test_a_mesh_is_scaled_to_the_scene_and_is_above_the_ground(self):
         points = make_package_meshes.fit_points([(10, 500, 0), (30, 500, 0), (10, 540, 70)], make_package_meshes.UPRIGHT)
         heights = [point[1] for point in points]
         self.assertAlmostEqual(min(heights), make_package_meshes.LIFT_M)

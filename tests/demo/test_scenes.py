@@ -53,7 +53,7 @@ class SceneFiles(unittest.TestCase):
     def test_all_scenes_together_stay_below_8_mb(self):
         self.assertLess(sum(len(data) for data in make_scenes.build_all_files().values()), 8e6)
 
-    def test_every_accessor_lies_in_its_file_and_every_number_is_finite(self):
+    def test_every_accessor_is_in_its_file_and_every_number_is_finite(self):
         for name in make_scenes.SCENES:
             with self.subTest(scene=name):
                 scene = load_scene(name)
@@ -197,7 +197,7 @@ class MeshCheck(unittest.TestCase):
 
 
 class Bunny(unittest.TestCase):
-    def test_a_mesh_stands_on_the_ground_and_is_as_high_as_promised(self):
+    def test_a_mesh_is_on_the_ground_and_is_as_high_as_promised(self):
         points = [(-1.0, 5.0, 0.0), (1.0, 5.0, 0.0), (0.0, 5.0, 1.5), (0.0, 7.0, 0.5)]
         mesh = make_bunny.make_bunny(points, [(0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)])
         mesh.check("tetrahedron")
