@@ -29,8 +29,8 @@ inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	return load_gltf(path, options);
 }
 
-/// Sets the properties of every light. A name that no class declares, or a value out of its range, is
-/// an Error.
+/// Sets the properties of every light. A name that no class declares, or a value out of its range,
+/// is an Error.
 inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_settings) {
 	for (const auto &[name, value] : p_settings.items()) {
 		const PropertyInfo *info = Light3D::get_property_list().find(name);

@@ -110,7 +110,8 @@ MaskImage AnimationPart::run_cell(MaskSource &r_source, const MaskQuestion &p_qu
 	cell.error = ReportError{ compute_mask_metrics(references[0], drawn.frames[0]), {} };
 	cell.error->whole_light = cell.error->all;
 	cell.stability = ReportStability();
-	cell.stability->temporal_rmse = compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
+	cell.stability->temporal_rmse =
+			compute_temporal_metrics(references, drawn.frames).penumbra_rmse;
 	cell.stability->warnings = drawn.warnings;
 	return {};
 }

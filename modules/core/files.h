@@ -26,9 +26,9 @@ std::string load_text_file(
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
-/// How the files end that save_file_atomically has not renamed yet. They are next to the target, and
-/// are locked as long as their writer lives: what a killed process left is removed by the next one
-/// that saves into the folder.
+/// How the files end that save_file_atomically has not renamed yet. They are next to the target,
+/// and are locked as long as their writer lives: what a killed process left is removed by the next
+/// one that saves into the folder.
 inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";
 
 /// Removes the unfinished files in the folder that no living process writes.

@@ -12,7 +12,8 @@ namespace gnomon {
 
 namespace {
 
-/// Whole numbers beyond it have neighbours that a double, which numbers are read as, cannot represent.
+/// Whole numbers beyond it have neighbours that a double, which numbers are read as, cannot
+/// represent.
 constexpr double MAX_WHOLE = 9007199254740991.0; // 2^53 - 1
 
 std::vector<std::string> split(const std::string &p_text) {

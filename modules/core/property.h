@@ -56,9 +56,11 @@ struct RemovedProperty {
 /// The properties of one kind of object, in the order in which they are shown.
 class PropertyList {
 public:
-	/// A name that is present already, or a default that its own range refuses, is a programming error.
+	/// A name that is present already, or a default that its own range refuses, is a programming
+	/// error.
 	void add(PropertyInfo p_info);
-	/// Declares a property again, at its position. A name that the list lacks is a programming error.
+	/// Declares a property again, at its position. A name that the list lacks is a programming
+	/// error.
 	void replace(PropertyInfo p_info);
 	void add_removed(RemovedProperty p_removed) { removed.push_back(std::move(p_removed)); }
 	const PropertyInfo *find(std::string_view p_name) const;
@@ -110,7 +112,8 @@ struct PropertyRange {
 };
 PropertyRange get_range(const PropertyInfo &p_info);
 
-/// The value that is set, else the declared default. A name that the list lacks is a programming error.
+/// The value that is set, else the declared default. A name that the list lacks is a programming
+/// error.
 const PropertyValue &get_property(
 		const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);
 bool get_bool(const PropertyList &p_list, const PropertyValues &p_values, std::string_view p_name);

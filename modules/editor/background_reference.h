@@ -20,8 +20,9 @@ struct ReferenceRound {
 	double seconds = 0;			   // of all rounds so far
 };
 
-/// Traces a light's reference mask on a thread of its own, first coarsely, then with four times the rays
-/// each round. The thread gives way to the others (it is nice), so that the interface stays quick.
+/// Traces a light's reference mask on a thread of its own, first coarsely, then with four times the
+/// rays each round. The thread gives way to the others (it is nice), so that the interface stays
+/// quick.
 class BackgroundReference {
 public:
 	static constexpr uint32_t FIRST_SAMPLE_COUNT = 16;
@@ -46,7 +47,8 @@ public:
 	uint32_t get_sample_count() const { return round_sample_count; }
 
 private:
-	void run(const std::function<std::unique_ptr<ReferenceSource>()> &p_make, uint32_t p_sample_count);
+	void run(const std::function<std::unique_ptr<ReferenceSource>()> &p_make,
+			uint32_t p_sample_count);
 
 	std::thread thread;
 	std::atomic<bool> is_cancelled = false;

@@ -55,9 +55,9 @@ struct ErrorState {
 	std::string light;
 	std::string technique; // that it has, by choice or by default
 	MaskImage mask;
-	ReferenceRound round;						// of the reference
+	ReferenceRound round;							// of the reference
 	std::shared_ptr<const ReferenceMask> reference; // null: not yet
-	uint64_t reference_hash = 0;				// compute_reference_hash of what is traced; 0: nothing
+	uint64_t reference_hash = 0; // compute_reference_hash of what is traced; 0: nothing
 	std::optional<MaskMetrics> metrics;
 	MaskTiming cost;
 	bool is_tracing = false;
@@ -87,9 +87,9 @@ enum class EditorCommand {
 
 /// What a test waits for, and a benchmark reads.
 struct EditorProgress {
-	uint64_t frame = 0;			// counts
+	uint64_t frame = 0;		  // counts
 	uint32_t image_count = 0; // sharp ones that were drawn
-	bool is_resting = false;	// nothing waits to be drawn
+	bool is_resting = false;  // nothing waits to be drawn
 	/// From each input that changed the scene to the frame that shows it.
 	const std::vector<double> &answers_ms;
 };
@@ -103,7 +103,7 @@ struct EditorContext {
 	RenderResult shown;
 	double shown_ms = 0; // wall time
 	bool is_image_coarse = false;
-	void *image = nullptr;		  // ImTextureID; null: none yet
+	void *image = nullptr;			// ImTextureID; null: none yet
 	void *compared_image = nullptr; // the same, of ViewportState::compared_technique
 	glm::uvec2 image_size_px = glm::uvec2(0);
 	ErrorState error;
@@ -115,11 +115,11 @@ struct EditorContext {
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
 	std::string requested_page;		 // of EditorCommand::READ_PAGE, from the program's folder
-	bool shows_open_menu = false;		 // opens the menu of scenes
+	bool shows_open_menu = false;	 // opens the menu of scenes
 	std::filesystem::path open_path; // of EditorCommand::OPEN
 	std::vector<std::string> recent; // scenes that were open, the newest first
 	std::string shown_tab;			 // of the bar below the viewport
-	std::string requested_tab;			 // is to be shown; empty once it is
+	std::string requested_tab;		 // is to be shown; empty once it is
 	uint32_t dragged_handle = 0;	 // ImGuiID of a gizmo's handle; 0: none
 	/// Where widgets are in the window, by name: left, top, right, bottom in pixels. For tests.
 	std::map<std::string, glm::vec4> items;

@@ -138,7 +138,7 @@ Bounds EditorDocument::compute_selected_bounds() const {
 	Bounds bounds = selected->compute_bounds();
 	// A skinned mesh is where its joints are, wherever its node is.
 	const glm::dvec3 center = bounds.is_empty() ? glm::dvec3(selected->compute_world_from_node()[3])
-											   : 0.5 * (bounds.minimum + bounds.maximum);
+												: 0.5 * (bounds.minimum + bounds.maximum);
 	bounds.add(center - glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
 	bounds.add(center + glm::dvec3(SPACE_SIZES * snapshot->scene_size_m));
 	return bounds;

@@ -22,8 +22,8 @@ public:
 	static constexpr std::chrono::seconds AUTOSAVE_INTERVAL{ 20 }; // the default
 
 	/// p_path: as find_project_scene. A scene that is not there is an Error. One that cannot be
-	/// read opens empty and is reported in the log, see get_failure. p_stage: see stage_scene; what is
-	/// added is no change.
+	/// read opens empty and is reported in the log, see get_failure. p_stage: see stage_scene; what
+	/// is added is no change.
 	explicit EditorDocument(
 			const std::filesystem::path &p_path, StageMode p_stage = StageMode::OFF);
 	/// What this document put aside is removed when nothing of it would be lost.

@@ -241,8 +241,8 @@ private:
 				!document.get_timeline().is_playing();
 		last_selected = document.get_selected();
 		quiet_count = is_quiet ? quiet_count + 1 : 0;
-		const std::string written = context.describe_items(
-				{ ++frame, viewport_renderer.get_count(), quiet_count >= QUIET_FRAME_COUNT, answers_ms });
+		const std::string written = context.describe_items({ ++frame, viewport_renderer.get_count(),
+				quiet_count >= QUIET_FRAME_COUNT, answers_ms });
 		// Whole or not at all, but without waiting for the disk as save_file_atomically does.
 		const std::filesystem::path made = options.items.string() + ".new";
 		std::ofstream stream(made);

@@ -56,18 +56,20 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 			measured_image = p_image_count;
 			measure_mask(r_context);
 		} else if (!has_cost()) {
-			if (state.refusal.empty() && !background_reference.is_running()) { // while it runs all is slower
+			if (state.refusal.empty() &&
+					!background_reference.is_running()) { // while it runs all is slower
 				measure_cost(r_context);
 			}
 		} else if (requested_reference && !state.is_stopped) {
-			background_reference.start(std::exchange(requested_reference, nullptr), state.sample_count);
+			background_reference.start(
+					std::exchange(requested_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
 		// Restarted, it has to become better first than what is known.
 		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
-			state.reference = std::make_shared<const ReferenceMask>(
-					ReferenceMask{ state.mask.size_px, state.round.visibility, state.mask.receiver });
+			state.reference = std::make_shared<const ReferenceMask>(ReferenceMask{
+					state.mask.size_px, state.round.visibility, state.mask.receiver });
 			compare(state);
 			r_context.viewport.needs_redraw |= r_context.viewport.debug_view == "error";
 		}
@@ -90,7 +92,8 @@ void ErrorMeter::refuse(ErrorState &r_state, std::string p_text) {
 	background_reference.stop();
 	requested_reference = nullptr;
 	r_state.refusal = std::move(p_text);
-	is_error_stale |= r_state.reference != nullptr; // once: without one there is nothing to take back
+	is_error_stale |=
+			r_state.reference != nullptr; // once: without one there is nothing to take back
 	r_state.reference_hash = 0;
 	r_state.reference.reset();
 	r_state.metrics.reset();
@@ -161,11 +164,10 @@ void ErrorMeter::request_reference(EditorContext &r_context, RenderResult p_resu
 				"tab Modules.");
 		return;
 	}
-	ReferenceQuestion question = { request.scene, light, request.size_px, std::move(p_result.surfaces),
-		std::move(p_result.receiver), find_surface_spread() };
-	requested_reference = [make = reference->make_reference_source, question = std::move(question)] {
-		return make(question);
-	};
+	ReferenceQuestion question = { request.scene, light, request.size_px,
+		std::move(p_result.surfaces), std::move(p_result.receiver), find_surface_spread() };
+	requested_reference = [make = reference->make_reference_source,
+								  question = std::move(question)] { return make(question); };
 }
 
 /// A frame of the mask alone, pass by pass, as if the light had moved.

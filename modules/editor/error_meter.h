@@ -6,14 +6,16 @@
 
 namespace gnomon {
 
-/// Keeps the error panel current: the mask of the light in question as the viewport sees it, its reference
-/// in the background, and what the mask costs, a frame at a time. Works only while somebody looks.
+/// Keeps the error panel current: the mask of the light in question as the viewport sees it, its
+/// reference in the background, and what the mask costs, a frame at a time. Works only while
+/// somebody looks.
 class ErrorMeter {
 public:
 	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Once a frame, after the viewport is drawn. p_image_count: sharp ones drawn so far, see ViewportRenderer.
+	/// Once a frame, after the viewport is drawn. p_image_count: sharp ones drawn so far, see
+	/// ViewportRenderer.
 	void update(EditorContext &r_context, uint32_t p_image_count);
 
 	/// Measures it again: the shaders are others.

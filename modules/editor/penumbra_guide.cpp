@@ -82,7 +82,8 @@ public:
 			return std::nullopt;
 		}
 		const glm::dvec3 position = p_end + hit->t * turned;
-		return is_lit(position) && !is_hidden_from_camera(position) ? std::optional(position) : std::nullopt;
+		return is_lit(position) && !is_hidden_from_camera(position) ? std::optional(position)
+																	: std::nullopt;
 	}
 
 	/// How much longer than itself an edge's image on the receiver may be at most.

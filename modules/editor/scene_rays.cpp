@@ -19,7 +19,8 @@ void SceneRays::follow(const Scene &p_scene) {
 			try {
 				add_surface(*node, surface, world_from_node, world_from_nodes);
 			} catch (const Error &) {
-				// A pose that is refused: the scene cannot be drawn either, and the image shows why.
+				// A pose that is refused: the scene cannot be drawn either, and the image shows
+				// why.
 			}
 		}
 	}
@@ -41,8 +42,8 @@ void SceneRays::add_surface(MeshInstance3D &r_node, const MeshInstance3D::Surfac
 	if (!mesh || mesh->bounds_node.is_empty()) {
 		return;
 	}
-	SkinTransforms transforms =
-			compute_surface_transforms(r_node, *p_surface.mesh, p_world_from_node, p_world_from_nodes);
+	SkinTransforms transforms = compute_surface_transforms(
+			r_node, *p_surface.mesh, p_world_from_node, p_world_from_nodes);
 	const double determinant = glm::determinant(transforms.world_from_mesh);
 	if (!(std::abs(determinant) > 0.0 && std::isfinite(determinant))) {
 		return;

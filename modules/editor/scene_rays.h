@@ -16,8 +16,9 @@ class SceneRays {
 public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
-		std::shared_ptr<const Mesh> mesh;			  // what is there of it, see CutMesh; as posed
-		glm::dmat4 world_from_node = glm::dmat4(1.0); // of a skin: from the mesh, see compute_skin_transforms
+		std::shared_ptr<const Mesh> mesh; // what is there of it, see CutMesh; as posed
+		glm::dmat4 world_from_node =
+				glm::dmat4(1.0); // of a skin: from the mesh, see compute_skin_transforms
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
 		bool casts_shadow = true;

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Takes over changed shader sources while the editor runs. What does not compile is reported in the
-/// viewport, and the last good one stays.
+/// Takes over changed shader sources while the editor runs. What does not compile is reported in
+/// the viewport, and the last good one stays.
 class ShaderReloader {
 public:
 	using Clock = std::chrono::steady_clock;

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// While it lives, errors and warnings of all modules are collected for the status bar, in addition to
-/// where they went before. They may come from any thread.
+/// While it lives, errors and warnings of all modules are collected for the status bar, in addition
+/// to where they went before. They may come from any thread.
 class StatusSink {
 public:
 	StatusSink();

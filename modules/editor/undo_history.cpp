@@ -54,8 +54,8 @@ void UndoHistory::change(Node3D &r_node, const std::string &p_name, const std::s
 	if (is_same_state(*before, r_node)) {
 		return;
 	}
-	const bool joins = !p_key.empty() && p_key == open_key && step_index == steps.size() && step_index > 0 &&
-			steps.back().node == &r_node && steps.back().key == p_key;
+	const bool joins = !p_key.empty() && p_key == open_key && step_index == steps.size() &&
+			step_index > 0 && steps.back().node == &r_node && steps.back().key == p_key;
 	open_key = p_key;
 	if (joins) {
 		steps.back().after = r_node.copy();

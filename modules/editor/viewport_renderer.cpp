@@ -35,8 +35,7 @@ void ViewportRenderer::update(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const Clock::time_point now = Clock::now();
 	const bool is_slow = r_context.device.type == "CPU";
-	const bool needs_light =
-			!viewport.debug_view.empty() || !viewport.compared_technique.empty();
+	const bool needs_light = !viewport.debug_view.empty() || !viewport.compared_technique.empty();
 	const std::string light = r_context.find_light_name();
 	viewport.needs_redraw |= needs_light && !light.empty() && light != drawn_light;
 	if (viewport.needs_redraw) {

@@ -61,7 +61,8 @@ class MaskSource {
 public:
 	virtual ~MaskSource() = default;
 	virtual ReportMachine get_machine() const = 0;
-	virtual TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
+	virtual TracedReference trace_reference(
+			const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
 	/// The questions one after another, as frames of one run: what a technique caches, it reuses.

@@ -93,30 +93,32 @@ struct ReportError {
 
 /// Whose fault an error is.
 enum class ErrorCause {
-	METHOD,	  // exact arithmetic would leave it
-	ROUNDING, // the question itself changes as much when its input is rounded to float32
-	REFERENCE,	  // the reference in float32 is off by as much
+	METHOD,	   // exact arithmetic would leave it
+	ROUNDING,  // the question itself changes as much when its input is rounded to float32
+	REFERENCE, // the reference in float32 is off by as much
 };
 /// "method", "rounding", "truth".
 const char *get_name(ErrorCause p_cause);
 
 /// How sensitive visibility is at some points, in double precision: means over the points.
 struct VisibilityCondition {
-	/// Change of v over the relative change of the receiver's position that makes it: |dv| rho / |dP|,
-	/// rho the distance to the light (directional: S).
+	/// Change of v over the relative change of the receiver's position that makes it: |dv| rho /
+	/// |dP|, rho the distance to the light (directional: S).
 	double number = 0;
-	double rounding = 0;	// change of v when P moves by what float32 rounds away
+	double rounding = 0;		// change of v when P moves by what float32 rounds away
 	double reference_error = 0; // |v in double - v of the reference|
-	double error = 0;		// of the technique
+	double error = 0;			// of the technique
 	ErrorCause cause = ErrorCause::METHOD;
 };
 
-/// What else a point of a stability sweep or of an animation has; a part of the report (ReportPart) fills it in.
+/// What else a point of a stability sweep or of an animation has; a part of the report (ReportPart)
+/// fills it in.
 struct ReportStability {
 	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
 	/// plays on for a frame: see TemporalMetrics. None where the light has no position to move to.
 	std::optional<double> temporal_rmse;
-	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more than a half.
+	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more
+	/// than a half.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // that the program gave
 	std::string refusal; // why it drew nothing: an error that states what to do; then no numbers

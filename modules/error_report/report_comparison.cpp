@@ -108,7 +108,8 @@ private:
 			const ErrorMetrics &p_before, const ErrorMetrics &p_after) {
 		double margin = ERROR_MARGIN + ERROR_MARGIN_SHARE * p_before.mae;
 		if (old_report.sample_count != new_report.sample_count) {
-			margin += old_report.configurations[p_old.configuration_index].reference.standard_error +
+			margin +=
+					old_report.configurations[p_old.configuration_index].reference.standard_error +
 					new_report.configurations[p_new.configuration_index].reference.standard_error;
 		}
 		if (std::abs(p_after.mae - p_before.mae) > margin) {

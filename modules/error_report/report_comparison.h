@@ -39,13 +39,13 @@ struct ReportComparison {
 /// Cells are the same when configuration, technique and setting have the same names, and the
 /// images the same size.
 ///
-/// An error differs when it does so by more than 0.0005 + 1 %, and, where the references have different
-/// numbers of samples, by more than both standard errors too. Compared are penumbra pixels, and all
-/// receivers, where a leak shows that is in the lit. A time is compared as ratio to the baseline
-/// of its own report, so that a slower machine alone is no difference, and differs by more than
-/// 15 % and by more than the distances from median to 90th percentile of all that it was made of.
-/// The baseline, and cells without one, are compared in milliseconds, on the same machine only and
-/// beyond 30 %.
+/// An error differs when it does so by more than 0.0005 + 1 %, and, where the references have
+/// different numbers of samples, by more than both standard errors too. Compared are penumbra
+/// pixels, and all receivers, where a leak shows that is in the lit. A time is compared as ratio to
+/// the baseline of its own report, so that a slower machine alone is no difference, and differs by
+/// more than 15 % and by more than the distances from median to 90th percentile of all that it was
+/// made of. The baseline, and cells without one, are compared in milliseconds, on the same machine
+/// only and beyond 30 %.
 ReportComparison compare_reports(const Report &p_old, const Report &p_new);
 
 nlohmann::ordered_json to_json(const ReportComparison &p_comparison);

@@ -204,8 +204,8 @@ void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_con
 			r_configuration.has_reference() && r_configuration.status == ReportStatus::OK;
 	if (p_form.has("truth", has_reference)) {
 		auto &reference = r_configuration.reference;
-		describe_fields(p_form, "receiver_pixels", reference.receiver_pixel_count, "penumbra_pixels",
-				reference.penumbra_pixel_count);
+		describe_fields(p_form, "receiver_pixels", reference.receiver_pixel_count,
+				"penumbra_pixels", reference.penumbra_pixel_count);
 		p_form.part("truth", [&](const auto &p_part) {
 			describe_fields(p_part, "standard_error", reference.standard_error, "wall_ms",
 					reference.wall_ms, "image", reference.image);

@@ -35,6 +35,7 @@ ReportMachine read_cell_machine(const nlohmann::ordered_json &p_json);
 void read_cell_result(const nlohmann::ordered_json &p_json, Report &r_report, ReportCell &r_cell);
 /// The same for the reference of a configuration.
 nlohmann::ordered_json reference_result_to_json(const ReportConfiguration &p_configuration);
-void read_reference_result(const nlohmann::ordered_json &p_json, ReportConfiguration &r_configuration);
+void read_reference_result(
+		const nlohmann::ordered_json &p_json, ReportConfiguration &r_configuration);
 
 } // namespace gnomon

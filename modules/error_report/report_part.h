@@ -14,9 +14,9 @@
 
 namespace gnomon {
 
-/// A part of the report in addition to its matrix and its scaling curves, of a module that a build may
-/// lack. Its configurations form one group (ReportConfiguration::group), whose name is the part's
-/// id.
+/// A part of the report in addition to its matrix and its scaling curves, of a module that a build
+/// may lack. Its configurations form one group (ReportConfiguration::group), whose name is the
+/// part's id.
 class ReportPart {
 public:
 	using Add = std::function<void(ReportConfiguration, ReportPlan::MakeQuestion)>;
@@ -34,7 +34,8 @@ public:
 	/// Draws a cell and fills its error and its own results. p_references: of its configuration.
 	/// Returns the image that is worth keeping, else an empty one. What must not be is an Error.
 	virtual MaskImage run_cell(MaskSource &r_source, const MaskQuestion &p_question,
-			std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const = 0;
+			std::span<const TracedReference> p_references, Report &r_report,
+			size_t p_cell) const = 0;
 	/// True of a measured cell whose mask is nonsense, or that refused to draw one.
 	virtual bool is_unusable(const ReportCell &p_cell) const = 0;
 	/// What report.json holds of the part as a whole, under its id.

@@ -59,8 +59,8 @@ uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 }
 
 /// 64 bits that change when anything changes that the mask could depend on: the casters and their
-/// positions, what scatters, the camera, the light (all lights where the question names none) with all
-/// its properties, and the size of the image.
+/// positions, what scatters, the camera, the light (all lights where the question names none) with
+/// all its properties, and the size of the image.
 uint64_t compute_question_hash(const MaskQuestion &p_question) {
 	const SceneSnapshot &scene = *p_question.scene;
 	uint64_t hash = scene.camera.compute_hash(1);
@@ -121,8 +121,9 @@ public:
 
 	void add_parts() {
 		for (const ReportPartInfo &info : ReportPartRegistry::get_all()) {
-			info.part->plan(
-					options, [this](ReportConfiguration p_configuration, ReportPlan::MakeQuestion p_make_question) {
+			info.part->plan(options,
+					[this](ReportConfiguration p_configuration,
+							ReportPlan::MakeQuestion p_make_question) {
 						add_configuration(std::move(p_configuration), std::move(p_make_question),
 								ExpensiveSettings::SKIPPED);
 					});
@@ -229,8 +230,8 @@ private:
 	}
 
 	/// Fills in what the scene states, and plans the cells.
-	void add_configuration(ReportConfiguration p_configuration, ReportPlan::MakeQuestion p_make_question,
-			ExpensiveSettings p_expensive) {
+	void add_configuration(ReportConfiguration p_configuration,
+			ReportPlan::MakeQuestion p_make_question, ExpensiveSettings p_expensive) {
 		MaskQuestion question;
 		try {
 			question = p_make_question(derive_widths());
@@ -306,9 +307,9 @@ private:
 			cell.properties[name] = format_property(value);
 		}
 		uint64_t hash = compute_question_hash(plan.questions[p_configuration](properties));
-		for (const std::string &part :
-				{ p_technique, p_setting.name, options.program, text(options.precision_percent),
-						configuration.has_reference() ? text(options.sample_count) : std::string() }) {
+		for (const std::string &part : { p_technique, p_setting.name, options.program,
+					 text(options.precision_percent),
+					 configuration.has_reference() ? text(options.sample_count) : std::string() }) {
 			hash = compute_text_hash(part, hash);
 		}
 		cell.record = make_record_name(configuration.scene, p_technique, hash);

@@ -51,8 +51,9 @@ struct ReportOptions {
 	bool has_sweep(const std::string &p_id) const;
 };
 
-/// What is to be measured: a report whose references and cells are still missing, and how to compute
-/// each. Questions are built when they are needed, since a scene may hold a million triangles.
+/// What is to be measured: a report whose references and cells are still missing, and how to
+/// compute each. Questions are built when they are needed, since a scene may hold a million
+/// triangles.
 struct ReportPlan {
 	Report report;
 	/// One per configuration; throws an Error where the scene cannot be shown. The properties

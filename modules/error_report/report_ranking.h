@@ -31,7 +31,8 @@ struct RankingRow {
 
 /// Settings by rising mean error over the configurations of the matrix.
 std::vector<RankingRow> rank_settings(const Report &p_report);
-/// Techniques in the same way, each with its setting of least error chosen separately in each configuration.
+/// Techniques in the same way, each with its setting of least error chosen separately in each
+/// configuration.
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
 /// Cells of a configuration by rising cost, of which no other cell is both cheaper and closer to

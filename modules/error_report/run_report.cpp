@@ -146,7 +146,8 @@ private:
 		std::erase_if(missing, [&](size_t p_cell) {
 			return report.cells[p_cell].status != ReportStatus::MISSING;
 		});
-		const bool needs_reference = configuration.has_reference() && !configuration.record.empty() &&
+		const bool needs_reference = configuration.has_reference() &&
+				!configuration.record.empty() &&
 				(!missing.empty() || configuration.status == ReportStatus::MISSING);
 		references.clear();
 		if (needs_reference) {
@@ -256,7 +257,7 @@ private:
 	Report report;
 	const ReportMachine machine;
 	std::vector<TracedReference> references; // of the configuration that is running, its own first
-	std::set<std::string> measured;	 // records of this run
+	std::set<std::string> measured;			 // records of this run
 	size_t left_count = 0;
 	size_t done_count = 0;
 	Progress progress{ "Report" };

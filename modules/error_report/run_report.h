@@ -19,8 +19,9 @@ struct ReportRunOptions {
 	uint32_t shard_count = 1;
 };
 
-/// Measures what the plan requests and keeps each result in the store at once. A reference or cell that
-/// fails is marked and the rest goes on; a lost device ends it with DeviceLost. Shows its progress.
+/// Measures what the plan requests and keeps each result in the store at once. A reference or cell
+/// that fails is marked and the rest goes on; a lost device ends it with DeviceLost. Shows its
+/// progress.
 Report run_report(const ReportPlan &p_plan, MaskSource &r_source, RecordStore &r_store,
 		const ReportRunOptions &p_options);
 

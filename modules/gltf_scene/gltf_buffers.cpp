@@ -65,7 +65,8 @@ bool is_data_uri(std::string_view p_uri) {
 	return p_uri.starts_with("data:");
 }
 
-fs::path resolve_uri(std::string_view p_uri, const GltfLocation &p_location, const GltfObject &p_object) {
+fs::path resolve_uri(
+		std::string_view p_uri, const GltfLocation &p_location, const GltfObject &p_object) {
 	const auto refuse = [&](const char *p_problem) {
 		p_object.fail_at("uri",
 				text("is \"", to_one_line(p_uri), "\", ", p_problem,
@@ -80,7 +81,8 @@ fs::path resolve_uri(std::string_view p_uri, const GltfLocation &p_location, con
 	}
 	fs::path relative(*decoded);
 	std::error_code code;
-	if (decoded->find('\\') != std::string::npos && !fs::exists(p_location.folder / relative, code)) {
+	if (decoded->find('\\') != std::string::npos &&
+			!fs::exists(p_location.folder / relative, code)) {
 		// Converters write the paths of Windows, against the standard.
 		std::string separated = *decoded;
 		std::replace(separated.begin(), separated.end(), '\\', '/');

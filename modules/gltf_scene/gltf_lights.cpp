@@ -251,7 +251,8 @@ bool read_light(const tinygltf::Model &p_model, const GltfLightSources &p_source
 	for (const size_t node : p_sources.nodes) {
 		add_extras(p_model.nodes[node].extras, text("nodes[", node, "]"));
 	}
-	const bool has_area_size = p_sources.area && read_area_size(*p_sources.area, r_light.properties);
+	const bool has_area_size =
+			p_sources.area && read_area_size(*p_sources.area, r_light.properties);
 	for (const PropertyInfo &info : Light3D::get_property_list().get_properties()) {
 		if (!(has_area_size && info.name == "light_size")) {
 			read_declared_property(info, all_extras, r_light.properties);

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-/// Three indices per triangle, wound as glTF 2.0, 3.7.2.1 defines; an incomplete last one is skipped,
-/// and so are triangles that a strip only makes to jump.
+/// Three indices per triangle, wound as glTF 2.0, 3.7.2.1 defines; an incomplete last one is
+/// skipped, and so are triangles that a strip only makes to jump.
 std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode) {
 	if (p_mode == TINYGLTF_MODE_TRIANGLES) {
 		p_indices.resize(p_indices.size() / 3 * 3);

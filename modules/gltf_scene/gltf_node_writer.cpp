@@ -69,8 +69,9 @@ std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *
 		return std::nullopt;
 	}
 	const size_t file_index = static_cast<size_t>(p_node.file_index);
-	const bool is_in_file = document && p_node.file_index >= 0 && file_index < document->nodes.size() &&
-			document->nodes[file_index].is_loaded && taken.insert(file_index).second;
+	const bool is_in_file = document && p_node.file_index >= 0 &&
+			file_index < document->nodes.size() && document->nodes[file_index].is_loaded &&
+			taken.insert(file_index).second;
 	entry.is_new = !is_in_file;
 	entry.index = file_index;
 	if (entry.is_new) {

@@ -23,7 +23,8 @@ void copy_uri(const GltfObject &p_object, const GltfLocation &p_location, bool p
 		return;
 	}
 	try {
-		const fs::path path = resolve_uri(uri->get_ref<const std::string &>(), p_location, p_object);
+		const fs::path path =
+				resolve_uri(uri->get_ref<const std::string &>(), p_location, p_object);
 		std::vector<uint8_t> bytes = load_file(path, GLTF_MAX_FILE_BYTES);
 		r_json["uri"] = encode_uri(r_files.add(path.filename().string(), std::move(bytes)));
 	} catch (const Error &error) {

@@ -9,8 +9,8 @@
 namespace gnomon {
 
 /// Where Godot's base materials with alpha scissor, hash or depth prepass are there: their albedo's
-/// alpha, texture, threshold, and how the texture is mapped to the mesh. Hash and depth prepass, which
-/// have no threshold, count as one of a half. Main thread only.
+/// alpha, texture, threshold, and how the texture is mapped to the mesh. Hash and depth prepass,
+/// which have no threshold, count as one of a half. Main thread only.
 class CutOutMaterials {
 public:
 	/// The same material until something of it changes. Null: the holes cannot be read, as the

@@ -12,7 +12,8 @@ namespace {
 
 const uint64_t MAX_UNUSED_FRAMES = 600;
 
-/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh return it without a copy from the GPU.
+/// How a surface joins its vertices. ArrayMesh and PrimitiveMesh return it without a copy from the
+/// GPU.
 int64_t find_primitive(const godot::Mesh &p_mesh, int64_t p_surface) {
 	if (const auto array_mesh = godot::cast<godot::ArrayMesh>(p_mesh)) {
 		return array_mesh.surface_get_primitive_type(p_surface);
@@ -154,7 +155,8 @@ bool MeshReader::is_cut_ready(const std::shared_ptr<const Mesh> &p_cut) {
 void MeshReader::forget_unused() {
 	++frame;
 	std::erase_if(entries, [&](const auto &p_entry) {
-		return !p_entry.second.watched->is_alive() || frame - p_entry.second.last_use > MAX_UNUSED_FRAMES;
+		return !p_entry.second.watched->is_alive() ||
+				frame - p_entry.second.last_use > MAX_UNUSED_FRAMES;
 	});
 	std::erase_if(cut, [](const auto &p_entry) { return p_entry.second.expired(); });
 	worker.forget_unused();

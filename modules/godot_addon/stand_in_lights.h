@@ -9,8 +9,8 @@
 namespace gnomon {
 
 /// A light of the RenderingServer that shines instead of a Light3D, with the same values but for
-/// two: the last bits of its specular amount encode for materials which light it is, and its shadow is
-/// Gnomon's. The node, its properties and the scene that is saved stay as they are. Main thread
+/// two: the last bits of its specular amount encode for materials which light it is, and its shadow
+/// is Gnomon's. The node, its properties and the scene that is saved stay as they are. Main thread
 /// only.
 class StandInLight {
 public:

@@ -116,8 +116,8 @@ GodotView read_view(const godot::RenderData &p_data, const godot::RenderSceneBuf
 
 ReducedInstances find_reduced_instances(
 		const ScenarioFrame &p_frame, const SceneSnapshot &p_scene, const GodotView &p_view) {
-	// Godot does not report which viewport it draws: the camera identifies it. One that Godot itself moves
-	// between frames has none.
+	// Godot does not report which viewport it draws: the camera identifies it. One that Godot
+	// itself moves between frames has none.
 	const auto found = std::find_if(p_frame.views.begin(), p_frame.views.end(),
 			[&](const ViewDetail &p_detail) { return p_detail.camera == p_view.camera_transform; });
 	const ViewDetail detail = found != p_frame.views.end() ? *found

@@ -142,7 +142,8 @@ Json list_info(bool p_as_text, const CommonOptions &p_common) {
 struct ListCommand {
 	const char *id;
 	const char *description;
-	Json (*list)(bool p_as_text, const CommonOptions &p_common); // prints it where text is requested
+	Json (*list)(
+			bool p_as_text, const CommonOptions &p_common); // prints it where text is requested
 };
 const ListCommand LIST_COMMANDS[] = {
 	{ "techniques", "Shadow techniques and their properties", &list_techniques },

@@ -106,11 +106,13 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	const size_t failed_count = p_report.count(ReportStatus::FAILED);
 	const size_t missing_count = p_report.count(ReportStatus::MISSING);
 	if (failed_count > 0) {
-		fail(failed_count, " references or cells failed; the page lists which and why. Mend that, then ",
+		fail(failed_count,
+				" references or cells failed; the page lists which and why. Mend that, then ",
 				"go on with --resume.");
 	}
 	if (missing_count > 0 && p_missing == MissingCells::REFUSED) {
-		fail(missing_count, " references or cells are missing. Run the other shards, or go on with ",
+		fail(missing_count,
+				" references or cells are missing. Run the other shards, or go on with ",
 				"--resume.");
 	}
 	if (!is_no_worse) {

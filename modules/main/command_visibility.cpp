@@ -123,7 +123,8 @@ void run_visibility(const VisibilityOptions &p_options, const CommonOptions &p_c
 	}
 	if (!p_options.time.empty()) {
 		request.may_reuse = p_options.is_still;
-		// The reference takes seconds a frame and no one draws with it: one frame measures what it costs.
+		// The reference takes seconds a frame and no one draws with it: one frame measures what it
+		// costs.
 		const bool is_reference = ShadowRegistry::get(p_options.technique).is_reference;
 		save_file_atomically(p_options.time,
 				measure_time(renderer, request,

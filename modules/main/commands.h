@@ -42,8 +42,8 @@ uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
 /// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
-/// project's disabled modules are switched off. It is staged as the command line states, for an image
-/// of that size.
+/// project's disabled modules are switched off. It is staged as the command line states, for an
+/// image of that size.
 std::unique_ptr<Scene> load_scene(
 		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
 /// `--animation` and `--at`, for a command that draws scenes.

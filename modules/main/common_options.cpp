@@ -143,7 +143,7 @@ std::unique_ptr<Scene> load_scene(
 		const fs::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	const ProjectScene found = find_project_scene(p_path);
 	disable_modules(found.project);
-	apply_technique_settings(place.project);
+	apply_technique_settings(found.project);
 	GltfLoadOptions options;
 	options.project_folder = found.project.folder;
 	options.find_technique_property = &find_added_light_property;

@@ -27,8 +27,8 @@ MaskTiming measure_mask_timing(Renderer &r_renderer, RenderRequest p_request,
 		const MeasureLimits &p_limits, const std::function<void(double)> &p_progress);
 
 /// As measure_mask_timing, with whole frames in addition, in the form of `visibility --time`
-/// (doc/command_line.md). p_make_snapshot: reads the tree of nodes, each of those frames again, as a
-/// game does; empty: the request's scene stays.
+/// (doc/command_line.md). p_make_snapshot: reads the tree of nodes, each of those frames again, as
+/// a game does; empty: the request's scene stays.
 std::string measure_time(Renderer &r_renderer, RenderRequest p_request, uint32_t p_warm_up_count,
 		uint32_t p_count, const RunPart::SnapshotMaker &p_make_snapshot);
 

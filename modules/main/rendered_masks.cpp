@@ -62,7 +62,8 @@ ReportMachine RenderedMasks::get_machine() const {
 	return { info.name, info.driver, find_cpu_name(), std::thread::hardware_concurrency() };
 }
 
-TracedReference RenderedMasks::trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) {
+TracedReference RenderedMasks::trace_reference(
+		const MaskQuestion &p_question, uint32_t p_sample_count) {
 	const ShadowTechniqueInfo &reference = get_reference();
 	const std::string samples = reference.id + SAMPLES_ENDING;
 	if (!ShadowRegistry::get_light_properties(reference.id).find(samples)) {

@@ -18,7 +18,8 @@ public:
 			device(p_device), median_error(p_median_error) {}
 
 	ReportMachine get_machine() const override;
-	TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) override;
+	TracedReference trace_reference(
+			const MaskQuestion &p_question, uint32_t p_sample_count) override;
 	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override;
 	DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override;

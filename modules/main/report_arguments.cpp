@@ -160,7 +160,8 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
 		names.push_back(name);
-		if (requested.empty() || std::find(requested.begin(), requested.end(), name) != requested.end()) {
+		if (requested.empty() ||
+				std::find(requested.begin(), requested.end(), name) != requested.end()) {
 			selected.scenes.push_back({ name, file });
 		}
 	}

@@ -14,8 +14,8 @@ namespace {
 
 constexpr float PENUMBRA_MINIMUM = 0.002f;
 constexpr float PENUMBRA_MAXIMUM = 0.998f;
-constexpr float UMBRA_OVER_REFERENCE = 0.05f;  // visibly lit in the reference ...
-constexpr float UMBRA_OVER_RESULT = 0.01f; // ... and black in the result
+constexpr float UMBRA_OVER_REFERENCE = 0.05f; // visibly lit in the reference ...
+constexpr float UMBRA_OVER_RESULT = 0.01f;	  // ... and black in the result
 constexpr double PERCENTILE = 0.99;
 constexpr float WRONG_ERROR = 0.2f; // a float as masks are: 0.2f before 0 does not exceed it
 
@@ -52,8 +52,9 @@ void check_pair(const MaskImage &p_reference, const MaskImage &p_result,
 	}
 	if (different_count > 0) {
 		fail("Masks differ in their receivers: ", different_count, " pixels, the first at (",
-				first % p_reference.size_px.x, ", ", first / p_reference.size_px.x, "), of ", p_reference_name,
-				" and ", p_result_name, ". Render both with the same scene, light and camera.");
+				first % p_reference.size_px.x, ", ", first / p_reference.size_px.x, "), of ",
+				p_reference_name, " and ", p_result_name,
+				". Render both with the same scene, light and camera.");
 	}
 }
 
@@ -141,8 +142,8 @@ MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &
 TemporalMetrics compute_temporal_metrics(
 		std::span<const MaskImage> p_reference, std::span<const MaskImage> p_result) {
 	if (p_reference.size() != p_result.size()) {
-		fail("Sequences differ in length: ", p_reference.size(), " reference frames, ", p_result.size(),
-				" of the result. Render both with the same --frames.");
+		fail("Sequences differ in length: ", p_reference.size(), " reference frames, ",
+				p_result.size(), " of the result. Render both with the same --frames.");
 	}
 	for (size_t frame = 0; frame < p_reference.size(); ++frame) {
 		check_pair(p_reference[frame], p_result[frame], text("reference, frame ", frame),
@@ -167,7 +168,8 @@ TemporalMetrics compute_temporal_metrics(
 					static_cast<double>(after.visibility[i]) - before.visibility[i];
 			const double result_change = static_cast<double>(p_result[frame].visibility[i]) -
 					p_result[frame - 1].visibility[i];
-			const double square = (result_change - reference_change) * (result_change - reference_change);
+			const double square =
+					(result_change - reference_change) * (result_change - reference_change);
 			receiver_sum += square;
 			++metrics.receiver_pixel_count;
 			if (is_penumbra(before.visibility[i]) || is_penumbra(after.visibility[i])) {

@@ -28,7 +28,8 @@ bool is_penumbra(float p_reference);
 struct MaskMetrics {
 	ErrorMetrics receiver; // pixels whose surface faces the light, in its cone and range
 	ErrorMetrics penumbra; // of those the ones whose reference is in (0.002, 0.998)
-	/// Umbra over-estimation: of the penumbra pixels with reference > 0.05, the share shown below 0.01.
+	/// Umbra over-estimation: of the penumbra pixels with reference > 0.05, the share shown below
+	/// 0.01.
 	double umbra_over = 0;
 };
 
@@ -44,7 +45,8 @@ struct TemporalMetrics {
 /// Different sizes or receiver masks, and values that are not finite, are an Error: these two
 /// images do not answer the same question. The names are used for the images in messages.
 MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &p_result,
-		const std::string &p_reference_name = "reference", const std::string &p_result_name = "result");
+		const std::string &p_reference_name = "reference",
+		const std::string &p_result_name = "result");
 
 /// Frame k of one sequence against frame k of the other; all frames of one size. Fewer than two
 /// frames: all 0. Errors as in compute_mask_metrics, and sequences of different length.

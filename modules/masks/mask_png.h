@@ -20,8 +20,8 @@ void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image
 
 /// Result minus reference in the colours of shared/heat_map_shared.h, as the renderer's error view.
 /// Errors as in compute_mask_metrics.
-void save_error_png(
-		const std::filesystem::path &p_path, const MaskImage &p_reference, const MaskImage &p_result);
+void save_error_png(const std::filesystem::path &p_path, const MaskImage &p_reference,
+		const MaskImage &p_result);
 
 /// The colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
 std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count);

@@ -71,8 +71,7 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 		const auto bits = std::bit_cast<std::array<uint32_t, 3>>(position);
 		const uint64_t motion = rig ? rig->compute_vertex_hash(index) : 0;
 		const auto [vertex, is_new] = vertices.emplace(
-				Bits{ bits[0], bits[1], bits[2], uint32_t(motion), uint32_t(motion >> 32) },
-				next);
+				Bits{ bits[0], bits[1], bits[2], uint32_t(motion), uint32_t(motion >> 32) }, next);
 		welded = vertex->second;
 		if (is_new) {
 			r_topology.welded_positions_node.push_back(position);

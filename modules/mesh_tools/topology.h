@@ -66,7 +66,8 @@ struct MeshPart {
 struct TopologyCounts {
 	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; not in the topology
 	uint32_t zero_area_triangle_count = 0;	// three vertices on a line; retained, they close gaps
-	uint32_t duplicate_triangle_count = 0;	// copies beyond the first, whatever their winding; retained
+	uint32_t duplicate_triangle_count =
+			0; // copies beyond the first, whatever their winding; retained
 	uint32_t boundary_edge_count = 0;
 	uint32_t inconsistent_edge_count = 0;
 	uint32_t non_manifold_edge_count = 0; // pairs of vertices joined by more than two faces
@@ -75,8 +76,8 @@ struct TopologyCounts {
 	uint32_t closed_part_count = 0;
 };
 
-/// Edges and neighbours of a mesh. "Face" and triangle index mean the retained triangles, in the mesh's
-/// order; lengths in metres, node space.
+/// Edges and neighbours of a mesh. "Face" and triangle index mean the retained triangles, in the
+/// mesh's order; lengths in metres, node space.
 struct MeshTopology {
 	std::vector<uint32_t> welded_from_position; // per mesh position; NO_VERTEX where unused
 	std::vector<glm::vec3> welded_positions_node;
@@ -118,9 +119,9 @@ struct MeshTopology {
 /// indices valid, as make_mesh guarantees; a bad index is a programming error.
 MeshTopology build_topology(const Mesh &p_mesh);
 
-/// As build_topology, cached as long as the mesh lives; of a mesh that poses deform, that of its mesh
-/// at rest. A mesh with id 0 (not from make_mesh) is
-/// rebuilt each time. Callable from any thread; one mesh is built only once.
+/// As build_topology, cached as long as the mesh lives; of a mesh that poses deform, that of its
+/// mesh at rest. A mesh with id 0 (not from make_mesh) is rebuilt each time. Callable from any
+/// thread; one mesh is built only once.
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
 /// Frees what get_topology caches of meshes that are gone. From any thread.
 void drop_unused_topologies();

@@ -20,8 +20,9 @@ ShadowTechnique::DebugView add_error_view(
 		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference) {
 	const glm::uvec2 size_px = p_image.size_px;
 	if (p_reference.size_px != size_px) {
-		fail("The reference has ", p_reference.size_px.x, " x ", p_reference.size_px.y, " pixels, the frame ",
-				size_px.x, " x ", size_px.y, ". Make both with the same --size.");
+		fail("The reference has ", p_reference.size_px.x, " x ", p_reference.size_px.y,
+				" pixels, the frame ", size_px.x, " x ", size_px.y,
+				". Make both with the same --size.");
 	}
 	std::vector<float> reference = p_reference.visibility;
 	for (size_t pixel = 0; pixel < reference.size(); ++pixel) {

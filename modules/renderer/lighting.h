@@ -14,7 +14,7 @@ struct LitImage {
 	RenderGraph &graph;
 	RenderingDevice &device;
 	GBuffer gbuffer;
-	RGBuffer frame; // FrameConstants
+	RGBuffer frame;						// FrameConstants
 	glm::uvec2 size_px = glm::uvec2(0); // as it is drawn
 	uint32_t antialiasing = 1;			// so many texels a side make a pixel
 	float exposure = 1.0f;

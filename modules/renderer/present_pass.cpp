@@ -20,8 +20,7 @@ void add_present_pass(RenderGraph &r_graph, RGTexture p_image,
 				desc.color_formats = { window.format }; // known now that there is an image
 				desc.has_depth = desc.has_stencil = false;
 				shader::PresentPush push = {};
-				push.image_px_per_window_px =
-						glm::vec2(image_size_px) / glm::vec2(window.size_px);
+				push.image_px_per_window_px = glm::vec2(image_size_px) / glm::vec2(window.size_px);
 				p_context.commands.bind_pipeline(device.get_raster_pipeline(desc));
 				p_context.commands.bind_resources(
 						{ { PRESENT_BINDING_IMAGE, p_context.get(p_image) } });

@@ -103,7 +103,8 @@ LightShadow Renderer::add_light(Frame &r_frame, const LightSnapshot &p_light) {
 	if (is_shown) {
 		r_frame.debug_views = shadow.debug_views;
 		if (request.reference) {
-			r_frame.debug_views.push_back(add_error_view(r_frame.image, shadow, *request.reference));
+			r_frame.debug_views.push_back(
+					add_error_view(r_frame.image, shadow, *request.reference));
 		}
 	}
 	return shadow;

@@ -57,7 +57,8 @@ struct RenderRequest {
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
 	/// False: runs everything, also what the image does not need (for the test that compares both).
 	bool may_skip = true;
-	/// False: techniques use nothing that they cached of earlier frames, as if everything had moved.
+	/// False: techniques use nothing that they cached of earlier frames, as if everything had
+	/// moved.
 	bool may_reuse = true;
 	/// True: shadows make geometric normals from the depth, as for a host that draws none.
 	bool has_depth_alone = false;

@@ -2,9 +2,9 @@
 
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device/slot_table.h"
+#include "modules/rendering_device/spirv_reflection.h"
 #include "modules/rendering_device_vulkan/injected_fault.h"
 #include "modules/rendering_device_vulkan/memory_allocator.h"
-#include "modules/rendering_device/spirv_reflection.h"
 #include "modules/rendering_device_vulkan/vulkan_command_list.h"
 #include "modules/rendering_device_vulkan/vulkan_handles.h"
 #include "modules/rendering_device_vulkan/vulkan_instance.h"
@@ -40,7 +40,8 @@ struct TextureResource {
 	Allocation memory; // empty when placed, or the swapchain's
 	MemoryRID placed_in;
 	bool is_swapchain = false;
-	/// After the commands recorded so far. Lets an attachment be read-only without declaring it twice.
+	/// After the commands recorded so far. Lets an attachment be read-only without declaring it
+	/// twice.
 	VkImageLayout recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 	std::vector<TextureView> views; // made when first needed
 };

@@ -12,8 +12,8 @@ namespace {
 const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
 const double ALPHA_SUM_OF_ONE = 4 * 255.0;
 
-/// The positions along one axis where alpha is looked up: the tile's border and the texels' centres,
-/// and one beyond either end where nothing is there, which closes what reaches the border.
+/// The positions along one axis where alpha is looked up: the tile's border and the texels'
+/// centres, and one beyond either end where nothing is there, which closes what reaches the border.
 class NodeAxis {
 public:
 	NodeAxis(uint32_t p_texel_count, TextureWrap p_wrap) :
@@ -113,7 +113,8 @@ glm::ivec2 ContourFinder::get_crossing(
 	}
 	const glm::ivec2 a(
 			columns.get_position(p_x + CORNER_X[from]), rows.get_position(p_y + CORNER_Y[from]));
-	const glm::ivec2 b(columns.get_position(p_x + CORNER_X[to]), rows.get_position(p_y + CORNER_Y[to]));
+	const glm::ivec2 b(
+			columns.get_position(p_x + CORNER_X[to]), rows.get_position(p_y + CORNER_Y[to]));
 	const int length = (b.x - a.x) + (b.y - a.y);
 	if (length == 0 || p_alphas[from] < 0 || p_alphas[to] < 0) {
 		return p_alphas[from] < 0 ? b : a;

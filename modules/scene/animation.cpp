@@ -210,7 +210,8 @@ std::shared_ptr<const Animation> find_animation(const Scene &p_scene, const std:
 		}
 		names += index >= SHOWN_COUNT ? "" : (index == 0 ? "\"" : ", \"") + name + "\"";
 	}
-	const std::string subject = p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
+	const std::string subject =
+			p_scene.path.empty() ? "The scene" : "Scene \"" + p_scene.path + "\"";
 	if (names.empty()) {
 		fail(subject, " has no animation \"", p_name, "\", and no other. Leave the name out.");
 	}

@@ -9,8 +9,9 @@
 
 namespace gnomon {
 
-/// How opaque surfaces reflect. METALLIC_ROUGHNESS: as glTF defines it (Lambert and GGX). PHONG: Phong
-/// 1975, whose lobe is as wide as the roughness states; for images like those of older papers.
+/// How opaque surfaces reflect. METALLIC_ROUGHNESS: as glTF defines it (Lambert and GGX). PHONG:
+/// Phong 1975, whose lobe is as wide as the roughness states; for images like those of older
+/// papers.
 enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 
 /// MASK: a surface is there where its alpha is at least the cutoff, and nowhere else. BLEND is

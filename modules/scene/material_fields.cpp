@@ -107,8 +107,8 @@ std::vector<NodeField> make_material_fields() {
 				"roughness", 1.0, SHARES, "How wide highlights are; 0 is a mirror."),
 		{ make_info("shading_model", PropertyType::ENUM, std::string("metallic_roughness"),
 				  "metallic_roughness,phong",
-				  "How an opaque surface reflects: as glTF defines it, or as Phong did in 1975.", "",
-				  GROUP),
+				  "How an opaque surface reflects: as glTF defines it, or as Phong did in 1975.",
+				  "", GROUP),
 				&read_shading_model, &write_shading_model, &has_material },
 		make_number_field<&Material::scatter>("scatter", 0.0, SHARES,
 				"How much light spreads below the surface, which softens shadows on it; 0 is "

@@ -40,7 +40,8 @@ std::vector<glm::vec3> move_points(
 	for (const TrianglePoint &point : p_pieces.source.points) {
 		glm::dvec3 position(0.0);
 		for (int corner = 0; corner < 3; ++corner) {
-			position += double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
+			position +=
+					double(point.shares[corner]) * glm::dvec3(p_positions[point.corners[corner]]);
 		}
 		moved.emplace_back(position);
 	}

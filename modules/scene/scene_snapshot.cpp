@@ -46,8 +46,8 @@ glm::dvec3 find_longest_cross(const glm::dmat3 &p_matrix) {
 	return longest;
 }
 
-/// A transform that presses a node flat, as a scale of 0 does, leaves a flat mesh that casts shadows;
-/// but its faces have no sides any more. It gets the least thickness that has them.
+/// A transform that presses a node flat, as a scale of 0 does, leaves a flat mesh that casts
+/// shadows; but its faces have no sides any more. It gets the least thickness that has them.
 void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	const double THICKNESS = 1e-6; // of the longest axis
 	const double ROUNDING = 1e-14;

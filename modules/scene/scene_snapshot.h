@@ -105,8 +105,8 @@ InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,
 		const std::string &p_node_name);
 
-/// Rotation of a transform: the axis that is looked or shone along is preserved exactly, as a scale that
-/// is not uniform bends the others. Right-handed even when the transform mirrors. One without
+/// Rotation of a transform: the axis that is looked or shone along is preserved exactly, as a scale
+/// that is not uniform bends the others. Right-handed even when the transform mirrors. One without
 /// orientation is an Error that begins with the kind and the name: "Light", "Camera".
 glm::dmat3 compute_orientation(
 		const glm::dmat4 &p_world_from_node, const char *p_kind, const std::string &p_name);

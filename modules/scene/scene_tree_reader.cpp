@@ -120,15 +120,16 @@ private:
 			if (!surface.mesh || surface.mesh->indices.empty() || !surface.mesh->attributes.rig) {
 				continue;
 			}
-			SkinTransforms transforms =
-					compute_surface_transforms(p_node, *surface.mesh, p_world_from_node, world_from_nodes);
+			SkinTransforms transforms = compute_surface_transforms(
+					p_node, *surface.mesh, p_world_from_node, world_from_nodes);
 			const std::vector<float> &weights =
 					is_posed ? p_node.get_morph_weights() : p_node.morph_weights;
 			const std::string object = text("Node \"", p_node.name, "\"");
 			InstanceSnapshot &instance = add_instance(p_node, surface, transforms.world_from_mesh);
 			if (is_posed) {
 				const std::shared_ptr<PoseSlot> slot = p_node.get_pose_slot(surface.mesh);
-				instance.set_pose(slot, slot->make_pose(std::move(transforms.joints), weights, object));
+				instance.set_pose(
+						slot, slot->make_pose(std::move(transforms.joints), weights, object));
 			} else {
 				const MeshPose pose(surface.mesh, std::move(transforms.joints), weights, object);
 				instance.bounds_world =

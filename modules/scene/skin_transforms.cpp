@@ -32,7 +32,8 @@ WorldTransforms compute_world_transforms(const Node3D &p_root) {
 	return transforms;
 }
 
-SkinTransforms compute_skin_transforms(const Skin &p_skin, const WorldTransforms &p_world_from_nodes) {
+SkinTransforms compute_skin_transforms(
+		const Skin &p_skin, const WorldTransforms &p_world_from_nodes) {
 	SkinTransforms transforms;
 	const auto frame = p_world_from_nodes.find(p_skin.frame);
 	if (frame != p_world_from_nodes.end() && has_inverse(frame->second)) {
@@ -53,8 +54,9 @@ SkinTransforms compute_skin_transforms(const Skin &p_skin, const WorldTransforms
 SkinTransforms compute_surface_transforms(const MeshInstance3D &p_node, const Mesh &p_mesh,
 		const glm::dmat4 &p_world_from_node, const WorldTransforms &p_world_from_nodes) {
 	const MeshRig *rig = p_mesh.attributes.rig.get();
-	return p_node.skin && rig && rig->joint_count > 0 ? compute_skin_transforms(*p_node.skin, p_world_from_nodes)
-													  : SkinTransforms{ p_world_from_node, {} };
+	return p_node.skin && rig && rig->joint_count > 0
+			? compute_skin_transforms(*p_node.skin, p_world_from_nodes)
+			: SkinTransforms{ p_world_from_node, {} };
 }
 
 } // namespace gnomon

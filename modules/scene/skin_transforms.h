@@ -21,7 +21,8 @@ struct SkinTransforms {
 };
 /// A frame that is not there any more, or has no inverse, is the world; a joint that is not there
 /// any more rests in the frame.
-SkinTransforms compute_skin_transforms(const Skin &p_skin, const WorldTransforms &p_world_from_nodes);
+SkinTransforms compute_skin_transforms(
+		const Skin &p_skin, const WorldTransforms &p_world_from_nodes);
 
 /// Where a surface of the node is: with its skin where it has joints, else where the node is, with
 /// no joints.

@@ -51,14 +51,15 @@ glm::dvec3 project_to_ground(
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
 }
 
-/// The nearest position from which an image, square or narrower, shows all points with the margin, for
-/// a camera that looks along -TO_CAMERA. Its up is y.
+/// The nearest position from which an image, square or narrower, shows all points with the margin,
+/// for a camera that looks along -TO_CAMERA. Its up is y.
 glm::dvec3 find_camera_position(const std::vector<glm::dvec3> &p_points, double p_aspect) {
 	const glm::dmat3 world_from_view(look_at(TO_CAMERA, glm::dvec3(0.0)));
 	const glm::dvec2 slope =
 			std::tan(CAMERA_FOV_RAD / 2) / CAMERA_MARGIN * glm::dvec2(std::min(p_aspect, 1.0), 1.0);
-	// Seen where |x - position.x| <= slope.x * (position.z - z), and the same for y: each point bounds
-	// position.x + slope.x * position.z from below and position.x - slope.x * position.z from above.
+	// Seen where |x - position.x| <= slope.x * (position.z - z), and the same for y: each point
+	// bounds position.x + slope.x * position.z from below and position.x - slope.x * position.z
+	// from above.
 	glm::dvec2 least(-std::numeric_limits<double>::infinity());
 	glm::dvec2 greatest(std::numeric_limits<double>::infinity());
 	for (const glm::dvec3 &point : p_points) {

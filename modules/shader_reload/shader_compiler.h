@@ -17,8 +17,8 @@ ShaderSource find_shader_source(const std::string &p_name);
 /// The SPIR-V of an entry point, compiled as at build time. p_name: its path below p_folder, which
 /// is also where includes are looked for, with the name of a variant if it is one; the ending names
 /// the stage: .vert, .geom, .frag, .comp.
-/// What the compiler reports, line by line with file and line number, is the text of an Error; so are
-/// a missing file and another ending. Any thread.
+/// What the compiler reports, line by line with file and line number, is the text of an Error; so
+/// are a missing file and another ending. Any thread.
 std::vector<uint32_t> compile_shader(
 		const std::filesystem::path &p_folder, const std::string &p_name);
 

@@ -61,10 +61,10 @@ void ShadowEdgeCount::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	CountCasters casters = build_count_casters(p_inputs, settings.disc_radius);
 	// A block may list an edge in each of its views.
 	may_filter = settings.has_budget() &&
-			(uint64_t(casters.edge_count) * view_count > settings.budget ||
-					!p_inputs.may_skip);
+			(uint64_t(casters.edge_count) * view_count > settings.budget || !p_inputs.may_skip);
 	// Only the filter reads beyond the view of a receiver.
-	views.begin(p_inputs, may_filter ? CachedViews::Reads::ACROSS_VIEWS : CachedViews::Reads::OWN_VIEW);
+	views.begin(
+			p_inputs, may_filter ? CachedViews::Reads::ACROSS_VIEWS : CachedViews::Reads::OWN_VIEW);
 	has_casters = casters.face_count > 0;
 	if (views.is_all_empty() || !has_casters) {
 		if (views.may_forget() || !has_casters) {
@@ -122,8 +122,7 @@ void ShadowEdgeCount::plan_casters(TechniquePlan &r_plan) {
 	if (drawn.casters.may_cut_disc) {
 		r_plan.run("faces that cut the light's disc");
 	} else if (drawn.disc_radius > 0) {
-		r_plan.skip(
-				"faces that cut the light's disc", "no caster comes so near to its centre");
+		r_plan.skip("faces that cut the light's disc", "no caster comes so near to its centre");
 	}
 	if (!is_node_count_known()) {
 		r_plan.run("face lists with larger texels, where there is no room");

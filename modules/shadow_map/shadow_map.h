@@ -6,7 +6,8 @@ namespace gnomon {
 
 /// Depth seen from the light's centre, compared per pixel: hard, or the mean over n x n texels.
 /// Blind to the light's size. Receivers are compared with their own plane at the texel's centre, so
-/// that no depth bias has to be tuned. A map is cached while neither its view nor its casters change.
+/// that no depth bias has to be tuned. A map is cached while neither its view nor its casters
+/// change.
 class ShadowMap : public DepthMapTechnique {
 public:
 	ShadowMap() :

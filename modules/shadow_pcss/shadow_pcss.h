@@ -11,8 +11,8 @@ namespace gnomon {
 class ShadowPcss : public DepthMapTechnique {
 public:
 	ShadowPcss() :
-			DepthMapTechnique(
-					"shadow_pcss/resolve.comp", "pcss_map_size", CachedViews::Reads::ACROSS_VIEWS) {}
+			DepthMapTechnique("shadow_pcss/resolve.comp", "pcss_map_size",
+					CachedViews::Reads::ACROSS_VIEWS) {}
 	ShadowLimits get_limits(const PropertyValues &p_properties) const override;
 	void get_light_properties(PropertyList &r_list) const override;
 	void get_quality_settings(

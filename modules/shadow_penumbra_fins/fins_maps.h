@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// The textures of one light, cached from frame to frame: depth layers and penumbra maps, one texture
-/// layer per light view.
+/// The textures of one light, cached from frame to frame: depth layers and penumbra maps, one
+/// texture layer per light view.
 class FinsMaps {
 public:
 	/// Makes what these settings need where it is not there yet, and frees the rest. Returns false

@@ -5,8 +5,8 @@
 
 namespace gnomon {
 
-/// What shadows are drawn into: a mask, R16_SFLOAT, and a stencil that marks where the plane in hand
-/// is seen and not yet dark.
+/// What shadows are drawn into: a mask, R16_SFLOAT, and a stencil that marks where the plane in
+/// hand is seen and not yet dark.
 struct PlanarTargets {
 	RGTexture mask;
 	RGTexture stencil; // D32_SFLOAT_S8_UINT; its depth is not used

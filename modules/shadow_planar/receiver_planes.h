@@ -21,7 +21,7 @@ struct ReceiverPlanes {
 	std::vector<ReceiverPlane> planes; // largest first
 	uint32_t declared_count = 0;	   // instances that are declared flat
 	uint32_t unfit_count = 0;		   // of them: lit, but without a plane
-	uint32_t skipped_count = 0;	   // planes beyond the most that are drawn
+	uint32_t skipped_count = 0;		   // planes beyond the most that are drawn
 };
 
 /// The planes of the instances whose `shadow_planar_receiver` is set, as far as they face

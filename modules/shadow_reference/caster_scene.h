@@ -31,9 +31,10 @@ public:
 			std::span<const TranslucentTriangles> p_translucent = {},
 			std::span<const CutOutTriangles> p_cut_out = {});
 
-	/// The definition of the reference (exact area-light visibility, float32): the share of the rays from
-	/// P, moved by 5e-5 S along its geometric normal, to stratified points of the light's disc that
-	/// meet no triangle. Triangles have two sides. Those at the disc and behind it do not occlude.
+	/// The definition of the reference (exact area-light visibility, float32): the share of the
+	/// rays from P, moved by 5e-5 S along its geometric normal, to stratified points of the light's
+	/// disc that meet no triangle. Triangles have two sides. Those at the disc and behind it do not
+	/// occlude.
 	///
 	/// One v per point; points are the rows of an image of p_size_px. A light or an option out of
 	/// range is an Error. A point that is not finite, or whose normal is not, has v = 0; one

@@ -40,7 +40,8 @@ std::vector<uint32_t> keep_finite(
 			are_finite = are_finite && is_finite(p_positions[index]);
 		}
 		if (are_finite) {
-			finite_indices.insert(finite_indices.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
+			finite_indices.insert(
+					finite_indices.end(), &p_triangle_indices[i], &p_triangle_indices[i] + 3);
 		}
 	}
 	return finite_indices;
@@ -175,7 +176,8 @@ void EmbreeScene::add(std::span<const glm::vec3> p_positions,
 				RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), finite_indices.size() / 3);
 		if (vertices != nullptr && indices != nullptr) {
 			std::copy(p_positions.begin(), p_positions.end(), static_cast<glm::vec3 *>(vertices));
-			std::copy(finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
+			std::copy(
+					finite_indices.begin(), finite_indices.end(), static_cast<uint32_t *>(indices));
 		}
 	}
 	if (p_hits == Hits::RECORD) {

@@ -66,7 +66,8 @@ std::optional<ReferenceVisibility> parse_reference_entry(
 	copy_bytes(reference.visibility.data(), p_bytes.data() + sizeof(header), value_bytes);
 	if (p_is_colored) {
 		reference.colors.resize(p_pixel_count);
-		copy_bytes(reference.colors.data(), p_bytes.data() + sizeof(header) + value_bytes, color_bytes);
+		copy_bytes(reference.colors.data(), p_bytes.data() + sizeof(header) + value_bytes,
+				color_bytes);
 	}
 	return reference;
 }
@@ -75,7 +76,8 @@ void save_reference(uint64_t p_key, const ReferenceVisibility &p_reference) {
 	save_cache_entry(get_entry_name(p_key), build_reference_entry(p_key, p_reference));
 }
 
-std::optional<ReferenceVisibility> load_reference(uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
+std::optional<ReferenceVisibility> load_reference(
+		uint64_t p_key, size_t p_pixel_count, bool p_is_colored) {
 	return parse_reference_entry(
 			load_cache_entry(get_entry_name(p_key)), p_key, p_pixel_count, p_is_colored);
 }

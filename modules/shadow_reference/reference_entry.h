@@ -26,14 +26,15 @@ struct ReferenceVisibility {
 
 /// The bytes that the cache keeps of a reference.
 std::vector<uint8_t> build_reference_entry(uint64_t p_key, const ReferenceVisibility &p_reference);
-/// The reference in such bytes; nothing when they are of another key or size. p_is_colored: whether it
-/// must have colours.
+/// The reference in such bytes; nothing when they are of another key or size. p_is_colored: whether
+/// it must have colours.
 std::optional<ReferenceVisibility> parse_reference_entry(
 		std::span<const uint8_t> p_bytes, uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
 
 /// Stores a reference in the cache folder under its key. A failure to write only warns.
 void save_reference(uint64_t p_key, const ReferenceVisibility &p_reference);
 /// The stored reference, as parse_reference_entry reads it; nothing when absent or damaged.
-std::optional<ReferenceVisibility> load_reference(uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
+std::optional<ReferenceVisibility> load_reference(
+		uint64_t p_key, size_t p_pixel_count, bool p_is_colored);
 
 } // namespace gnomon

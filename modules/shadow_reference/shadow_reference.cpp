@@ -16,8 +16,8 @@ namespace gnomon {
 
 namespace {
 
-// Counts up when the definition of the reference or the tracer changes: older cache entries are then
-// not found.
+// Counts up when the definition of the reference or the tracer changes: older cache entries are
+// then not found.
 constexpr uint64_t REFERENCE_VERSION = 1;
 
 template <typename T> uint64_t add_to_hash(std::span<const T> p_values, uint64_t p_hash) {
@@ -91,8 +91,8 @@ void ShadowReference::get_light_properties(PropertyList &r_list) const {
 			"", "Reference" });
 }
 
-void ShadowReference::compute(
-		const Job &p_job, const std::vector<ReceiverPoint> &p_points, ReferenceVisibility &r_reference) {
+void ShadowReference::compute(const Job &p_job, const std::vector<ReceiverPoint> &p_points,
+		ReferenceVisibility &r_reference) {
 	const auto start = std::chrono::steady_clock::now();
 	const CasterScene tracer(p_job.triangles.opaque.positions, p_job.triangles.opaque.indices,
 			p_job.triangles.translucent, p_job.triangles.cut_out);

@@ -23,7 +23,8 @@ private:
 	/// Everything of one frame that the host pass needs; the inputs end before it runs.
 	struct Job;
 	void run(const Job &p_job, HostContext &p_context);
-	void compute(const Job &p_job, const std::vector<ReceiverPoint> &p_points, ReferenceVisibility &r_reference);
+	void compute(const Job &p_job, const std::vector<ReceiverPoint> &p_points,
+			ReferenceVisibility &r_reference);
 
 	uint64_t last_key = 0; // of last_reference
 	ReferenceVisibility last_reference;

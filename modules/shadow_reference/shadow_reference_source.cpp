@@ -5,8 +5,8 @@
 
 namespace gnomon {
 
-ReferenceAnswer ShadowReferenceSource::trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
-		const std::function<void(float)> &p_progress) {
+ReferenceAnswer ShadowReferenceSource::trace(uint32_t p_sample_count,
+		const std::atomic<bool> &p_is_cancelled, const std::function<void(float)> &p_progress) {
 	if (!tracer) {
 		const size_t pixel_count = size_t(question.size_px.x) * question.size_px.y;
 		GNOMON_ASSERT(

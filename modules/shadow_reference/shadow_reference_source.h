@@ -8,10 +8,12 @@
 
 namespace gnomon {
 
-/// The reference in parallel with the frames. The tree over the casters is built by the first trace and cached.
+/// The reference in parallel with the frames. The tree over the casters is built by the first trace
+/// and cached.
 class ShadowReferenceSource : public ReferenceSource {
 public:
-	explicit ShadowReferenceSource(ReferenceQuestion p_question) : question(std::move(p_question)) {}
+	explicit ShadowReferenceSource(ReferenceQuestion p_question) :
+			question(std::move(p_question)) {}
 
 	ReferenceAnswer trace(uint32_t p_sample_count, const std::atomic<bool> &p_is_cancelled,
 			const std::function<void(float)> &p_progress) override;

@@ -29,7 +29,9 @@ public:
 		}
 	}
 	/// In 0..1, without 1.
-	float get(uint32_t p_axis) const { return static_cast<float>(coordinates[p_axis] >> 8) * 0x1p-24f; }
+	float get(uint32_t p_axis) const {
+		return static_cast<float>(coordinates[p_axis] >> 8) * 0x1p-24f;
+	}
 
 private:
 	uint32_t coordinates[4];

@@ -49,8 +49,9 @@ void CachedEdges::reset() {
 	cached_key = 0;
 }
 
-SilhouetteLists CachedEdges::add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
-		const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates) {
+SilhouetteLists CachedEdges::add_passes(RenderGraph &r_graph,
+		const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
+		const DrawPredicates &p_predicates) {
 	if (is_cached) {
 		return { r_graph.import_buffer(list.get()), r_graph.import_buffer(draws.get()) };
 	}

@@ -13,7 +13,8 @@ public:
 	/// decide which casters are, so that the lists lack those that are not.
 	void plan(const ShadowTechnique::Inputs &p_inputs, const SilhouetteCasters &p_casters,
 			bool p_are_all_drawn, TechniquePlan &r_plan);
-	/// The lists of plan's casters, of which there is one at least. Without a plan nothing is cached.
+	/// The lists of plan's casters, of which there is one at least. Without a plan nothing is
+	/// cached.
 	SilhouetteLists add_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 			const SilhouetteCasters &p_casters, const DrawPredicates &p_predicates);
 
@@ -23,7 +24,7 @@ private:
 	OwnedBuffer list;
 	OwnedBuffer draws;
 	uint64_t cached_key = 0; // of what the buffers hold; 0: nothing
-	uint64_t last_key = 0; // of the last frame
+	uint64_t last_key = 0;	 // of the last frame
 
 	// This frame.
 	uint64_t key = 0; // 0: nothing may be cached

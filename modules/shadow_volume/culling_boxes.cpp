@@ -42,7 +42,8 @@ CullingBoxes build_culling_boxes(
 		const uint32_t begin = find_first_item(nodes, node);
 		if (nodes[node].item_count > 0 || end - begin <= CULLING_CASTERS_PER_SUBTREE) {
 			GNOMON_ASSERT(end - begin <= CULLING_CASTERS_PER_SUBTREE, "a leaf of ", end - begin);
-			result.boxes.push_back(make_box(nodes[node].bounds, p_origin_world, begin, end - begin));
+			result.boxes.push_back(
+					make_box(nodes[node].bounds, p_origin_world, begin, end - begin));
 			continue;
 		}
 		const uint32_t left = nodes[node].first;

@@ -38,8 +38,8 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 }
 
 /// Vertices far from the node's origin lose their low bits. Boxes are made in double: what float32
-/// may move an occluder by must be small compared with the gap that cull.comp leaves to it, or it could
-/// come before a caster that is behind it.
+/// may move an occluder by must be small compared with the gap that cull.comp leaves to it, or it
+/// could come before a caster that is behind it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
 	const Bounds &box = p_instance.caster_bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
@@ -91,10 +91,10 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 	return draws;
 }
 
-/// The stencil identifies occluders by numbers from 1 on, which begin again after so many: a pipeline
-/// has one number. 128 boxes in a map of their own take 4.0 ms with 8 numbers, 3.8 with 16 and 4.6
-/// with 4 on a software driver, and 3.3 with numbers set while recording; 16 make the first frame
-/// 90 ms longer.
+/// The stencil identifies occluders by numbers from 1 on, which begin again after so many: a
+/// pipeline has one number. 128 boxes in a map of their own take 4.0 ms with 8 numbers, 3.8 with 16
+/// and 4.6 with 4 on a software driver, and 3.3 with numbers set while recording; 16 make the first
+/// frame 90 ms longer.
 constexpr size_t NUMBER_COUNT = 8;
 
 struct OccluderPipelines {

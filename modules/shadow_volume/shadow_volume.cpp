@@ -50,8 +50,7 @@ void ShadowVolume::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 				"their shadows are outside the image");
 	}
 	if (casters.flat_count > 0) {
-		r_plan.skip(
-				text("volumes of ", casters.flat_count, " casters"), "a scale of theirs is 0");
+		r_plan.skip(text("volumes of ", casters.flat_count, " casters"), "a scale of theirs is 0");
 	}
 	if (casters.group_count > 1) {
 		r_plan.run(text("groups that the stencil can count: ", casters.group_count));

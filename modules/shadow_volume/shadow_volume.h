@@ -1,7 +1,7 @@
 #pragma once
 
-#include "modules/shadow_volume/caster_culling.h"
 #include "modules/shadow_volume/cached_edges.h"
+#include "modules/shadow_volume/caster_culling.h"
 #include "modules/shadow_volume/volume_casters.h"
 
 namespace gnomon {

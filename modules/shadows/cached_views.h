@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Which of a light's views must be drawn this frame, for a technique that caches what it draws: not
-/// those without casters or without receivers, nor those in which neither the view nor a caster
+/// Which of a light's views must be drawn this frame, for a technique that caches what it draws:
+/// not those without casters or without receivers, nor those in which neither the view nor a caster
 /// changed since they were drawn. Each frame: begin, then plan, then set_drawn for each view that
 /// is drawn.
 class CachedViews {
@@ -18,8 +18,8 @@ public:
 	enum class Reads { OWN_VIEW, ACROSS_VIEWS };
 	/// There must be at least one view, at most 32.
 	void begin(const ShadowTechnique::Inputs &p_inputs, Reads p_reads);
-	/// Leaves views out of the plan. p_has_content: what was cached of earlier frames is still there,
-	/// and of use for the technique's settings.
+	/// Leaves views out of the plan. p_has_content: what was cached of earlier frames is still
+	/// there, and of use for the technique's settings.
 	void plan(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan, bool p_has_content);
 	/// The view's passes are recorded.
 	void set_drawn(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);

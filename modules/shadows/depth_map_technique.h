@@ -24,9 +24,10 @@ public:
 
 protected:
 	/// p_size_property: of the light, see add_size_property. p_reads: how far the filter reads.
-	DepthMapTechnique(std::string p_shader, std::string p_size_property, CachedViews::Reads p_reads) :
-			shader(std::move(p_shader)), size_property(std::move(p_size_property)), reads(p_reads) {
-	}
+	DepthMapTechnique(
+			std::string p_shader, std::string p_size_property, CachedViews::Reads p_reads) :
+			shader(std::move(p_shader)),
+			size_property(std::move(p_size_property)), reads(p_reads) {}
 
 	/// Width and height of a map in pixels, 16 to 8192.
 	void add_size_property(PropertyList &r_list, const std::string &p_group) const;

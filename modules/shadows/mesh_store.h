@@ -38,7 +38,7 @@ public:
 	/// The mesh's tangents as its pose turns them, VERTEX. p_rest: those at rest, one a vertex,
 	/// which live as long as the mesh at rest.
 	BufferRID get_deformed_tangents(const std::shared_ptr<const Mesh> &p_mesh, BufferRID p_rest);
-	/// Uploads those parts of the mesh's topology that nothing not requested before. Before passes are
+	/// Uploads those parts of the mesh's topology that were not requested before. Before passes are
 	/// recorded.
 	const GpuTopology &get_topology(
 			const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts);

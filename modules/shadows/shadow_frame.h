@@ -57,7 +57,8 @@ public:
 	ShadowFrame(ShadowSystem &r_system, RenderGraph &r_graph, FramePlan &r_plan,
 			std::shared_ptr<const SceneSnapshot> p_scene, glm::uvec2 p_size_px,
 			ShadowFrameOptions p_options = {});
-	/// Without end(): techniques forget what they cached, as they may count on passes that never ran.
+	/// Without end(): techniques forget what they cached, as they may count on passes that never
+	/// ran.
 	~ShadowFrame();
 	ShadowFrame(const ShadowFrame &) = delete;
 	ShadowFrame &operator=(const ShadowFrame &) = delete;

@@ -31,7 +31,8 @@ struct CasterList {
 /// What a technique decides before any pass is recorded. Names the light in the frame's plan.
 class TechniquePlan {
 public:
-	/// p_prefix: distinguishes the runs of one technique for one light, see sees_translucent_casters.
+	/// p_prefix: distinguishes the runs of one technique for one light, see
+	/// sees_translucent_casters.
 	explicit TechniquePlan(FramePlan &p_plan, std::string p_prefix = {}) :
 			plan(p_plan), prefix(std::move(p_prefix)) {}
 
@@ -66,7 +67,8 @@ struct ShadowLimits {
 ///
 /// The shadow system owns one instance per shadow-casting light, and one more for each group of
 /// translucent casters (see sees_translucent_casters), and calls it on the render thread, each
-/// frame in the order in which the methods are declared here. The engine knows the id, never the class.
+/// frame in the order in which the methods are declared here. The engine knows the id, never the
+/// class.
 class ShadowTechnique {
 public:
 	/// Valid from plan() to resolve() of one frame. All textures have the size `size_px`.
@@ -115,8 +117,8 @@ public:
 
 	virtual ~ShadowTechnique() = default;
 
-	/// Within what the technique's results hold, see its page. Called once a frame, with p_properties
-	/// as in Inputs; beyond a limit there is a warning.
+	/// Within what the technique's results hold, see its page. Called once a frame, with
+	/// p_properties as in Inputs; beyond a limit there is a warning.
 	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on

@@ -10,8 +10,8 @@ namespace {
 /// What the light sees of a caster: a cone from its centre, or a cylinder along its direction.
 struct Shade {
 	glm::dvec3 position = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
-	double radius_m = 0;				// of the caster
-	double cosine = 1;					// of the cone's half angle
+	double radius_m = 0;				   // of the caster
+	double cosine = 1;					   // of the cone's half angle
 	double sine = 0;
 	bool is_everywhere = false; // the cone is wider than a right angle, or the light inside
 };

@@ -186,8 +186,8 @@ bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world)
 	if (is_outside_cone(p_light, centre, radius_m)) {
 		return false;
 	}
-	// The ball of a large flat box is far larger than the box: test the box itself too, against a cone
-	// that fits into four planes.
+	// The ball of a large flat box is far larger than the box: test the box itself too, against a
+	// cone that fits into four planes.
 	LightView cone;
 	const double cone_rad = double(p_light.outer_cone_rad) + std::sqrt(2 * COSINE_MARGIN);
 	if (cone_rad >= 1.5) {

@@ -76,7 +76,8 @@ StabilityCurve make_curve(const Report &p_report, const std::string &p_technique
 					p_sweep.has_project_scenes ? at.scene + "/" + at.light
 											   : p_sweep.describe_value(value),
 					index,
-					judge_stability(cell, at.reference, center ? &p_report.cells[*center] : nullptr),
+					judge_stability(
+							cell, at.reference, center ? &p_report.cells[*center] : nullptr),
 					get_stability_error(cell) });
 		}
 	}
@@ -124,8 +125,8 @@ StabilityState judge_stability(
 			p_center ? get_stability_error(*p_center) : std::nullopt;
 	if (error && center) {
 		// Over all receivers no error is larger than over the penumbra alone.
-		const double allowed =
-				std::max(DOUBLED * center->mae, LEAST_MAE) + NOISE_ERRORS * p_reference.standard_error;
+		const double allowed = std::max(DOUBLED * center->mae, LEAST_MAE) +
+				NOISE_ERRORS * p_reference.standard_error;
 		return error->mae > allowed ? StabilityState::DOUBLED : StabilityState::OK;
 	}
 	return StabilityState::OK;

@@ -83,7 +83,8 @@ void StabilityPart::plan(const ReportOptions &p_options, const Add &p_add) const
 		std::stable_partition(values.begin(), values.end(),
 				[&](double p_value) { return p_value == sweep.center; });
 		for (const LightType type : sweep.types) {
-			// The other types' sweeps take their own time; of these the quick form measures the sizes.
+			// The other types' sweeps take their own time; of these the quick form measures the
+			// sizes.
 			if (is_quick && type != sweep.types.front() && &sweep != &get_stability_sweeps()[0]) {
 				continue;
 			}

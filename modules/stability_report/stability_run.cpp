@@ -23,7 +23,7 @@ const size_t CHECKED_RECEIVERS = 128; // of a reference, in double
 // Mean difference that 256 rays on a spiral and 1024 stratified ones do not have: about 0.004 in
 // penumbras.
 const double MOST_REFERENCE_ERROR = 0.009;
-const double REFERENCE_NOISE_ERRORS = 3.0;		// standard errors of a reference with fewer rays
+const double REFERENCE_NOISE_ERRORS = 3.0;	// standard errors of a reference with fewer rays
 const double DOUBLE_STANDARD_ERROR = 0.004; // of 256 rays on a spiral, in a penumbra
 
 void check_values(const std::vector<MaskImage> &p_frames) {
@@ -54,7 +54,8 @@ double compute_wrong_share(const MaskImage &p_reference, const MaskImage &p_mask
 }
 
 /// The pixels that are worst, as points to be computed in double.
-std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference, const MaskImage &p_mask) {
+std::vector<ConditionPoint> find_worst_points(
+		const TracedReference &p_reference, const MaskImage &p_mask) {
 	std::vector<ConditionPoint> points;
 	for (size_t index = 0; index < p_mask.visibility.size(); ++index) {
 		if (p_reference.mask.is_receiver(index) && index < p_reference.positions.size()) {
@@ -75,7 +76,8 @@ std::vector<ConditionPoint> find_worst_points(const TracedReference &p_reference
 /// The reference is traced in float32. Where that is not enough for the question, it is traced
 /// again in double; tested at some receivers, evenly spread. ALWAYS: as another frame's was.
 enum class DoubleReference { WHERE_NEEDED, ALWAYS };
-void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
+void correct_reference(
+		const MaskQuestion &p_question, DoubleReference p_when, TracedReference &r_reference) {
 	MaskImage &mask = r_reference.mask;
 	std::vector<size_t> receivers;
 	for (size_t index = 0; index < mask.visibility.size(); ++index) {
@@ -88,8 +90,8 @@ void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, T
 	}
 	const DoubleVisibility exact(*p_question.scene, get_light(*p_question.scene, p_question.light));
 	const auto compute = [&](size_t p_index) {
-		return exact.compute(
-				p_question.scene->camera.position_world + glm::dvec3(r_reference.positions[p_index]),
+		return exact.compute(p_question.scene->camera.position_world +
+						glm::dvec3(r_reference.positions[p_index]),
 				r_reference.normals[p_index]);
 	};
 	// Shadows that are missing show anywhere, blurred ones in penumbras, of which there may be few.
@@ -105,7 +107,8 @@ void correct_reference(const MaskQuestion &p_question, DoubleReference p_when, T
 		}
 		return count == 0 ? 0.0 : sum / double(count);
 	};
-	const double most = std::max(MOST_REFERENCE_ERROR, REFERENCE_NOISE_ERRORS * r_reference.standard_error);
+	const double most =
+			std::max(MOST_REFERENCE_ERROR, REFERENCE_NOISE_ERRORS * r_reference.standard_error);
 	if (p_when == DoubleReference::WHERE_NEEDED && compute_error(receivers) <= most &&
 			compute_error(soft) <= most) {
 		return;

@@ -168,13 +168,15 @@ std::unique_ptr<Scene> build_scene(const StabilityDraft &p_draft, LightType p_ty
 	} else {
 		light->properties["light_size"] = p_draft.light_size_m * scale;
 	}
-	light->parent_from_node = look_at(transform_point(p_draft.light_position), transform_point(p_draft.light_target));
+	light->parent_from_node =
+			look_at(transform_point(p_draft.light_position), transform_point(p_draft.light_target));
 	scene->root->add_child(std::move(light));
 	auto camera = std::make_unique<Camera3D>();
 	camera->name = "Camera";
 	camera->vertical_fov_rad = static_cast<float>(CAMERA_FOV_RAD);
 	camera->near_m *= static_cast<float>(scale);
-	camera->parent_from_node = look_at(transform_point(CAMERA_POSITION), transform_point(p_draft.camera_target));
+	camera->parent_from_node =
+			look_at(transform_point(CAMERA_POSITION), transform_point(p_draft.camera_target));
 	scene->root->add_child(std::move(camera));
 	return scene;
 }

@@ -47,7 +47,8 @@ double DoubleVisibility::compute(
 	const glm::dvec3 way =
 			is_directional ? -light.get_direction_world() : light.position_world - origin;
 	const glm::dvec3 axis = glm::normalize(way);
-	const glm::dvec3 other_axis = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+	const glm::dvec3 other_axis =
+			std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
 	const glm::dvec3 u = glm::normalize(glm::cross(axis, other_axis));
 	const glm::dvec3 v = glm::cross(axis, u);
 	int seen_count = 0;
@@ -109,8 +110,8 @@ VisibilityCondition compute_visibility_condition(const SceneSnapshot &p_scene,
 		mean.error += share * point.error;
 	}
 	mean.cause = mean.reference_error >= EXPLAINING_SHARE * mean.error ? ErrorCause::REFERENCE
-			: mean.rounding >= EXPLAINING_SHARE * mean.error	   ? ErrorCause::ROUNDING
-																   : ErrorCause::METHOD;
+			: mean.rounding >= EXPLAINING_SHARE * mean.error		   ? ErrorCause::ROUNDING
+																	   : ErrorCause::METHOD;
 	return mean;
 }
 

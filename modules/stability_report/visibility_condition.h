@@ -44,7 +44,7 @@ private:
 struct ConditionPoint {
 	glm::vec3 position = glm::vec3(0.0f); // camera-relative, metres
 	glm::vec3 normal = glm::vec3(0.0f);	  // of the face, unit
-	double reference = 0;					  // v of the reference, in float32
+	double reference = 0;				  // v of the reference, in float32
 	double error = 0;					  // |v of the technique - reference|
 };
 

@@ -73,7 +73,8 @@ struct RawFile {
 		for (size_t row = 0; row < size_t(accessor["count"]); ++row) {
 			std::vector<double> &values = rows.emplace_back();
 			for (size_t i = 0; i < width; ++i) {
-				const uint8_t *bytes_at = first + row * (stride ? stride : width * bytes) + i * bytes;
+				const uint8_t *bytes_at =
+						first + row * (stride ? stride : width * bytes) + i * bytes;
 				float number = 0;
 				uint16_t half = 0;
 				std::memcpy(&number, bytes_at, kind == 5126 ? 4 : 0);

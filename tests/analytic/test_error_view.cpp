@@ -19,7 +19,8 @@ MaskImage make_wrong_reference(const RenderResult &p_frame, glm::uvec2 p_size_px
 		if (pixel % 3 == 0 && reference.is_receiver(pixel)) {
 			const float change = 0.5f * float(pixel % 64) / 64.0f;
 			const float visibility = reference.visibility[pixel];
-			reference.visibility[pixel] = visibility > 0.5f ? visibility - change : visibility + change;
+			reference.visibility[pixel] =
+					visibility > 0.5f ? visibility - change : visibility + change;
 		}
 	}
 	return reference;
@@ -41,7 +42,8 @@ TEST_CASE("[GPU][ErrorView] the error view shows the colours of the error image"
 	request.technique_override = id;
 	request.wants_image = true;
 	request.debug_view = "error";
-	request.reference = std::make_shared<ReferenceMask>(reference.size_px, reference.visibility, reference.receiver);
+	request.reference = std::make_shared<ReferenceMask>(
+			reference.size_px, reference.visibility, reference.receiver);
 	const std::vector<uint8_t> shown = fixture.renderer->render(request).image;
 	const std::vector<uint8_t> expected = compute_error_pixels(reference, mask);
 	REQUIRE(shown.size() == 4 * reference.get_pixel_count());

@@ -90,8 +90,8 @@ double compute_differing_share(
 	return double(differing_count) / double(p_expected.pixels.size() / CHANNEL_COUNT);
 }
 
-bool is_equal_enough(
-		const GoldenImage &p_expected, const GoldenImage &p_actual, const GoldenSettings &p_settings) {
+bool is_equal_enough(const GoldenImage &p_expected, const GoldenImage &p_actual,
+		const GoldenSettings &p_settings) {
 	return compute_differing_share(p_expected, p_actual, p_settings.max_difference) <=
 			p_settings.max_pixel_share;
 }
@@ -136,8 +136,8 @@ GoldenImage render_image(RenderFixture &r_fixture, const Scene &p_scene, const s
 	return golden;
 }
 
-GoldenImage render_golden(RenderFixture &r_fixture, const std::string &p_scene, const std::string &p_id,
-		const GoldenSettings &p_settings) {
+GoldenImage render_golden(RenderFixture &r_fixture, const std::string &p_scene,
+		const std::string &p_id, const GoldenSettings &p_settings) {
 	const std::unique_ptr<Scene> scene = load_demo_scene(p_scene);
 	if (p_settings.light_settings.contains(p_id)) {
 		apply_light_settings(*scene, p_settings.light_settings.at(p_id));

@@ -124,7 +124,8 @@ TEST_CASE("[GPU][Shaders] illuminance follows KHR_lights_punctual") {
 					const double intensity = double(light.intensity[channel]);
 					const double expected = compute_illuminance(light, position, intensity);
 					largest_error = std::max(largest_error,
-							std::abs(double(results[index][channel]) - expected) * scale / intensity);
+							std::abs(double(results[index][channel]) - expected) * scale /
+									intensity);
 				}
 			}
 			CHECK(largest_error < 2e-5);

@@ -50,8 +50,8 @@ size_t count_points(const ReportPlan &p_plan) {
 
 } // namespace
 
-TEST_CASE(
-		"[AnimationPart] each light of an animated scene is measured at times within the animation") {
+TEST_CASE("[AnimationPart] each light of an animated scene is measured at times within the "
+		  "animation") {
 	const std::vector<ReportScene> scenes = make_animated_scenes();
 	const size_t light_count = find_report_view(scenes[0]).lights.size();
 	CHECK(count_points(make_plan(ReportExtent::NONE, scenes, {})) == 0);

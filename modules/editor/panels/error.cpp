@@ -129,7 +129,8 @@ void draw_images(EditorContext &r_context) {
 	ImGui::SameLine();
 	draw_view(r_context, "error", state.metrics ? state.error_texture : nullptr, size);
 	if (ImGui::IsItemHovered()) {
-		ImGui::SetTooltip("Mask minus reference. Blue: too dark, red: too light, full colour at %.2g",
+		ImGui::SetTooltip(
+				"Mask minus reference. Blue: too dark, red: too light, full colour at %.2g",
 				double(HEAT_MAP_RANGE));
 	}
 }

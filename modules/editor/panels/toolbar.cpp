@@ -70,8 +70,8 @@ void draw_toolbar(EditorContext &r_context) {
 	const UndoHistory &history = r_context.document.get_history();
 	if (ImGui::Begin("Toolbar", nullptr,
 				PANEL_FLAGS | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar)) {
-		draw_button(
-				r_context, "Open", EditorCommand::SHOW_OPEN_MENU, "Ctrl+O: another scene or project");
+		draw_button(r_context, "Open", EditorCommand::SHOW_OPEN_MENU,
+				"Ctrl+O: another scene or project");
 		if (std::exchange(r_context.shows_open_menu, false)) {
 			ImGui::OpenPopup("open");
 		}

@@ -42,7 +42,8 @@ void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, Im
 	for (int ray = 0; ray < 8; ++ray) {
 		const float angle = 0.785398f * float(ray);
 		const ImVec2 way(std::cos(angle), std::sin(angle));
-		r_list.AddLine(ImVec2(p_position.x + 1.4f * radius * way.x, p_position.y + 1.4f * radius * way.y),
+		r_list.AddLine(
+				ImVec2(p_position.x + 1.4f * radius * way.x, p_position.y + 1.4f * radius * way.y),
 				ImVec2(p_position.x + 2.0f * radius * way.x, p_position.y + 2.0f * radius * way.y),
 				p_color, 1.5f);
 	}

@@ -158,7 +158,8 @@ TEST_CASE("[EditorDocument] what an earlier program put aside stays until it is 
 	CHECK(document.has_recovery());
 }
 
-TEST_CASE("[EditorDocument] the project's modules are switched as it states, and other names stay") {
+TEST_CASE(
+		"[EditorDocument] the project's modules are switched as it states, and other names stay") {
 	const EditedProject project;
 	save_file_atomically(project.path / "project.cfg",
 			std::string_view("[project]\nstart_scene=\"contact_box.gltf\"\n[modules]\n"

@@ -77,7 +77,8 @@ TEST_CASE("[UndoHistory] what changes nothing or is refused leaves no step") {
 	CHECK_FALSE(tree.history.can_undo());
 }
 
-TEST_CASE("[UndoHistory] removed and added nodes come back at their position, with all below them") {
+TEST_CASE(
+		"[UndoHistory] removed and added nodes come back at their position, with all below them") {
 	SmallTree tree;
 	tree.history.remove(*tree.light, "Delete Lamp");
 	CHECK(tree.root.children.size() == 1);

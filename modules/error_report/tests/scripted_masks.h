@@ -35,7 +35,8 @@ public:
 
 	ReportMachine get_machine() const override { return { device, "driver", "cpu", 2 }; }
 
-	TracedReference trace_reference(const MaskQuestion &p_question, uint32_t p_sample_count) override {
+	TracedReference trace_reference(
+			const MaskQuestion &p_question, uint32_t p_sample_count) override {
 		++reference_count;
 		if (fails_reference) {
 			fail("no rays today");

@@ -28,12 +28,13 @@ public:
 		configuration.light = question.light;
 		p_add(configuration, [question](const PropertyValues &) { return question; });
 	}
-	std::vector<TracedReference> trace_references(MaskSource &r_source, const MaskQuestion &p_question,
-			uint32_t p_sample_count) const override {
+	std::vector<TracedReference> trace_references(MaskSource &r_source,
+			const MaskQuestion &p_question, uint32_t p_sample_count) const override {
 		return { r_source.trace_reference(p_question, p_sample_count) };
 	}
 	MaskImage run_cell(MaskSource & /*r_source*/, const MaskQuestion & /*p_question*/,
-			std::span<const TracedReference> p_references, Report &r_report, size_t p_cell) const override {
+			std::span<const TracedReference> p_references, Report &r_report,
+			size_t p_cell) const override {
 		MaskImage mask = p_references.front().mask;
 		for (float &visibility : mask.visibility) {
 			visibility *= 0.5f;

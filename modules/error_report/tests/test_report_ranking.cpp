@@ -168,7 +168,8 @@ TEST_CASE("[ErrorReport] without a baseline of the same machine there is no time
 	CHECK_FALSE(report.compute_time_ratio(soft));
 }
 
-TEST_CASE("[ErrorReport] what failed or is missing is counted, references only where there is one") {
+TEST_CASE(
+		"[ErrorReport] what failed or is missing is counted, references only where there is one") {
 	Report report = make_report(4);
 	report.configurations[0].status = ReportStatus::OK;
 	report.configurations[1].status = ReportStatus::FAILED;

@@ -48,7 +48,8 @@ TEST_CASE("[ErrorReport] a run measures every cell against its reference") {
 	CHECK(report.machines[0].device == "scripted");
 	for (const ReportCell &cell : report.cells) {
 		REQUIRE(cell.error);
-		// The script's reference is a ramp of eighths, its error a share of it; black pixels count not.
+		// The script's reference is a ramp of eighths, its error a share of it; black pixels count
+		// not.
 		const double share = cell.technique == "hard" ? 0.25 : 0.125;
 		CHECK(cell.error->all.penumbra.mae == doctest::Approx(0.5 * share));
 		CHECK(cell.error->all.penumbra.pixel_count == 16 * 14);

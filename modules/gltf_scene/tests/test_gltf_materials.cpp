@@ -194,7 +194,8 @@ TEST_CASE("[GltfMaterials] a distance that the volume defines stays what it is w
 	CHECK(save_and_load(*other).scatter == 0.5f);
 }
 
-TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has in addition, stay in the file") {
+TEST_CASE("[GltfMaterials] lines of a mesh, and what a copy's mesh has in addition, stay in the "
+		  "file") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_waxes(folder);

@@ -62,8 +62,7 @@ TEST_CASE("[GltfReader] sparse accessors replace some elements, of a view or of 
 	}
 }
 
-TEST_CASE(
-		"[GltfReader] strips and fans become triangles of the same winding; points are skipped") {
+TEST_CASE("[GltfReader] strips and fans become triangles of the same winding; points are skipped") {
 	GltfTestFolder folder;
 	GltfTestLog log;
 	Json json = make_triangle(folder);

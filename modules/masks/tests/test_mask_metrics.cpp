@@ -98,7 +98,8 @@ TEST_CASE("[MaskMetrics] without receivers or penumbra all is 0, never NaN") {
 TEST_CASE("[MaskMetrics] other sizes, other receivers and values that are not finite are errors") {
 	const MaskImage reference = make_row({ 0, 0.5f, 1 });
 	CHECK_THROWS_AS(compute_mask_metrics(reference, make_row({ 0, 1 })), Error);
-	CHECK_THROWS_WITH_AS(compute_mask_metrics(reference, make_row({ 0, 0.5f, -1 }), "a.exr", "b.exr"),
+	CHECK_THROWS_WITH_AS(
+			compute_mask_metrics(reference, make_row({ 0, 0.5f, -1 }), "a.exr", "b.exr"),
 			"Masks differ in their receivers: 1 pixels, the first at (2, 0), of a.exr and b.exr. "
 			"Render "
 			"both with the same scene, light and camera.",

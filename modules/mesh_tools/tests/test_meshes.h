@@ -137,10 +137,12 @@ inline Mesh make_moebius(uint32_t p_count) {
 /// Random triangles over few points: every defect at once.
 inline Mesh make_soup(uint32_t p_seed, uint32_t p_point_count, uint32_t p_triangle_count) {
 	std::mt19937 random(p_seed);
-	std::uniform_int_distribution<int> coordinate(-3, 3); // a grid, so that points and lines coincide
+	std::uniform_int_distribution<int> coordinate(
+			-3, 3); // a grid, so that points and lines coincide
 	Mesh mesh = make({}, {});
 	for (uint32_t i = 0; i < p_point_count; ++i) {
-		mesh.positions_node.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+		mesh.positions_node.emplace_back(
+				coordinate(random), coordinate(random), coordinate(random));
 	}
 	std::uniform_int_distribution<uint32_t> point(0, p_point_count - 1);
 	for (uint32_t i = 0; i < 3 * p_triangle_count; ++i) {

@@ -48,9 +48,11 @@ TEST_CASE("The tree finds what a look at every triangle finds") {
 	const RayTree tree(mesh);
 	int hit_count = 0;
 	for (int ray = 0; ray < 300; ++ray) {
-		const glm::dvec3 origin(3.0 * coordinate(random), 3.0 * coordinate(random), 3.0 * coordinate(random));
+		const glm::dvec3 origin(
+				3.0 * coordinate(random), 3.0 * coordinate(random), 3.0 * coordinate(random));
 		const glm::dvec3 direction =
-				0.5 * glm::dvec3(coordinate(random), coordinate(random), coordinate(random)) - origin;
+				0.5 * glm::dvec3(coordinate(random), coordinate(random), coordinate(random)) -
+				origin;
 		double nearest = std::numeric_limits<double>::infinity();
 		for (uint32_t triangle = 0; triangle < mesh->get_triangle_count(); ++triangle) {
 			const glm::dvec3 a(positions[3 * triangle]);

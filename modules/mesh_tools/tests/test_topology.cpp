@@ -179,7 +179,8 @@ TEST_CASE("[Topology] duplicate faces are counted and paired into two equal surf
 	CHECK(double_sided.counts.duplicate_triangle_count == 2);
 	CHECK(double_sided.counts.zero_normal_count == 4); // both sides cancel
 	for (const MeshEdge &edge : double_sided.edges) {
-		const bool is_fold = double_sided.planes[edge.face0].normal.z != double_sided.planes[edge.face1].normal.z;
+		const bool is_fold = double_sided.planes[edge.face0].normal.z !=
+				double_sided.planes[edge.face1].normal.z;
 		CHECK(is_fold); // each pair is the two sides of one triangle
 		CHECK_FALSE(edge.is_coplanar);
 	}

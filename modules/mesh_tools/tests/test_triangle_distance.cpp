@@ -30,7 +30,9 @@ double find_distance_by_points(const glm::dvec3 &p_point, const glm::dvec3 (&p_c
 TEST_CASE("[MeshTools] the distance to a triangle is that of its nearest point") {
 	std::mt19937 random(7);
 	std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-	const auto get_point = [&] { return glm::dvec3(coordinate(random), coordinate(random), coordinate(random)); };
+	const auto get_point = [&] {
+		return glm::dvec3(coordinate(random), coordinate(random), coordinate(random));
+	};
 	for (int round = 0; round < 100; ++round) {
 		const glm::dvec3 corners[3] = { get_point(), get_point(), get_point() };
 		const glm::dvec3 point = get_point();

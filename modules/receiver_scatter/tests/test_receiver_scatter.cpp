@@ -270,8 +270,7 @@ TEST_CASE("[GPU][ReceiverScatter] the same frame twice is the same to the bit") 
 	}
 }
 
-TEST_CASE(
-		"[GPU][ReceiverScatter] a light that does not reach what scatters skips the filter") {
+TEST_CASE("[GPU][ReceiverScatter] a light that does not reach what scatters skips the filter") {
 	MaskFixture fixture;
 	SmallScene scene;
 	scene.box->surfaces[0].material = make_wax(0.5f, 0.3f);

@@ -119,9 +119,9 @@ TEST_CASE("[GPU][ReceiverScatter] lights and positions that have no direction to
 	scene.ground->surfaces[0].material = make_wax(1.0f, 0.7f);
 	scene.box->surfaces[0].material = make_wax(0.4f, 0.0f);
 	const glm::dvec3 positions[] = { { 0, 1.0, 0 }, // inside the box
-		{ 0, 0, 0 }, { 0.3, 1e-6, 0.3 },		 // on the ground
-		{ 0, -3, 0 },							 // below it
-		{ 40, 0.01, 0 } };						 // grazing
+		{ 0, 0, 0 }, { 0.3, 1e-6, 0.3 },			// on the ground
+		{ 0, -3, 0 },								// below it
+		{ 40, 0.01, 0 } };							// grazing
 	for (const glm::dvec3 &position : positions) {
 		CAPTURE(position.x);
 		CAPTURE(position.y);

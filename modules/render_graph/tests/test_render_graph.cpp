@@ -168,11 +168,13 @@ TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame t
 	OwnedTexture imported(*fixture.device, fixture.device->create_texture(make_desc("imported")));
 	{
 		RenderGraph graph(*fixture.device, *fixture.pool);
-		add_fill(graph, graph.import_texture(imported.get(), RenderGraph::ImportedContent::NONE), 3.0f);
+		add_fill(graph, graph.import_texture(imported.get(), RenderGraph::ImportedContent::NONE),
+				3.0f);
 		graph.execute(RenderGraph::Mode::QUEUE);
 	}
 	RenderGraph graph(*fixture.device, *fixture.pool);
-	const RGTexture texture = graph.import_texture(imported.get(), RenderGraph::ImportedContent::KEPT);
+	const RGTexture texture =
+			graph.import_texture(imported.get(), RenderGraph::ImportedContent::KEPT);
 	const RGTexture copy = graph.create_texture(make_desc("copy"));
 	add_copy(graph, texture, copy);
 	float value = 0;

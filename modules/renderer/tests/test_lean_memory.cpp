@@ -17,7 +17,8 @@ namespace {
 void disable_all_but(const std::vector<std::string> &p_requested, std::vector<std::string> &r_off) {
 	for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 		if (module.can_disable && module.is_enabled &&
-				std::find(p_requested.begin(), p_requested.end(), module.name) == p_requested.end()) {
+				std::find(p_requested.begin(), p_requested.end(), module.name) ==
+						p_requested.end()) {
 			r_off.push_back(module.name);
 		}
 	}
@@ -182,8 +183,8 @@ TEST_CASE("[GPU][Lean] 256 lights of which 4 are visible do and hold what 4 do")
 		const LightType types[] = { LightType::SPOT, LightType::OMNI };
 		for (int index = 0; index < p_hidden_count; ++index) {
 			const glm::dvec3 position(3.0 * (index % 16) - 24, 4.0, 8.0 + index / 16);
-			Light3D &light = scene.add_light(
-					text("Hidden ", index), types[index % 2], position, position + glm::dvec3(0, 1, 0.1));
+			Light3D &light = scene.add_light(text("Hidden ", index), types[index % 2], position,
+					position + glm::dvec3(0, 1, 0.1));
 			light.range_m = index % 2 ? 2.0f : 0.0f; // a spot points away, an omni light ends
 		}
 		fixture.render_image(scene);

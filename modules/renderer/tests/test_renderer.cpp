@@ -154,8 +154,7 @@ TEST_CASE("[GPU][Renderer] an unknown technique, light or size is an error that 
 	CHECK(fixture.render_image(scene).image.size() == 64 * 64 * 4); // and goes on
 }
 
-TEST_CASE(
-		"[GPU][Renderer] a light whose technique is missing takes the fallback and warns once") {
+TEST_CASE("[GPU][Renderer] a light whose technique is missing takes the fallback and warns once") {
 	const ShadowTechniqueInfo *fallback = ShadowRegistry::find_fallback();
 	RenderFixture fixture;
 	SmallScene scene;

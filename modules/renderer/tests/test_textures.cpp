@@ -234,7 +234,8 @@ TEST_CASE("[GPU][Textures] factor and vertex colours multiply the base colour") 
 	CHECK(find_base_color_error(square.draw(fixture), expect) <= 1);
 }
 
-TEST_CASE("[GPU][Textures] coordinates are scaled, turned and moved, the second set where requested") {
+TEST_CASE("[GPU][Textures] coordinates are scaled, turned and moved, the second set where "
+		  "requested") {
 	RenderFixture fixture;
 	Square square;
 	Texture &texture = square.material.base_color_texture;

@@ -125,7 +125,8 @@ TEST_CASE("[GPU][RenderingDevice] a submission that never begins is named by its
 	CHECK_FALSE(has_device_hung());
 }
 
-TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is reported once, then the "
+TEST_CASE("[GPU][RenderingDevice] memory that runs out during a submission is reported once, then "
+		  "the "
 		  "device works on") {
 	DeviceFixture fixture;
 	RenderingDevice &device = *fixture.device;

@@ -104,7 +104,8 @@ uint32_t count_open_edges(const Mesh &p_mesh) {
 
 } // namespace
 
-TEST_CASE("[CutMesh] of a mesh as much is there as its alpha defines, wrapped, mirrored and clamped") {
+TEST_CASE("[CutMesh] of a mesh as much is there as its alpha defines, wrapped, mirrored and "
+		  "clamped") {
 	Material material = make_material(make_wave_image({ 24, 32 }, 0.7));
 	const double whole_area = compute_area(*make_grid(1, 1));
 	for (const TextureWrap wrap :

@@ -100,7 +100,8 @@ struct MaskDifference {
 	size_t apart_count = 0; // by more than 0.01
 };
 
-inline MaskDifference compare_masks(const std::vector<float> &p_mask, const MaskResult &p_reference) {
+inline MaskDifference compare_masks(
+		const std::vector<float> &p_mask, const MaskResult &p_reference) {
 	MaskDifference difference;
 	for (size_t index = 0; index < p_mask.size(); ++index) {
 		if (p_reference.receiver[index] == 0.0f) {

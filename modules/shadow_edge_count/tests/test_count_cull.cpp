@@ -170,8 +170,7 @@ void check_boxes(KernelFixture &r_fixture, const CountScene &p_scene, TestRandom
 			++r_check.known_weight_count;
 			for (const glm::dvec3 &receiver : boxes[box].receivers) {
 				r_check.wrong_weight_count +=
-						result.known_weights[item] != edges[index].compute_weight(receiver) ? 1
-																							 : 0;
+						result.known_weights[item] != edges[index].compute_weight(receiver) ? 1 : 0;
 			}
 		}
 		for (const glm::dvec3 &receiver : boxes[box].receivers) {

@@ -173,7 +173,8 @@ TEST_CASE("[GPU][EdgeCount] solids are counted as in double, behind, inside and 
 		scene.build();
 		std::vector<glm::dvec3> receivers;
 		for (int index = 0; index < 4000; ++index) {
-			const glm::dvec3 position(random.next(-1, 1), random.next(-0.5, 6.5), random.next(-1, 1));
+			const glm::dvec3 position(
+					random.next(-1, 1), random.next(-0.5, 6.5), random.next(-1, 1));
 			receivers.push_back(glm::dvec3(glm::vec3(scene.make_receiver(position, UP))));
 		}
 		const std::vector<glm::vec4> results = run_receivers(scene, fixture, receivers);

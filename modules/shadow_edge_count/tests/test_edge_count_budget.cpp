@@ -61,8 +61,8 @@ TEST_CASE("[EdgeCount] lists have room for what small images need, and 24 MB at 
 	CHECK(choose_chunk_capacity({ 1, 1 }, 0) >= 1);
 }
 
-TEST_CASE(
-		"[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan reports") {
+TEST_CASE("[GPU][EdgeCount] a block with more edges than its budget is filtered, as the plan "
+		  "reports") {
 	MaskFixture fixture;
 	const FrameWishes wishes;
 	for (const LightType type : ALL_TYPES) {

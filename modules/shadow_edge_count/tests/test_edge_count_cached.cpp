@@ -13,7 +13,8 @@ using namespace gnomon;
 namespace {
 
 MaskResult render(MaskFixture &r_fixture, const SmallScene &p_scene, bool p_may_reuse = true) {
-	return render_frame(r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_reuse = p_may_reuse });
+	return render_frame(
+			r_fixture, p_scene, { .size_px = glm::uvec2(48), .may_reuse = p_may_reuse });
 }
 
 /// Casters whose edges the frame found, or reused.

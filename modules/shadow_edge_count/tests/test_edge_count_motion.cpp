@@ -59,7 +59,8 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_references
 			}
 			const double change =
 					p_masks[frame].visibility[index] - p_masks[frame - 1].visibility[index];
-			const double reference_change = reference[0].visibility[index] - reference[-1].visibility[index];
+			const double reference_change =
+					reference[0].visibility[index] - reference[-1].visibility[index];
 			const double difference = std::abs(change - reference_change);
 			error.rmse += difference * difference;
 			error.greatest = std::max(error.greatest, difference);
@@ -68,7 +69,8 @@ MotionError compute_motion_error(const Masks &p_masks, const Masks &p_references
 		}
 	}
 	error.rmse = std::sqrt(error.rmse / double(std::max(error.pixel_count, size_t(1))));
-	error.reference_rms = std::sqrt(error.reference_rms / double(std::max(error.pixel_count, size_t(1))));
+	error.reference_rms =
+			std::sqrt(error.reference_rms / double(std::max(error.pixel_count, size_t(1))));
 	return error;
 }
 

@@ -147,7 +147,8 @@ TEST_CASE("[GPU][EdgeCount] no face is missing in the list of a texel that it co
 			size_t met_count = 0;
 			for (int index = 0; index < 250; ++index) {
 				const glm::dvec2 share(random.next(), random.next());
-				const glm::dvec2 position = (share * 2.0 - 1.0) * double(light.views[0].half_extent.x);
+				const glm::dvec2 position =
+						(share * 2.0 - 1.0) * double(light.views[0].half_extent.x);
 				const glm::uvec2 texel = glm::min(
 						glm::uvec2(share * double(map_size_px)), glm::uvec2(map_size_px - 1));
 				std::set<uint32_t> listed;

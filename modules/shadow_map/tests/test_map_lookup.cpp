@@ -89,7 +89,8 @@ TEST_CASE("[GPU][Shaders] a filtered lookup weighs each texel by what the box co
 		const std::vector<glm::vec4> results = look_up(fixture, is_hidden, texels, width);
 		double largest_error = 0;
 		for (size_t index = 0; index < texels.size(); ++index) {
-			const double reference = compute_reference(is_hidden, glm::dvec2(texels[index]), double(width));
+			const double reference =
+					compute_reference(is_hidden, glm::dvec2(texels[index]), double(width));
 			largest_error = std::max(largest_error, std::abs(double(results[index].x) - reference));
 		}
 		CHECK(largest_error < 1e-5);

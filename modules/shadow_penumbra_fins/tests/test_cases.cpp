@@ -229,7 +229,8 @@ TEST_CASE("[GPU][PenumbraFins] widths larger than the casters and lights inside 
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan reports it") {
+TEST_CASE(
+		"[GPU][PenumbraFins] an instance scaled to a line gets no fins, and the plan reports it") {
 	MaskFixture fixture;
 	SmallScene scene = make_scene(LightType::SPOT);
 	add_mesh(scene.scene, "Flat", make_box_mesh("flat", glm::vec3(0.5f)), { 0, 0, 0 })

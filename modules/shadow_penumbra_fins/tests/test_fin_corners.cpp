@@ -12,13 +12,14 @@ using namespace gnomon;
 namespace {
 
 struct FinCase {
-	glm::vec4 position_corner;  // position_node, corner
-	glm::vec4 normal; // normal_node, sign
-	glm::vec4 widths; // r, t, is orthographic
+	glm::vec4 position_corner; // position_node, corner
+	glm::vec4 normal;		   // normal_node, sign
+	glm::vec4 widths;		   // r, t, is orthographic
 };
 
 glm::dvec4 compute_clip(const FinCase &p_case, const glm::dmat4 &p_view_from_node) {
-	glm::dvec3 position = glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.position_corner), 1.0));
+	glm::dvec3 position =
+			glm::dvec3(p_view_from_node * glm::dvec4(glm::dvec3(p_case.position_corner), 1.0));
 	// The definition, where fin_inc.glsl takes cofactors; its sign then makes up for mirroring.
 	const glm::dmat3 normal_matrix = glm::transpose(glm::inverse(glm::dmat3(p_view_from_node)));
 	const glm::dvec3 normal = glm::normalize(normal_matrix * glm::dvec3(p_case.normal));

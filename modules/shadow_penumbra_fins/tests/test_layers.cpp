@@ -115,7 +115,8 @@ TEST_CASE("[GPU][PenumbraFins] casters across the light's near plane are clamped
 	}
 }
 
-TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2, with the same mask") {
+TEST_CASE("[GPU][PenumbraFins] the plan reports where layer 3 waits for layer 2, with the same "
+		  "mask") {
 	MaskFixture fixture;
 	const auto is_conditional = [&](const SmallScene &p_scene) {
 		const MaskResult lean = fixture.render_mask(p_scene, "penumbra_fins");

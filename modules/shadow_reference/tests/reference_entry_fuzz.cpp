@@ -1,5 +1,6 @@
 // fuzz: modules=core sources=modules/shadow_reference/reference_entry.cpp
-// Any bytes as a cached reference. The first nine state what is requested: the pixels, and with colours?
+// Any bytes as a cached reference. The first nine state what is requested: the pixels, and with
+// colours?
 #include "modules/shadow_reference/reference_entry.h"
 
 #include "tests/fuzz/fuzz_target.h"
@@ -28,7 +29,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *p_data, size_t p_size) {
 		if (!reference) {
 			return;
 		}
-		GNOMON_ASSERT(reference->visibility.size() == pixel_count, reference->visibility.size(), " values");
+		GNOMON_ASSERT(reference->visibility.size() == pixel_count, reference->visibility.size(),
+				" values");
 		GNOMON_ASSERT(reference->colors.size() == (is_colored ? pixel_count : 0), "colours");
 		const std::vector<uint8_t> again = build_reference_entry(KEY, *reference);
 		constexpr size_t PADDING_BYTES = 4; // the last of the header, never looked at

@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-/// Occluders and receivers whose exact visibility is known. z is up; receivers lie in z = 0 and look up.
+/// Occluders and receivers whose exact visibility is known. z is up; receivers lie in z = 0 and
+/// look up.
 namespace gnomon::test_scenes {
 
 struct TriangleBuilder : Triangles {

@@ -120,7 +120,8 @@ TEST_CASE("[ShadowVolume] subtrees hold every box once, and hold it within their
 	CHECK(build_culling_boxes({}, origin).subtree_count == 0);
 }
 
-TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those next to it and before it not") {
+TEST_CASE("[GPU][ShadowVolume] casters behind a wall are culled, those next to it and before it "
+		  "not") {
 	for (const LightType type : ALL_TYPES) {
 		CAPTURE(std::string(get_light_type_name(type)));
 		MaskFixture fixture;
@@ -217,7 +218,8 @@ TEST_CASE("[GPU][ShadowVolume] without conditional rendering hidden casters go a
 	const MaskResult first = render_culled(fixture, scene, "auto");
 	CHECK(first.plan.to_text().find("needs conditional rendering") != std::string::npos);
 	check_same(first, all);
-	check_same(render_culled(fixture, scene, "auto"), all); // nothing moved: a test is worth its cost
+	check_same(
+			render_culled(fixture, scene, "auto"), all); // nothing moved: a test is worth its cost
 	const MaskResult known = render_culled(fixture, scene, "auto");
 	CHECK(read_hidden_count(known) > 0);
 	check_same(known, all);

@@ -142,7 +142,8 @@ TEST_CASE("[GPU][ShadowVolume] seen from the light itself nothing is dark") {
 	}
 }
 
-TEST_CASE("[GPU][ShadowVolume] an instance scaled to a line has no volume, and the plan reports it") {
+TEST_CASE(
+		"[GPU][ShadowVolume] an instance scaled to a line has no volume, and the plan reports it") {
 	MaskFixture fixture;
 	SmallScene scene;
 	MeshInstance3D &flat =

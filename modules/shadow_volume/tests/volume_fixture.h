@@ -43,7 +43,8 @@ inline std::shared_ptr<const Mesh> share_mesh(const std::string &p_name, const M
 inline void add_meshes(SmallScene &r_scene) {
 	const auto add = [&](const char *p_name, const Mesh &p_mesh, const glm::dvec3 &p_position,
 							 double p_scale) {
-		MeshInstance3D &node = add_mesh(r_scene.scene, p_name, share_mesh(p_name, p_mesh), p_position);
+		MeshInstance3D &node =
+				add_mesh(r_scene.scene, p_name, share_mesh(p_name, p_mesh), p_position);
 		node.parent_from_node = glm::rotate(
 				glm::scale(node.parent_from_node, glm::dvec3(p_scale)), 0.7, { 0.3, 1, 0.2 });
 	};

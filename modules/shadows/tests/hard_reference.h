@@ -25,7 +25,8 @@ public:
 	explicit HardReference(const SmallScene &p_scene) : scene(p_scene.snap()) {
 		for (const InstanceSnapshot &instance : scene->instances) {
 			if (instance.casts_shadow) {
-				trees.push_back({ RayTree(instance.caster_mesh), glm::inverse(instance.world_from_node) });
+				trees.push_back(
+						{ RayTree(instance.caster_mesh), glm::inverse(instance.world_from_node) });
 			}
 		}
 	}

@@ -242,7 +242,8 @@ TEST_CASE(
 				glm::rotate(scene.box->parent_from_node, 0.4, glm::normalize(glm::dvec3(1, 2, 3)));
 		std::vector<float> masks[2];
 		for (const int thickness : { 0, 1 }) {
-			scene.box->parent_from_node = glm::scale(transform, glm::dvec3(1.3, 1e-6 * thickness, 0.8));
+			scene.box->parent_from_node =
+					glm::scale(transform, glm::dvec3(1.3, 1e-6 * thickness, 0.8));
 			const MaskResult result = fixture.render_mask(scene, p_info.id);
 			CHECK(is_valid_mask(result));
 			masks[thickness] = result.visibility;

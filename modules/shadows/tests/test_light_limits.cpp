@@ -19,7 +19,8 @@ bool holds(const std::string &p_text, const std::string &p_part) {
 
 } // namespace
 
-TEST_CASE("[LightLimits] a caster that touches the light's sphere is named, one next to it is not") {
+TEST_CASE(
+		"[LightLimits] a caster that touches the light's sphere is named, one next to it is not") {
 	for (const LightType type : { LightType::SPOT, LightType::OMNI }) {
 		SmallScene scene(type);
 		CHECK(find_broken(scene, {}).empty());

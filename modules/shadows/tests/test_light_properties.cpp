@@ -3,9 +3,9 @@
 #include "modules/shadows/shadow_registry.h"
 
 #include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 
 using namespace gnomon;
 

@@ -38,7 +38,8 @@ public:
 
 } // namespace
 
-TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan reports when not") {
+TEST_CASE("[GPU][MaskFilter] a filter changes every technique's mask, and the plan reports when "
+		  "not") {
 	MaskFixture fixture;
 	SmallScene scene;
 	// Any technique will do; which there are depends on the build.

@@ -34,7 +34,8 @@ struct TracedScene {
 
 } // namespace
 
-TEST_CASE("[GPU] The reference traced in parallel with the frames is the technique's, bit for bit") {
+TEST_CASE(
+		"[GPU] The reference traced in parallel with the frames is the technique's, bit for bit") {
 	const ShadowTechniqueInfo *reference = ShadowRegistry::find_reference();
 	if (reference == nullptr) {
 		return; // a build without one
@@ -45,9 +46,10 @@ TEST_CASE("[GPU] The reference traced in parallel with the frames is the techniq
 		CAPTURE(int(type));
 		const TracedScene traced(fixture, *reference, type);
 		float last_progress = 0;
-		const ReferenceAnswer answer = reference->make_reference_source(traced.question)
-										   ->trace(uint32_t(SAMPLE_COUNT), std::atomic<bool>(false),
-												   [&](float p_share) { last_progress = p_share; });
+		const ReferenceAnswer answer =
+				reference->make_reference_source(traced.question)
+						->trace(uint32_t(SAMPLE_COUNT), std::atomic<bool>(false),
+								[&](float p_share) { last_progress = p_share; });
 		CHECK(answer.is_complete);
 		CHECK(answer.visibility == traced.result.visibility);
 		CHECK(answer.standard_error == traced.result.standard_error);
@@ -63,7 +65,8 @@ TEST_CASE("[GPU] A cancelled reference reports that it is not complete, and a la
 	}
 	MaskFixture fixture;
 	const TracedScene traced(fixture, *reference, LightType::SPOT);
-	const std::unique_ptr<ReferenceSource> source = reference->make_reference_source(traced.question);
+	const std::unique_ptr<ReferenceSource> source =
+			reference->make_reference_source(traced.question);
 	CHECK(!source->trace(16, std::atomic<bool>(true), {}).is_complete);
 	CHECK(source->trace(16, std::atomic<bool>(false), {}).is_complete);
 }
