@@ -76,7 +76,7 @@ std::string EditorContext::describe_items(const EditorProgress &p_progress) cons
 	return nlohmann::json(
 			{ { "items", positions }, { "selected", selected ? selected->name : "" },
 					{ "status", status }, { "is_changed", document.is_changed() },
-					{ "pictures", p_progress.image_count }, { "is_resting", p_progress.is_resting },
+					{ "images", p_progress.image_count }, { "is_resting", p_progress.is_resting },
 					{ "answers_ms", p_progress.answers_ms }, { "frame", p_progress.frame },
 					{ "timeline",
 							{ { "animation", animation ? animation->name : "" },

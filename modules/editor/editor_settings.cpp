@@ -47,7 +47,10 @@ EditorSettings read_settings(const Json &p_json) {
 	read(p_json, "window_width", settings.window_size_px.x, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
 	read(p_json, "window_height", settings.window_size_px.y, LEAST_WINDOW_PX, MAX_IMAGE_SIZE_PX);
 	read(p_json, "tab", settings.tab);
-	read(p_json, "truth_rays", settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
+	for (const char *name :
+			{ "truth_rays", "reference_rays" }) { // the first is of earlier versions
+		read(p_json, name, settings.sample_count, 1u, GREATEST_SAMPLE_COUNT);
+	}
 	read(p_json, "shows_penumbra", settings.shows_penumbra);
 	read(p_json, "autosave_s", settings.autosave_s, 1u, GREATEST_AUTOSAVE_S);
 	read(p_json, "recent", settings.recent);
@@ -73,7 +76,7 @@ EditorSettings EditorSettings::load() {
 void EditorSettings::save() const {
 	const Json json = { { "left", layout.left }, { "right", layout.right },
 		{ "bottom", layout.bottom }, { "window_width", window_size_px.x },
-		{ "window_height", window_size_px.y }, { "tab", tab }, { "truth_rays", sample_count },
+		{ "window_height", window_size_px.y }, { "tab", tab }, { "reference_rays", sample_count },
 		{ "shows_penumbra", shows_penumbra }, { "autosave_s", autosave_s }, { "recent", recent } };
 	try {
 		// A path need not be text in any encoding.

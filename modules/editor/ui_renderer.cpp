@@ -102,7 +102,7 @@ void UiRenderer::add_pass(RenderGraph &r_graph, RGTexture p_target, const ImDraw
 	for (const GetTexture &get_texture : textures) {
 		const TextureRID texture = get_texture();
 		shown.push_back(texture ? std::optional(r_graph.import_texture(
-										  texture, RenderGraph::ImportedContent::KEPT))
+										  texture, RenderGraph::ImportedContent::PRESERVED))
 								: std::nullopt);
 	}
 	textures.resize(1);

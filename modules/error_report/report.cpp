@@ -10,7 +10,7 @@ const char *get_name(ReportStatus p_status) {
 }
 
 const char *get_name(ErrorCause p_cause) {
-	static const char *const NAMES[] = { "method", "rounding", "truth" };
+	static const char *const NAMES[] = { "method", "rounding", "reference_mask" };
 	return NAMES[static_cast<int>(p_cause)];
 }
 

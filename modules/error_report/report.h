@@ -97,7 +97,7 @@ enum class ErrorCause {
 	ROUNDING,  // the question itself changes as much when its input is rounded to float32
 	REFERENCE, // the reference in float32 is off by as much
 };
-/// "method", "rounding", "truth".
+/// "method", "rounding", "reference_mask".
 const char *get_name(ErrorCause p_cause);
 
 /// How sensitive visibility is at some points, in double precision: means over the points.

@@ -168,7 +168,7 @@ void describe(const auto &p_form, Either<ReportTechnique> auto &r_technique) {
 
 void describe(const auto &p_form, Either<VisibilityCondition> auto &r_condition) {
 	describe_fields(p_form, "number", r_condition.number, "rounding", r_condition.rounding,
-			"truth_error", r_condition.reference_error, "error", r_condition.error, "cause",
+			"reference_error", r_condition.reference_error, "error", r_condition.error, "cause",
 			r_condition.cause);
 }
 
@@ -202,11 +202,11 @@ void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_con
 	describe_fields(p_form, "status", r_configuration.status, "message", r_configuration.message);
 	const bool has_reference =
 			r_configuration.has_reference() && r_configuration.status == ReportStatus::OK;
-	if (p_form.has("truth", has_reference)) {
+	if (p_form.has("reference_mask", has_reference)) {
 		auto &reference = r_configuration.reference;
 		describe_fields(p_form, "receiver_pixels", reference.receiver_pixel_count,
 				"penumbra_pixels", reference.penumbra_pixel_count);
-		p_form.part("truth", [&](const auto &p_part) {
+		p_form.part("reference_mask", [&](const auto &p_part) {
 			describe_fields(p_part, "standard_error", reference.standard_error, "wall_ms",
 					reference.wall_ms, "image", reference.image);
 			if (p_part.has("is_double", reference.is_double)) {
@@ -240,11 +240,42 @@ void describe(const auto &p_form, Either<Report> auto &r_report) {
 			"configurations", r_report.configurations, "cells", r_report.cells);
 }
 
-Report read_report(const Json &p_json) {
-	if (p_json.value("format", "") != REPORT_FORMAT ||
-			p_json.value("version", 0) != REPORT_VERSION) {
-		fail("its format is not ", REPORT_FORMAT, " of version ", REPORT_VERSION);
+void rename_key(Json &r_json, const char *p_old, const char *p_new) {
+	if (r_json.is_object() && r_json.contains(p_old)) {
+		r_json[p_new] = r_json[p_old];
+		r_json.erase(p_old);
 	}
+}
+
+/// Version 1 had other names for what concerns the reference. Of a record or a whole report.
+void upgrade(Json &r_json) {
+	rename_key(r_json, "truth", "reference_mask");
+	if (!r_json.is_object()) {
+		return;
+	}
+	if (r_json.contains("stability") && r_json["stability"].is_object() &&
+			r_json["stability"].contains("condition")) {
+		Json &condition = r_json["stability"]["condition"];
+		rename_key(condition, "truth_error", "reference_error");
+		if (condition.is_object() && condition.value("cause", Json()) == "truth") {
+			condition["cause"] = get_name(ErrorCause::REFERENCE);
+		}
+	}
+	for (const char *list : { "configurations", "cells" }) {
+		if (r_json.contains(list)) {
+			for (Json &item : r_json[list]) {
+				upgrade(item);
+			}
+		}
+	}
+}
+
+Report read_report(Json p_json) {
+	const int version = p_json.value("version", 0);
+	if (p_json.value("format", "") != REPORT_FORMAT || version < 1 || version > REPORT_VERSION) {
+		fail("its format is not ", REPORT_FORMAT, " of version 1..", REPORT_VERSION);
+	}
+	upgrade(p_json);
 	Report report;
 	describe(Reader{ p_json }, report);
 	for (size_t index = 0; index < report.cells.size(); ++index) {
@@ -260,8 +291,9 @@ Report read_report(const Json &p_json) {
 }
 
 /// Cell or configuration; one that cannot be read is as before.
-template <typename Owner> void read_result(const Json &p_json, Owner &r_owner) {
+template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
 	try {
+		upgrade(p_json);
 		Owner owner = r_owner;
 		describe_result(Reader{ p_json }, owner);
 		r_owner = std::move(owner);

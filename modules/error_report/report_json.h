@@ -11,7 +11,7 @@ namespace gnomon {
 // The forms of doc/report_format.md.
 
 inline constexpr const char *REPORT_FORMAT = "gnomon_report";
-inline constexpr int REPORT_VERSION = 1;
+inline constexpr int REPORT_VERSION = 2;
 
 /// The whole report with what is computed from its cells: fronts, ratios, ranking, curves.
 nlohmann::ordered_json to_json(const Report &p_report);

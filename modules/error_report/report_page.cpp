@@ -109,10 +109,10 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	for (size_t index = 0; index < configurations.size(); ++index) {
 		const Json &configuration = configurations[index];
 		// Of a stability sweep's points few have images of their techniques.
-		if (configuration.contains("truth") &&
+		if (configuration.contains("reference_mask") &&
 				(configuration.value("group", "") != STABILITY_GROUP ||
 						with_images.count(index) != 0)) {
-			add_image(configuration.at("truth"), p_store, images);
+			add_image(configuration.at("reference_mask"), p_store, images);
 		}
 	}
 	data["images"] = std::move(images);

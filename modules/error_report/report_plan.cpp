@@ -262,7 +262,7 @@ private:
 			const uint64_t hash =
 					compute_text_hash(text(options.sample_count), compute_question_hash(question));
 			p_configuration.record = make_record_name(
-					p_configuration.scene, "truth", compute_text_hash(options.program, hash));
+					p_configuration.scene, "reference_mask", compute_text_hash(options.program, hash));
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);

@@ -78,7 +78,7 @@ void ViewShadows::make_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			graph.import_texture(depth.get(device, p_view.depth,
 										 { "depth of Godot", Format::D32_SFLOAT, p_view.size_px, 1,
 												 TextureUsage::SAMPLED }),
-					RenderGraph::ImportedContent::KEPT);
+					RenderGraph::ImportedContent::PRESERVED);
 	const RGTexture full_depth = add_view_depth(graph, shadows.get_meshes(), p_view, drawn_depth,
 			std::make_shared<const ReducedInstances>(
 					find_reduced_instances(p_frame, *scene, p_view)));
@@ -130,9 +130,9 @@ void ViewShadows::show_masks(const ScenarioFrame &p_frame, const GodotView &p_vi
 			graph.import_texture(color.get(device, p_view.color,
 										 { "image of Godot", Format::RGBA16_SFLOAT, p_view.size_px,
 												 1, TextureUsage::COLOR_ATTACHMENT }),
-					RenderGraph::ImportedContent::KEPT);
+					RenderGraph::ImportedContent::PRESERVED);
 	const RGTexture held =
-			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::KEPT);
+			graph.import_texture(receivers.get_masks(), RenderGraph::ImportedContent::PRESERVED);
 	const PipelineRID pipeline = device.get_raster_pipeline(make_show_pipeline());
 	for (const std::string &light : p_frame.shown_lights) {
 		const auto layer = layers.find(light);

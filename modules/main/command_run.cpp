@@ -153,7 +153,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--debug-view", options.debug_view,
 			"Shows an intermediate image of the first light: mask, map, ...");
 	if (RunPartRegistry::find(MASKS_PART) != nullptr) {
-		command->add_option("--truth", reference_path,
+		command->add_option("--reference,--truth", reference_path,
 				"The first light's true mask (.exr, of `gnomon visibility`): --debug-view error");
 		CLI::Option *time =
 				command->add_option("--time", options.time,
@@ -164,7 +164,7 @@ void add_run_command(CLI::App &r_app, CommonOptions &r_common) {
 					   "used")
 				->needs(time);
 	}
-	command->add_flag("--leave-out-nothing", options.skips_nothing,
+	command->add_flag("--skip-nothing,--leave-out-nothing", options.skips_nothing,
 				   "Runs also what the image does not need (for comparison)")
 			->needs(headless);
 	command->add_option("--set", options.settings, "light.NAME.property=value; repeatable")

@@ -173,7 +173,7 @@ void add_visibility_command(CLI::App &r_app, CommonOptions &r_common) {
 			"doc/embedding.md)");
 	command->add_flag("--depth-alone", options.has_depth_alone,
 			"Makes geometric normals from the depth, as for a host that draws none");
-	command->add_flag("--leave-out-nothing", options.skips_nothing,
+	command->add_flag("--skip-nothing,--leave-out-nothing", options.skips_nothing,
 			"Runs also what the image does not need (for comparison)");
 	command->add_option("--device", r_common.device, "Index or part of the name");
 	command->add_flag("--validation", r_common.validation, "Validation layers on");

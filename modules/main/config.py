@@ -3,7 +3,7 @@ def get_dependencies():
 
 
 def get_optional_dependencies():
-    # Without them: no window; no visibility, and no --truth and --time of run; no report. See SCsub.
+    # Without them: no window; no visibility, and no --reference and --time of run; no report. See SCsub.
     return ["desktop", "masks", "error_report"]
 
 

@@ -26,7 +26,7 @@ struct CompareOptions {
 void add_compare_command(CLI::App &r_app, CommonOptions & /*r_common*/) {
 	static CompareOptions options;
 	CLI::App *command = r_app.add_subcommand("compare", "How far a mask is from the reference");
-	command->add_option("reference", options.reference, "EXR of the exact mask")->required();
+	command->add_option("reference_mask", options.reference, "EXR of the exact mask")->required();
 	command->add_option("result", options.result, "EXR to measure")->required();
 	command->add_option("--heatmap", options.heatmap,
 			"Also writes a PNG of the signed error: blue too dark, red too light");

@@ -45,7 +45,7 @@ struct TemporalMetrics {
 /// Different sizes or receiver masks, and values that are not finite, are an Error: these two
 /// images do not answer the same question. The names are used for the images in messages.
 MaskMetrics compute_mask_metrics(const MaskImage &p_reference, const MaskImage &p_result,
-		const std::string &p_reference_name = "reference",
+		const std::string &p_reference_name = "reference mask",
 		const std::string &p_result_name = "result");
 
 /// Frame k of one sequence against frame k of the other; all frames of one size. Fewer than two

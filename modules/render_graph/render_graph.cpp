@@ -50,7 +50,7 @@ RGTexture RenderGraph::import_texture(TextureRID p_texture, ImportedContent p_co
 	Resource &resource = resources.back();
 	resource.is_imported = true;
 	resource.texture = p_texture;
-	resource.has_content = p_content == ImportedContent::KEPT;
+	resource.has_content = p_content == ImportedContent::PRESERVED;
 	return handle;
 }
 

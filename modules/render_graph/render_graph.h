@@ -120,7 +120,7 @@ public:
 	}
 	/// A resource that outlives the frame. Between frames imported textures rest as
 	/// SHADER_READ_COMPUTE. NONE: it has no content yet (it was just made).
-	enum class ImportedContent { NONE, KEPT };
+	enum class ImportedContent { NONE, PRESERVED };
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
 	RGBuffer import_buffer(BufferRID p_buffer);
 	/// The window's next image, got from p_acquire when its first pass is recorded and shown when

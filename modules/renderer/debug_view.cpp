@@ -29,7 +29,7 @@ ShadowTechnique::DebugView add_error_view(
 		reference[pixel] = p_reference.receiver[pixel] >= 0.5f ? reference[pixel] : NO_RECEIVER;
 	}
 	const RGBuffer buffer = p_image.graph.upload(
-			"reference", BufferUsage::STORAGE, bytes_of(std::span<const float>(reference)));
+			"reference mask", BufferUsage::STORAGE, bytes_of(std::span<const float>(reference)));
 	const RGTexture error = p_image.graph.create_texture({ "mask error", Format::RGBA8_UNORM,
 			size_px, 1, TextureUsage::STORAGE | TextureUsage::SAMPLED });
 	add_compute_pass(p_image.graph, "mask error",
@@ -70,7 +70,7 @@ const ShadowTechnique::DebugView *choose_debug_view(
 	}
 	if (p_wish.id == ERROR_VIEW && !p_wish.has_reference) {
 		fail("Debug view \"error\": no reference is loaded. Make one with `gnomon visibility SCENE "
-			 "--out reference.exr` and the reference as its --technique, and give it with --truth "
+			 "--out reference.exr` and the reference as its --technique, and give it with --reference "
 			 "reference.exr.");
 	}
 	fail("Debug view \"", p_wish.id,

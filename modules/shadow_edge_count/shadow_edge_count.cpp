@@ -190,7 +190,7 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 			depth_map = OwnedTexture(p_inputs.device, p_inputs.device.create_texture(desc));
 		}
 		frame_depth_map = r_graph.import_texture(depth_map.get(),
-				has_content ? RenderGraph::ImportedContent::KEPT
+				has_content ? RenderGraph::ImportedContent::PRESERVED
 							: RenderGraph::ImportedContent::NONE);
 	}
 	return frame_depth_map;

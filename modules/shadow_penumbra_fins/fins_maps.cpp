@@ -46,7 +46,7 @@ void FinsMaps::import(RenderGraph &r_graph) {
 	GNOMON_ASSERT(!layers.empty(), "the maps were not prepared");
 	const auto import_one = [&](const OwnedTexture &p_texture) {
 		return r_graph.import_texture(p_texture.get(),
-				has_content ? RenderGraph::ImportedContent::KEPT
+				has_content ? RenderGraph::ImportedContent::PRESERVED
 							: RenderGraph::ImportedContent::NONE);
 	};
 	for (const OwnedTexture &layer : layers) {

@@ -41,7 +41,7 @@ void DepthMapTechnique::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 RGTexture DepthMapTechnique::import(RenderGraph &r_graph) {
 	if (!frame_map) {
 		frame_map = r_graph.import_texture(map.get(),
-				has_content ? RenderGraph::ImportedContent::KEPT
+				has_content ? RenderGraph::ImportedContent::PRESERVED
 							: RenderGraph::ImportedContent::NONE);
 	}
 	return frame_map;

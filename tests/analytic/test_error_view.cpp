@@ -68,7 +68,7 @@ TEST_CASE("[GPU][ErrorView] an error view without a reference, or with one of an
 	request.scene = scene.snap();
 	request.size_px = glm::uvec2(16);
 	request.debug_view = "error";
-	CHECK_THROWS_WITH_AS(fixture.renderer->render(request), doctest::Contains("--truth"), Error);
+	CHECK_THROWS_WITH_AS(fixture.renderer->render(request), doctest::Contains("--reference"), Error);
 	const std::vector<float> values(12, 1.0f);
 	request.reference = std::make_shared<ReferenceMask>(glm::uvec2(4, 3), values, values);
 	CHECK_THROWS_WITH_AS(fixture.renderer->render(request),

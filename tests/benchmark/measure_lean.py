@@ -83,7 +83,7 @@ def measure_rules(options):
             results = {}
             for _ in range(options.repeats):
                 for is_on in (True, False):
-                    words = still + ([] if is_on else ["--leave-out-nothing"])
+                    words = still + ([] if is_on else ["--skip-nothing"])
                     plan, results[is_on] = measure(scene, folder, options.size, rule.technique, rule.settings, words)
                     times[is_on].append(results[is_on]["call_ms"])
                     if (rule.line in plan) != is_on:

@@ -105,7 +105,7 @@ class WithDisplay(BlenderTest, DisplayTest):
     def test_the_editor_reads_a_file_again_that_is_exported_again(self):
         scene = self.make("followed.gltf")
         process = self.start("edit", scene, "--items", self.items)
-        self.wait_for(process, lambda state: state["pictures"] >= 1)
+        self.wait_for(process, lambda state: state["images"] >= 1)
         blend = self.build("larger.blend", changes=[["Key", "data.shadow_soft_size", 0.9]])
         self.assertEqual(self.export(blend, "followed.gltf").returncode, 0)
         self.wait_for(process, lambda state: "read again" in state["status"])

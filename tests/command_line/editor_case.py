@@ -42,7 +42,7 @@ class EditorCase(DisplayTest):
             os.remove(self.items)
         named = [self.project if project is None else project] if project != "" else []
         self.process = self.start("edit", *named, "--items", self.items, *self.checks, *arguments, **options)
-        self.wait_for(lambda state: state["pictures"] >= 1)
+        self.wait_for(lambda state: state["images"] >= 1)
 
     def get_state(self):
         try:
@@ -50,7 +50,7 @@ class EditorCase(DisplayTest):
         except (OSError, ValueError):  # not there yet
             error = {"light": "", "refusal": "", "is_tracing": False, "rays": 0, "penumbra_mae": -1.0}
             return {"items": {}, "selected": "", "status": "", "is_changed": False, "is_resting": False, "frame": 0,
-                    "pictures": 0, "answers_ms": [], "error": error}  # fmt: skip
+                    "images": 0, "answers_ms": [], "error": error}  # fmt: skip
 
     def wait_for(self, matches, at_most_s=TIMEOUT_S):
         """The first state that matches. None comes in time: the test fails with the last one."""

@@ -261,8 +261,8 @@ class BadArguments(CommandLineTest):
 
     def test_an_error_view_without_its_reference_names_the_next_step(self):
         show = ("run", CONTACT_BOX, "--headless", *SMALL, "--debug-view", "error")
-        self.assert_refused(run(*show), "--truth")
-        self.assert_refused(run(*show, "--truth", self.path("missing.exr")), "missing.exr")
+        self.assert_refused(run(*show), "--reference")
+        self.assert_refused(run(*show, "--reference", self.path("missing.exr")), "missing.exr")
 
     def test_wrong_usage_ends_with_2(self):
         for arguments in (

@@ -39,7 +39,7 @@ class EditorTimelineTest(EditorCase):
         self.rest()
         paused = self.get_state()
         self.wait_frames(20)
-        self.assertEqual(self.get_state()["pictures"], paused["pictures"], "nothing moves, so nothing is drawn")
+        self.assertEqual(self.get_state()["images"], paused["images"], "nothing moves, so nothing is drawn")
         self.assertFalse(paused["is_changed"])
         self.assertEqual(self.press_save(), before)
 

@@ -67,9 +67,9 @@ class EditorViewsTest(EditorCase):
         screenshot = self.photograph()
         self.choose("view", "error")
         self.assertLess(self.count_different(screenshot, self.photograph()), 0.001)  # the image, as there is no error
-        count = self.get_state()["pictures"]
+        count = self.get_state()["images"]
         self.rest()
-        self.assertEqual(self.get_state()["pictures"], count)
+        self.assertEqual(self.get_state()["images"], count)
         self.finish()
 
     def test_two_techniques_are_side_by_side(self):
@@ -105,13 +105,13 @@ class EditorViewsTest(EditorCase):
         self.assertIn("void main() {", source)
 
         def write(text, is_seen):
-            before = self.get_state()["pictures"]
+            before = self.get_state()["images"]
             with open(tone_map, "w", encoding="utf-8") as file:
                 file.write(text)
             self.wait_for(lambda state: is_seen(state, before))
 
         def is_reloaded(state, before):
-            return state["pictures"] > before and "recompiled" in state["status"]
+            return state["images"] > before and "recompiled" in state["status"]
 
         def is_refused(state, _):
             return "does not compile" in state["status"]

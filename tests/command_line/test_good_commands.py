@@ -115,7 +115,7 @@ class GoodCommands(CommandLineTest):
 
     def test_whole_frames_are_timed_with_and_without_what_is_skipped(self):
         found, images, plans = {}, {}, {}
-        for name, words in (("lean", ()), ("whole", ("--leave-out-nothing",))):
+        for name, words in (("lean", ()), ("whole", ("--skip-nothing",))):
             times, image = self.path(name + ".json"), self.path(name + ".png")
             command = ("run", THREE_LIGHTS, "--headless", *SMALL, "--technique", self.get_fallback(), "--plan")
             result = run(*command, "--time", times, "--capture", image, *words)
@@ -137,7 +137,7 @@ class GoodCommands(CommandLineTest):
         self.assertGreater(len({item["name"].split(": ")[0] for item in found["lean"]["passes"]}), 2)
 
     def test_only_headless_runs_are_timed(self):
-        for words in (("--time", self.path("time.json")), ("--leave-out-nothing",), ("--headless", "--still")):
+        for words in (("--time", self.path("time.json")), ("--skip-nothing",), ("--headless", "--still")):
             result = run("run", THREE_LIGHTS, *SMALL, *words)
             self.assertEqual(result.returncode, 2, words)
             self.assertIn("--time" if "--still" in words else "--headless", result.stderr)
@@ -229,7 +229,7 @@ class GoodCommands(CommandLineTest):
         images = {}
         for name, more in (("error", ("--debug-view", "error")), ("image", ())):
             path = self.path(name + ".png")
-            result = run("run", CONTACT_BOX, "--headless", *SMALL, "--truth", self.path("mask.exr"), "--capture", path, *more)
+            result = run("run", CONTACT_BOX, "--headless", *SMALL, "--reference", self.path("mask.exr"), "--capture", path, *more)
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(path, "rb") as file:
                 images[name] = file.read()

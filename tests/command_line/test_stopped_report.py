@@ -76,7 +76,7 @@ class StoppedReports(ReportCase):
         cache = self.path("cache")
         arguments = ("--scenes", "sphere", "--sizes", "0.4", "--techniques", self.get_fallback())
         whole = self.load_done("report", self.report("report", *arguments, GNOMON_CACHE_DIR=cache))
-        (entry,) = [os.path.join(cache, name) for name in os.listdir(cache) if name.startswith("reference")]
+        (entry,) = [os.path.join(cache, name) for name in os.listdir(cache) if name.startswith("reference_")]
         with open(entry, "rb") as file:
             data = bytearray(file.read())
         data[len(data) // 2] ^= 0x10

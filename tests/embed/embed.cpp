@@ -123,9 +123,9 @@ void run(const char *p_out, const char *p_depth, const char *p_normals) {
 		drawn_depth = load_texture(*device, p_depth, Format::D32_SFLOAT);
 		drawn_normals = load_texture(*device, p_normals, Format::R32_UINT);
 		surfaces.depth =
-				graph.import_texture(drawn_depth.get(), RenderGraph::ImportedContent::KEPT);
+				graph.import_texture(drawn_depth.get(), RenderGraph::ImportedContent::PRESERVED);
 		surfaces.geometric_normal =
-				graph.import_texture(drawn_normals.get(), RenderGraph::ImportedContent::KEPT);
+				graph.import_texture(drawn_normals.get(), RenderGraph::ImportedContent::PRESERVED);
 	} else {
 		surfaces.depth = add_depth_pass(graph, shadows, *scene);
 	}

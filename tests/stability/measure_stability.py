@@ -128,7 +128,7 @@ def build_causes(report):
         rows.append((
             "`%s`" % technique, len(own), len(broken), len(nonsense), sum(1 for item in nonsense if item[2]["warnings"]),
             "%.0f" % statistics.median([condition["number"] for condition in conditions]) if conditions else "",
-            ", ".join("%s %d" % (cause, causes.count(cause)) for cause in ("method", "rounding", "truth") if cause in causes),
+            ", ".join("%s %d" % (cause, causes.count(cause)) for cause in ("method", "rounding", "reference_mask") if cause in causes),
             "%.4f" % statistics.median(moved), "%.4f" % max(moved),
         ))  # fmt: skip
     header = ("technique", "points", "do not hold", "nonsense", "of them warned of", "condition number", "cause",

@@ -61,7 +61,7 @@ class Stability(StabilityCase):
                 with self.subTest(sweep=plot["sweep"], light=plot["light_type"], value=point["label"]):
                     if plot["sweep"] in HELD_SWEEPS and point["value"] <= HELD_SWEEPS[plot["sweep"]]:
                         center = next(item for item in series["points"] if item["label"] == plot["center"])
-                        reference = self.report["configurations"][cell["configuration"]]["truth"]
+                        reference = self.report["configurations"][cell["configuration"]]["reference_mask"]
                         allowed = max(2 * center["mae"], LEAST_MAE) + 2 * reference["standard_error"]
                         self.assertLessEqual(point["mae"], allowed)
                     if moved is not None and point["label"] not in VERTEX_LIGHTS:

@@ -125,7 +125,7 @@ void draw_images(EditorContext &r_context) {
 	const ImVec2 size(size_px.x * scale, size_px.y * scale);
 	draw_view(r_context, "mask", state.mask_texture, size);
 	ImGui::SameLine();
-	draw_image(r_context, "reference", state.metrics ? state.reference_texture : nullptr, size);
+	draw_image(r_context, "reference mask", state.metrics ? state.reference_texture : nullptr, size);
 	ImGui::SameLine();
 	draw_view(r_context, "error", state.metrics ? state.error_texture : nullptr, size);
 	if (ImGui::IsItemHovered()) {

@@ -77,7 +77,7 @@ TEST_CASE("[EditorSettings] a damaged file or a value out of range gives the def
 		CHECK(EditorSettings::load().layout.left == EditorLayout().left);
 	}
 	write(folder,
-			R"({ "left": 0.9, "right": -1, "window_width": 3, "truth_rays": 0, "autosave_s": 0, "tab": "Error" })");
+			R"({ "left": 0.9, "right": -1, "window_width": 3, "reference_rays": 0, "autosave_s": 0, "tab": "Error" })");
 	const EditorSettings settings = EditorSettings::load();
 	CHECK(settings.layout.left == EditorLayout().left);
 	CHECK(settings.layout.right == EditorLayout().right);

@@ -35,8 +35,8 @@
 
 	report.load = function () {
 		const data = JSON.parse(document.getElementById("report-data").textContent);
-		if (data.format !== "gnomon_report" || data.version !== 1) {
-			throw new Error(`The data is "${data.format}" version ${data.version}, must be "gnomon_report" version 1.`);
+		if (data.format !== "gnomon_report" || data.version !== 2) {
+			throw new Error(`The data is "${data.format}" version ${data.version}, must be "gnomon_report" version 2.`);
 		}
 		for (const key of ["configurations", "cells", "techniques", "ranking", "best_settings", "scaling", "machines"]) {
 			data[key] = data[key] || [];

@@ -169,7 +169,7 @@
 
 		async function draw() {
 			const cell = chosen;
-			const referenceName = report.data.configurations[cell.configuration].truth?.image;
+			const referenceName = report.data.configurations[cell.configuration].reference_mask?.image;
 			try {
 				const [result, reference] = await Promise.all([loadPixels(cell.image), loadPixels(referenceName)]);
 				if (cell === chosen) {

@@ -105,7 +105,7 @@
 		}) : null;
 		const grid = make("div", { class: "grid" }, configurations.map((configuration) => {
 			const own = configuration.cells.filter(report.isDrawn);
-			const reference = configuration.truth ? `${report.showCount(configuration.penumbra_pixels)} penumbra pixels, reference ± ${report.showError(configuration.truth.standard_error)}` : "";
+			const reference = configuration.reference_mask ? `${report.showCount(configuration.penumbra_pixels)} penumbra pixels, reference ± ${report.showError(configuration.reference_mask.standard_error)}` : "";
 			const figure = make("figure", {}, make("h3", {}, report.getLightText(configuration)), make("p", { class: "soft" }, reference));
 			if (own.length === 0) {
 				figure.append(make("p", { class: configuration.status === "failed" ? "failure" : "soft" },

@@ -61,6 +61,35 @@ TEST_CASE("[ErrorReport] a report of an earlier version, without `wrong`, is rea
 	CHECK(to_json(report) == older);
 }
 
+TEST_CASE("[ErrorReport] a report of version 1 is read by its old names") {
+	TemporaryFolder folder;
+	const std::filesystem::path path = folder.path / "report.json";
+	Report report = make_report(folder.path);
+	ReportStability stability;
+	stability.condition = { 4.0, 0.5, 0.25, 0.125, ErrorCause::REFERENCE };
+	report.cells[0].stability = stability;
+	std::string written = to_json(report).dump();
+	const auto replace = [&](const std::string &p_new, const std::string &p_old) {
+		REQUIRE(written.find(p_new) != std::string::npos);
+		for (size_t at = 0; (at = written.find(p_new, at)) != std::string::npos;) {
+			written.replace(at, p_new.size(), p_old);
+		}
+	};
+	save_file_atomically(path, written);
+	const Json current = to_json(load_report(path));
+	CHECK(current.at("version") == 2);
+	replace("\"version\":2", "\"version\":1");
+	replace("\"cause\":\"reference_mask\"", "\"cause\":\"truth\"");
+	replace("\"reference_mask\":", "\"truth\":");
+	replace("\"reference_error\":", "\"truth_error\":");
+	save_file_atomically(path, written);
+	const bool is_same = to_json(load_report(path)) == current; // the whole report is long
+	CHECK(is_same);
+	replace("\"version\":1", "\"version\":3");
+	save_file_atomically(path, written);
+	CHECK_THROWS_WITH_AS(load_report(path), doctest::Contains("version 1..2"), Error);
+}
+
 TEST_CASE("[ErrorReport] a file that is no report is refused by name") {
 	TemporaryFolder folder;
 	const std::filesystem::path path = folder.path / "report.json";

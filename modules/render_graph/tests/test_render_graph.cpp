@@ -174,7 +174,7 @@ TEST_CASE("[GPU][RenderGraph] an imported texture keeps its content from frame t
 	}
 	RenderGraph graph(*fixture.device, *fixture.pool);
 	const RGTexture texture =
-			graph.import_texture(imported.get(), RenderGraph::ImportedContent::KEPT);
+			graph.import_texture(imported.get(), RenderGraph::ImportedContent::PRESERVED);
 	const RGTexture copy = graph.create_texture(make_desc("copy"));
 	add_copy(graph, texture, copy);
 	float value = 0;
