@@ -1,4 +1,4 @@
-"""Style sheet and script of the demo page. Both are self-contained: the page loads nothing from elsewhere."""
+"""Style sheet of the Godot page. It is self-contained: the page loads nothing from elsewhere."""
 
 STYLE = """
 :root { --paper: #f6f4ef; --card: #ffffff; --ink: #23201c; --soft: #6d665c; --line: #e2dcd0;
@@ -58,23 +58,4 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: 2px 16px; margi
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 @media (max-width: 560px) { section { padding: 14px; border-radius: 12px; } .table { margin: 12px -14px 0; padding: 0 14px; }
   .strip { gap: 6px; } th, td { padding: 6px 7px; } figcaption { font-size: 0.76rem; } h1 { font-size: 1.6rem; } }
-"""
-
-SCRIPT = """
-document.querySelectorAll('.compare input').forEach(function (slider) {
-  function show() { slider.parentNode.style.setProperty('--x', slider.value + '%'); }
-  slider.addEventListener('input', show);
-  show();
-});
-document.querySelectorAll('button[data-mask]').forEach(function (button) {
-  button.addEventListener('click', function () {
-    var light = button.closest('.light');
-    light.querySelectorAll('button[data-mask]').forEach(function (other) {
-      other.setAttribute('aria-pressed', other === button);
-    });
-    light.querySelector('img.mask').src = button.dataset.mask;
-    light.querySelector('img.heat').src = button.dataset.heat;
-    light.querySelector('.shown').textContent = button.dataset.name;
-  });
-});
 """

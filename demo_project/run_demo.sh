@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # From a fresh Debian 12 to demo_project/out/index.html: installs what is missing, builds, renders
-# every demo scene with and without soft shadows, and measures every technique.
+# demo scenes with and without soft shadows, and measures every technique (`gnomon report`). The page
+# is there with its first scene, and grows.
 set -euo pipefail
 
 usage() {
     cat <<'TEXT'
 Usage: demo_project/run_demo.sh [options]
-  --size WxH      size of the images and masks (default 512x512)
-  --samples N     light samples of the reference (default: its own)
-  --frames N      frames that each technique is timed for (default 20)
+  --all           every scene at three sizes of its lights, all quality levels, sweeps: more than an hour
+  --size WxH      size of the images and masks (default 256x256)
+  --samples N     light samples of the reference (default 1024)
+  --frames N      most frames that each technique is timed for (default 20)
   --quick         three scenes only
   --scenes A,B    these scenes only
   --skip A,B*     all scenes but these; * is any text
@@ -17,7 +19,7 @@ Usage: demo_project/run_demo.sh [options]
   --device NAME   Vulkan device, by name or index (default: the engine's choice)
   --no-window     do not open the window at the end, even where there is a display
   --no-build      use bin/gnomon as it is
-Exit code: 0 all done, 1 something failed (the page lists what), 2 wrong usage.
+The page is measured again from scratch. Exit code: 0 all done, 1 something failed (the page lists what), 2 wrong usage.
 TEXT
 }
 
@@ -30,8 +32,11 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=$root/demo_project/out
 jobs=$(nproc 2>/dev/null || echo 1)
 wants_window=yes
+skipped=
 wants_build=yes
-measure_options=()
+report_options=()
+scenes=sphere,three_lights,torus_knot,clutter,open_sheets,kitbash,fence,leaf,courtyard,package_duck
+extent=(--sizes own --settings default --scaling none --change none --stability none)
 while [ $# -gt 0 ]; do
     case $1 in
         --size | --samples | --frames | --scenes | --skip | --out | --jobs | --device)
@@ -43,11 +48,17 @@ while [ $# -gt 0 ]; do
             case $1 in
                 --out) out=$2 ;;
                 --jobs) jobs=$2 ;;
-                *) measure_options+=("$1" "$2") ;;
+                --scenes) scenes=$2 ;;
+                --skip) skipped=$2 ;;
+                *) report_options+=("$1" "$2") ;;
             esac
             shift
             ;;
-        --quick) measure_options+=(--quick) ;;
+        --quick) scenes=sphere,three_lights,torus_knot ;;
+        --all)
+            scenes=
+            extent=()
+            ;;
         --no-window) wants_window=no ;;
         --no-build) wants_build=no ;;
         -h | --help)
@@ -84,13 +95,13 @@ python3 demo_project/scenes/make_artist_scenes.py || has_failed=yes
 python3 demo_project/scenes/make_foliage_scenes.py || has_failed=yes
 python3 demo_project/scenes/make_package_meshes.py || has_failed=yes
 
-echo "== Scenes"
-python3 demo_project/measure_demo.py --out "$out" "${measure_options[@]}" || has_failed=yes
-python3 demo_project/make_page.py "$out" || has_failed=yes
-echo "Page: $out/index.html"
+echo "== Report"
+[ -z "$scenes" ] || report_options+=(--scenes "$scenes")
+[ -z "$skipped" ] || report_options+=(--skip "$skipped")
+"${GNOMON:-bin/gnomon}" report demo_project --out "$out" "${extent[@]}" "${report_options[@]}" || has_failed=yes
 
 if [ "$wants_window" = yes ] && [ -n "${DISPLAY:-}" ]; then
     echo "== Window (close it to end)"
-    bin/gnomon run demo_project || has_failed=yes
+    "${GNOMON:-bin/gnomon}" run demo_project || has_failed=yes
 fi
 [ "$has_failed" = no ]

@@ -244,7 +244,7 @@ part_layers() {
 part_scenes() {
     run_part scenes python3 tests/run_unittest.py tests/demo/test_scenes.py tests/demo/test_artist_scenes.py \
         tests/demo/test_foliage_scenes.py tests/demo/test_animated_casters.py \
-        tests/demo/test_package_meshes.py tests/demo/test_page.py
+        tests/demo/test_package_meshes.py tests/demo/test_run_demo.py
 }
 part_docs() {
     run_part docs python3 tests/run_unittest.py tests/docs/test_docs.py
@@ -270,8 +270,7 @@ part_blender() {
 }
 part_demo() {
     # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
-    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo" \
-        --skip 'kitbash,rigging,grass,leaf,leaves,courtyard,package_*'
+    run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 }
 part_stability() {
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py tests/stability/test_untuned_meshes.py
@@ -331,7 +330,7 @@ part_fuzz() {
         run_part fuzz python3 tests/fuzz/run_fuzz.py --jobs "$jobs"
 }
 part_tables() {
-    run_check tables demo_project/run_demo.sh --no-build --samples 9216 --no-window
+    run_check tables demo_project/run_demo.sh --all --no-build --samples 9216 --no-window
 }
 part_large_meshes() {
     run_part "large meshes" python3 tests/run_unittest.py tests/stability/test_large_meshes.py

@@ -90,6 +90,16 @@ const LightSnapshot &get_light(const SceneSnapshot &p_scene, const std::string &
 	return *light;
 }
 
+double compute_own_size(const Light3D &p_light, double p_scene_size_m) {
+	const PropertyList &list = Light3D::get_property_list();
+	if (p_light.type != LightType::DIRECTIONAL) {
+		return get_float(list, p_light.properties, "light_size");
+	}
+	const double angle =
+			glm::radians(get_float(list, p_light.properties, "light_angular_distance"));
+	return DISTANCE_IN_SCENE_SIZES * p_scene_size_m * std::tan(angle / 2);
+}
+
 std::shared_ptr<const SceneSnapshot> build_variant(const Scene &p_scene, const Camera3D &p_camera,
 		Light3D &r_light, const LightVariant &p_variant, const PropertyValues &p_properties) {
 	const LightKeeper keeper(r_light);

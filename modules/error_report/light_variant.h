@@ -16,6 +16,9 @@ struct LightVariant {
 	double size_m = 0;
 };
 
+/// The size of a variant that leaves the light as it is.
+double compute_own_size(const Light3D &p_light, double p_scene_size_m);
+
 /// The scene with that one light changed. A light that changes its type stays where it is and looks
 /// at the middle of the casters; one that was directional is 1.5 S away from it. p_properties
 /// replace those of the light. The scene is as before when the function returns.

@@ -63,6 +63,9 @@ public:
 	virtual ReportMachine get_machine() const = 0;
 	virtual TracedReference trace_reference(
 			const MaskQuestion &p_question, uint32_t p_sample_count) = 0;
+	/// The scene as its camera sees it: RGBA8, sRGB-encoded, rows from the top.
+	virtual std::vector<uint8_t> draw_scene(
+			const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
 	/// The questions one after another, as frames of one run: what a technique caches, it reuses.

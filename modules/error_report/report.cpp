@@ -54,6 +54,9 @@ size_t Report::count(ReportStatus p_status) const {
 	for (const ReportConfiguration &configuration : configurations) {
 		found += configuration.has_reference() && configuration.status == p_status ? 1 : 0;
 	}
+	for (const ReportSceneImage &image : scene_images) {
+		found += image.status == p_status ? 1 : 0;
+	}
 	for (const ReportCell &cell : cells) {
 		found += cell.status == p_status ? 1 : 0;
 	}

@@ -144,6 +144,16 @@ struct ReportCell {
 	bool is_ok() const { return status == ReportStatus::OK; }
 };
 
+/// A scene as its camera sees it, for the page.
+struct ReportSceneImage {
+	std::string scene;
+	bool has_shadows = true; // of all its lights, as the file states them; false: of none
+	std::string record;		 // see RecordStore
+	ReportStatus status = ReportStatus::MISSING;
+	std::string message; // why it failed
+	std::string image;	 // colours
+};
+
 struct Report {
 	std::string project;
 	std::string program;	   // version and hash of what measured
@@ -152,6 +162,7 @@ struct Report {
 			0; // to which medians of time were to be known; 0: as well as 20 frames do
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;
+	std::vector<ReportSceneImage> scene_images;
 	std::vector<ReportConfiguration> configurations;
 	std::vector<ReportCell> cells;
 
@@ -161,7 +172,7 @@ struct Report {
 	const ReportCell *find_baseline(const ReportCell &p_cell) const;
 	/// Cost over the baseline's; nothing where one of both is not there.
 	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
-	/// Cells, and configurations' references, with that status.
+	/// Cells, configurations' references and scenes' images with that status.
 	size_t count(ReportStatus p_status) const;
 };
 

@@ -68,6 +68,9 @@ std::vector<std::string> list_records(const Report &p_plan) {
 			names.push_back(configuration.record);
 		}
 	}
+	for (const ReportSceneImage &image : p_plan.scene_images) {
+		names.push_back(image.record);
+	}
 	for (const ReportCell &cell : p_plan.cells) {
 		names.push_back(cell.record);
 	}
@@ -99,6 +102,10 @@ Report collect_report(
 	for (ReportConfiguration &configuration : report.configurations) {
 		read_record(p_store, configuration.record,
 				[&](const Json &p_content) { read_reference_result(p_content, configuration); });
+	}
+	for (ReportSceneImage &image : report.scene_images) {
+		read_record(p_store, image.record,
+				[&](const Json &p_content) { read_scene_image_result(p_content, image); });
 	}
 	for (ReportCell &cell : report.cells) {
 		read_record(p_store, cell.record, [&](const Json &p_content) {

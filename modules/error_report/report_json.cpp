@@ -231,11 +231,26 @@ void describe(const auto &p_form, Either<ReportConfiguration> auto &r_configurat
 	describe_result(p_form, r_configuration);
 }
 
+/// What is known of a scene's image.
+void describe_result(const auto &p_form, Either<ReportSceneImage> auto &r_image) {
+	describe_fields(
+			p_form, "status", r_image.status, "message", r_image.message, "image", r_image.image);
+}
+
+void describe(const auto &p_form, Either<ReportSceneImage> auto &r_image) {
+	describe_fields(p_form, "scene", r_image.scene, "has_shadows", r_image.has_shadows, "record",
+			r_image.record);
+	describe_result(p_form, r_image);
+}
+
 void describe(const auto &p_form, Either<Report> auto &r_report) {
 	describe_fields(p_form, "project", r_report.project, "samples", r_report.sample_count,
 			"precision_percent", r_report.precision_percent, "program", r_report.program);
 	p_form.add_computed("failed_count", r_report.count(ReportStatus::FAILED));
 	p_form.add_computed("missing_count", r_report.count(ReportStatus::MISSING));
+	if (p_form.has("scene_images", true)) { // absent in version 1
+		p_form("scene_images", r_report.scene_images);
+	}
 	describe_fields(p_form, "machines", r_report.machines, "techniques", r_report.techniques,
 			"configurations", r_report.configurations, "cells", r_report.cells);
 }
@@ -340,6 +355,16 @@ Json reference_result_to_json(const ReportConfiguration &p_configuration) {
 	Json json;
 	describe_result(Writer{ json }, p_configuration);
 	return json;
+}
+
+Json scene_image_result_to_json(const ReportSceneImage &p_image) {
+	Json json;
+	describe_result(Writer{ json }, p_image);
+	return json;
+}
+
+void read_scene_image_result(const Json &p_json, ReportSceneImage &r_image) {
+	read_result(p_json, r_image);
 }
 
 void read_reference_result(const Json &p_json, ReportConfiguration &r_configuration) {

@@ -33,6 +33,9 @@ nlohmann::ordered_json cell_result_to_json(
 /// of another form is an Error, and leaves the cell as it is.
 ReportMachine read_cell_machine(const nlohmann::ordered_json &p_json);
 void read_cell_result(const nlohmann::ordered_json &p_json, Report &r_report, ReportCell &r_cell);
+/// The same for the image of a scene.
+nlohmann::ordered_json scene_image_result_to_json(const ReportSceneImage &p_image);
+void read_scene_image_result(const nlohmann::ordered_json &p_json, ReportSceneImage &r_image);
 /// The same for the reference of a configuration.
 nlohmann::ordered_json reference_result_to_json(const ReportConfiguration &p_configuration);
 void read_reference_result(

@@ -115,6 +115,9 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 			add_image(configuration.at("reference_mask"), p_store, images);
 		}
 	}
+	for (const Json &shown : p_report.at("scene_images")) {
+		add_image(shown, p_store, images);
+	}
 	data["images"] = std::move(images);
 	Json colors = Json::array();
 	for (const glm::u8vec3 &color : compute_heat_map_colors(HEAT_MAP_COLOR_COUNT)) {

@@ -151,7 +151,10 @@ private:
 
 	void add_lights(const ReportScene &p_scene) {
 		const ReportView view = find_report_view(p_scene);
-		const double scene_size_m = build_snapshot(*p_scene.scene, *view.camera)->scene_size_m;
+		const auto snapshot = build_snapshot(*p_scene.scene, *view.camera);
+		const double scene_size_m = snapshot->scene_size_m;
+		add_scene_image(p_scene.name, snapshot, true);
+		add_scene_image(p_scene.name, snapshot, false);
 		std::vector<double> sizes_m = options.sizes_m;
 		if (sizes_m.empty()) {
 			for (const double size : DEFAULT_SIZES) {
@@ -160,12 +163,33 @@ private:
 		}
 		if (options.light_types.empty()) {
 			for (Light3D *light : view.lights) {
-				add_sizes(p_scene.name, p_scene.scene, *view.camera, *light, light->type, sizes_m);
+				add_sizes(p_scene.name, p_scene.scene, *view.camera, *light, light->type,
+						options.has_own_sizes
+								? std::vector{ compute_own_size(*light, scene_size_m) }
+								: sizes_m);
 			}
 		}
 		for (const LightType type : options.light_types) {
 			add_sizes(p_scene.name, p_scene.scene, *view.camera, *view.lights[0], type, sizes_m);
 		}
+	}
+
+	/// The scene as its camera sees it, with the shadows of all its lights or without any.
+	void add_scene_image(const std::string &p_scene,
+			const std::shared_ptr<const SceneSnapshot> &p_snapshot, bool p_has_shadows) {
+		auto shown = std::make_shared<SceneSnapshot>(*p_snapshot);
+		for (LightSnapshot &light : shown->lights) {
+			light.casts_shadow = light.casts_shadow && p_has_shadows;
+		}
+		ReportSceneImage image;
+		image.scene = p_scene;
+		image.has_shadows = p_has_shadows;
+		const uint64_t hash = compute_value_hash(p_has_shadows,
+				compute_question_hash({ p_snapshot, "", options.size_px, options.filter_hash }));
+		image.record = make_record_name(p_scene, p_has_shadows ? "with_shadows" : "without_shadows",
+				compute_text_hash(options.program, hash));
+		plan.report.scene_images.push_back(std::move(image));
+		plan.shown_scenes.push_back(std::move(shown));
 	}
 
 	void add_sizes(const std::string &p_name, const std::shared_ptr<const Scene> &p_scene,
@@ -261,8 +285,8 @@ private:
 		if (p_configuration.has_reference()) {
 			const uint64_t hash =
 					compute_text_hash(text(options.sample_count), compute_question_hash(question));
-			p_configuration.record = make_record_name(
-					p_configuration.scene, "reference_mask", compute_text_hash(options.program, hash));
+			p_configuration.record = make_record_name(p_configuration.scene, "reference_mask",
+					compute_text_hash(options.program, hash));
 		}
 		const size_t index = plan.report.configurations.size();
 		plan.report.configurations.push_back(p_configuration);
@@ -272,6 +296,9 @@ private:
 				continue;
 			}
 			std::vector<QualitySetting> settings = technique.get_settings(light);
+			if (options.has_default_settings) {
+				settings.clear();
+			}
 			if (!p_configuration.is_matrix()) {
 				// A technique of expensive settings is brute force: many times the cost of another.
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),

@@ -32,8 +32,10 @@ ReportView find_report_view(const ReportScene &p_scene);
 
 struct ReportOptions {
 	std::string project;
-	std::string program;		 // version and hash of this program: others measure again
-	std::vector<double> sizes_m; // R; empty: 0.02, 0.1 and 0.3 S of each scene
+	std::string program;			   // version and hash of this program: others measure again
+	std::vector<double> sizes_m;	   // R; empty: 0.02, 0.1 and 0.3 S of each scene
+	bool has_own_sizes = false;		   // instead: each light's own
+	bool has_default_settings = false; // each technique's defaults alone, no other quality levels
 	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
 	/// that cast shadows, as they are.
 	std::vector<LightType> light_types;
@@ -56,6 +58,7 @@ struct ReportOptions {
 /// triangles.
 struct ReportPlan {
 	Report report;
+	std::vector<std::shared_ptr<const SceneSnapshot>> shown_scenes; // of Report::scene_images
 	/// One per configuration; throws an Error where the scene cannot be shown. The properties
 	/// replace those of the light.
 	using MakeQuestion = std::function<MaskQuestion(const PropertyValues &)>;

@@ -70,6 +70,7 @@ public:
 		load_earlier();
 		for (size_t index = 0; index < report.configurations.size(); ++index) {
 			if (is_mine(index)) {
+				run_scene_images(report.configurations[index].scene);
 				run_configuration(index);
 			}
 		}
@@ -137,7 +138,36 @@ private:
 			}
 		};
 		retry(report.configurations, plan.report.configurations);
+		retry(report.scene_images, plan.report.scene_images);
 		retry(report.cells, plan.report.cells);
+	}
+
+	/// Once a scene, before its first configuration.
+	void run_scene_images(const std::string &p_scene) {
+		for (size_t index = 0; index < report.scene_images.size(); ++index) {
+			ReportSceneImage &shown = report.scene_images[index];
+			if (shown.scene != p_scene || shown.status != ReportStatus::MISSING) {
+				continue;
+			}
+			std::vector<uint8_t> image;
+			const glm::uvec2 size_px = find_scene_size(p_scene);
+			const std::optional<std::string> failure = find_failure([&] {
+				image = encode_png(
+						size_px, 4, source.draw_scene(plan.shown_scenes[index], size_px));
+			});
+			shown.status = failure ? ReportStatus::FAILED : ReportStatus::OK;
+			shown.message = failure.value_or("");
+			shown.image = failure ? "" : shown.record + ".png";
+			if (failure) {
+				log_error("Image of ", p_scene, ": ", *failure);
+			}
+			store.save(shown.record, scene_image_result_to_json(shown), image);
+		}
+	}
+
+	glm::uvec2 find_scene_size(const std::string &p_scene) const {
+		return std::ranges::find(report.configurations, p_scene, &ReportConfiguration::scene)
+				->size_px;
 	}
 
 	void run_configuration(size_t p_index) {
@@ -157,6 +187,9 @@ private:
 			run_cell(cell);
 			++done_count;
 			progress.update(double(done_count) / double(left_count));
+		}
+		if (options.on_progress && !missing.empty()) {
+			options.on_progress(report);
 		}
 	}
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace gnomon {
@@ -17,6 +18,8 @@ struct ReportRunOptions {
 	/// shard_count (along diagonals), and of the stability sweeps whole curves.
 	uint32_t shard_index = 0;
 	uint32_t shard_count = 1;
+	/// Called with what is measured so far, whenever a configuration is complete. May be empty.
+	std::function<void(const Report &)> on_progress = {};
 };
 
 /// Measures what the plan requests and keeps each result in the store at once. A reference or cell

@@ -18,7 +18,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <map>
 #include <optional>
 
 namespace gnomon {
@@ -121,6 +123,32 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 }
 
+/// While it lives, lets each warning through once, and counts the others: they follow at its end.
+class WarningCounter {
+public:
+	WarningCounter() {
+		before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
+			if (p_level != LogLevel::WARNING || ++counts[p_line] == 1) {
+				forward_log(before, p_level, p_line);
+			}
+		});
+	}
+	~WarningCounter() {
+		set_log_sink(std::move(before));
+		for (const auto &[line, count] : counts) {
+			if (count > 1) {
+				log_warning(count, " times: ", line);
+			}
+		}
+	}
+	WarningCounter(const WarningCounter &) = delete;
+	WarningCounter &operator=(const WarningCounter &) = delete;
+
+private:
+	LogSink before;
+	std::map<std::string, size_t> counts;
+};
+
 std::vector<ReportScene> load_scenes(
 		const NamedFiles &p_files, const CommonOptions &p_common, glm::uvec2 p_size_px) {
 	std::vector<ReportScene> scenes;
@@ -138,7 +166,8 @@ std::vector<ReportScene> load_scenes(
 }
 
 void run_report_command(const ReportArguments &p_arguments, const CommonOptions &p_common) {
-	const ReportRunOptions run_options = parse_run_options(p_arguments);
+	const WarningCounter warning_counter;
+	ReportRunOptions run_options = parse_run_options(p_arguments);
 	const std::optional<Report> old_report = load_old_report(p_arguments);
 	const SelectedScenes selected = select_scenes(p_arguments);
 	ReportOptions options = make_report_options(p_arguments, selected.project);
@@ -165,7 +194,16 @@ void run_report_command(const ReportArguments &p_arguments, const CommonOptions 
 	save_plan(out, plan.report);
 	log_info("Report: ", plan.report.configurations.size(), " configurations, ",
 			plan.report.cells.size(), " cells.");
-	RenderedMasks source(*device, options.precision_percent / 100);
+	RenderedMasks source(*device, options.precision_percent / 100, p_arguments.frame_count);
+	run_options.on_progress = [&, next = std::chrono::steady_clock::time_point()](
+									  const Report &p_report) mutable {
+		if (std::chrono::steady_clock::now() < next) {
+			return;
+		}
+		save_file_atomically(out / "index.html", build_report_page(to_json(p_report), store));
+		// Building it takes time too.
+		next = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+	};
 	const Report report = run_report(plan, source, store, run_options);
 	const bool is_part = run_options.shard_count > 1;
 	// Other shards may have measured into the same folder.
@@ -188,9 +226,19 @@ void add_report_command(CLI::App &r_app, CommonOptions &r_common) {
 	command->add_option("--scenes", arguments.scenes, "A,B: these scenes only")->delimiter(',');
 	command->add_option("--techniques", arguments.techniques, "A,B: these techniques only")
 			->delimiter(',');
-	command->add_option("--sizes", arguments.sizes_m,
-				   "Radii of the light in metres; default 0.02, 0.1 and 0.3 of the scene's size")
+	command->add_option(
+				   "--skip", arguments.skipped_scenes, "A,B*: all scenes but these; * is any text")
 			->delimiter(',');
+	command->add_option("--sizes", arguments.sizes,
+				   "Radii of the light in metres; default 0.02, 0.1 and 0.3 of the scene's size; "
+				   "own: each light's own")
+			->delimiter(',');
+	command->add_option("--settings", arguments.settings,
+				   "all (default): each technique's quality levels; default: its defaults alone")
+			->check(CLI::IsMember({ "all", "default" }));
+	command->add_option("--frames", arguments.frame_count,
+				   "Most frames that a cell is timed for; default 20")
+			->check(CLI::Range(1u, 1000u));
 	command->add_option("--light-types", arguments.light_types,
 				   "own (default): each scene's lights as they are; else spot,omni,directional")
 			->delimiter(',')

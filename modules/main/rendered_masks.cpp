@@ -17,7 +17,8 @@ namespace gnomon {
 
 namespace {
 
-// Of a cell: 20 frames or 3 s, at least 5. The mask itself has made the pipelines and warmed up.
+// Of a cell: 20 frames by default or 3 s, at least 5. The mask itself has made the pipelines and
+// warmed up.
 const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
 const char *const SAMPLES_ENDING = "_samples"; // <id>_samples: the reference's rays per pixel
 
@@ -109,6 +110,8 @@ MeasuredMask RenderedMasks::measure(
 			std::move(result.receiver) };
 	}
 	MeasureLimits limits = CELL_LIMITS;
+	limits.frame_count = frame_count;
+	limits.least_frame_count = std::min(limits.least_frame_count, frame_count);
 	limits.warm_up_count = request.wants_mask ? 0 : 1;
 	limits.median_error = median_error;
 	request.may_reuse = false;
@@ -140,6 +143,16 @@ private:
 };
 
 } // namespace
+
+std::vector<uint8_t> RenderedMasks::draw_scene(
+		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
+	RenderRequest request;
+	request.scene = p_scene;
+	request.size_px = p_size_px;
+	request.antialiasing = 2;
+	request.wants_image = true;
+	return Renderer(device).render(request).image;
+}
 
 DrawnMasks RenderedMasks::draw(
 		std::span<const MaskQuestion> p_questions, const std::string &p_technique) {

@@ -12,14 +12,16 @@ namespace gnomon {
 /// so that none inherits what another one cached.
 class RenderedMasks : public MaskSource {
 public:
-	/// p_median_error: a measurement may end before its 20 frames or 3 s once the standard error of
+	/// p_median_error: a measurement may end before its frames or 3 s once the standard error of
 	/// its median is that share of it; 0 = never.
-	RenderedMasks(RenderingDevice &p_device, double p_median_error) :
-			device(p_device), median_error(p_median_error) {}
+	RenderedMasks(RenderingDevice &p_device, double p_median_error, uint32_t p_frame_count = 20) :
+			device(p_device), median_error(p_median_error), frame_count(p_frame_count) {}
 
 	ReportMachine get_machine() const override;
 	TracedReference trace_reference(
 			const MaskQuestion &p_question, uint32_t p_sample_count) override;
+	std::vector<uint8_t> draw_scene(
+			const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) override;
 	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override;
 	DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override;
@@ -31,6 +33,7 @@ public:
 private:
 	RenderingDevice &device;
 	const double median_error;
+	const uint32_t frame_count;
 };
 
 } // namespace gnomon

@@ -9,6 +9,7 @@
 #include "modules/shadows/mask_filter.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -66,6 +67,24 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 	check_known("--sweeps", r_options.sweeps, part->list_sweeps());
 }
 
+/// * in the pattern is any text.
+bool matches_pattern(std::string_view p_text, std::string_view p_pattern) {
+	const size_t star = p_pattern.find('*');
+	if (star == std::string_view::npos) {
+		return p_text == p_pattern;
+	}
+	if (!p_text.starts_with(p_pattern.substr(0, star))) {
+		return false;
+	}
+	const std::string_view rest = p_pattern.substr(star + 1);
+	for (size_t first = star; first <= p_text.size(); ++first) {
+		if (matches_pattern(p_text.substr(first), rest)) {
+			return true;
+		}
+	}
+	return false;
+}
+
 } // namespace
 
 void check_known(const char *p_option, const std::vector<std::string> &p_requested,
@@ -107,10 +126,18 @@ ReportOptions make_report_options(
 	options.project = p_project;
 	options.program = describe_program();
 	options.filter_hash = compute_filter_hash();
-	for (const double size_m : p_arguments.sizes_m) {
-		if (!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LENGTH_M) {
-			throw UsageError(text(
-					"--sizes: ", size_m, " must be 0..", MAX_LENGTH_M, " m, the light's radius."));
+	options.has_default_settings = p_arguments.settings == "default";
+	options.has_own_sizes = p_arguments.sizes == std::vector<std::string>{ "own" };
+	for (const std::string &size : p_arguments.sizes) {
+		if (options.has_own_sizes) {
+			break;
+		}
+		double size_m = -1;
+		const auto parsed = std::from_chars(size.data(), size.data() + size.size(), size_m);
+		if (parsed.ec != std::errc() || parsed.ptr != size.data() + size.size() ||
+				!std::isfinite(size_m) || size_m < 0 || size_m > MAX_LENGTH_M) {
+			throw UsageError(text("--sizes: ", size, " must be 0..", MAX_LENGTH_M,
+					" m, the light's radius, or own alone."));
 		}
 		auto &sizes_m = options.sizes_m;
 		if (std::find(sizes_m.begin(), sizes_m.end(), size_m) == sizes_m.end()) {
@@ -160,8 +187,11 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
 		names.push_back(name);
-		if (requested.empty() ||
-				std::find(requested.begin(), requested.end(), name) != requested.end()) {
+		const bool is_skipped = std::ranges::any_of(p_arguments.skipped_scenes,
+				[&](const std::string &p_pattern) { return matches_pattern(name, p_pattern); });
+		if (!is_skipped &&
+				(requested.empty() ||
+						std::find(requested.begin(), requested.end(), name) != requested.end())) {
 			selected.scenes.push_back({ name, file });
 		}
 	}

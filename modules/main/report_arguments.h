@@ -15,7 +15,10 @@ struct ReportArguments {
 	std::string project;
 	std::vector<std::string> scenes;
 	std::vector<std::string> techniques;
-	std::vector<double> sizes_m;
+	std::vector<std::string> sizes; // metres, or "own" alone
+	std::string settings = "all";
+	uint32_t frame_count = 20;
+	std::vector<std::string> skipped_scenes; // names; * is any text
 	std::vector<std::string> light_types;
 	std::string size = "256x256";
 	std::string scaling = "quick";

@@ -88,6 +88,43 @@ class Reports(ReportCase):
                 values = [point["value"] for point in series["points"]]
                 self.assertEqual((values, len(values)), (sorted(values), 3))
 
+    def test_own_sizes_default_settings_and_skipped_scenes(self):
+        options = ("--sizes", "own", "--settings", "default", "--frames", "2", "--skip", "three_*,contact_box")
+        report = self.load_done("report", self.report("report", "--scenes", "three_lights,contact_box,sphere,terrain", *options))
+        self.assertEqual([item["id"] for item in report["configurations"]], ["sphere/Light/0.4", "terrain/Light/0.4"])
+        self.assertEqual({cell["setting"] for cell in report["cells"]}, {"default"})
+        self.assertEqual({cell["time"]["frames"] for cell in report["cells"]}, {2})
+
+    def test_own_sizes_of_a_sun_are_those_of_the_file(self):
+        report = self.load_done("report", self.report(
+            "report", "--scenes", "three_lights", "--sizes", "own", "--techniques", self.get_fallback(),
+        ))  # fmt: skip
+        (sun,) = [item for item in report["configurations"] if item["light_type"] == "directional"]
+        self.assertAlmostEqual(sun["light_angular_distance_deg"], 6.0, 3)
+
+    def test_wrong_sizes_are_refused(self):
+        for sizes in ("own,0.4", "large", "-1", "nan"):
+            result = self.report("report", "--scenes", "sphere", "--sizes=" + sizes)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--sizes", result.stderr)
+
+    def test_each_scene_is_on_the_page_with_and_without_shadows(self):
+        report = self.load_done("report", self.small("report"))
+        shown = [(item["scene"], item["has_shadows"]) for item in report["scene_images"]]
+        self.assertEqual(sorted(shown), sorted((name, flag) for name in ("contact_box", "sphere") for flag in (True, False)))
+        images = []
+        for item in report["scene_images"]:
+            with open(self.path("report/cells/" + item["image"]), "rb") as file:
+                images.append(file.read())
+        self.assertEqual(len(set(images)), 4)
+
+    def test_equal_warnings_are_printed_once_with_their_number(self):
+        arguments = ("--scenes", "sphere", "--sizes", "1.2", "--techniques", "outer_fins", "--light-types", "spot,omni")
+        lines = self.report("report", *arguments).stderr.splitlines()
+        warnings = [line for line in lines if "outer_fins is wrong above" in line]
+        self.assertEqual(len(warnings), 2, lines)
+        self.assertRegex(warnings[1], r"^WARNING: \d+ times: ")
+
     def test_the_budget_names_the_least_error_within_it(self):
         result = self.small("report", "--budget", "1000000")
         report = self.load_done("report", result)

@@ -13,12 +13,12 @@ from unittest import mock
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCENES = os.path.join(ROOT, "demo_project", "scenes")
 sys.path.insert(0, SCENES)
-sys.path.insert(0, os.path.join(ROOT, "demo_project"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import gltf_writer  # noqa: E402
 import make_package_meshes  # noqa: E402
-import measure_demo  # noqa: E402
 import package_files  # noqa: E402
+from project_scenes import list_project_scenes  # noqa: E402
 
 TETRAHEDRON = "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 0 8 0\nf 1 2 3\nf 1 4 2\nf 1/1 3/2 4/3\nf -3 -1 -2\n"
 
@@ -118,7 +118,7 @@ class PackageMeshes(unittest.TestCase):
             self.assertAlmostEqual(abs(mesh.normals[a][2]), 1.0)
 
     def test_the_project_lists_every_scene(self):
-        listed = measure_demo.load_config(os.path.join(ROOT, "demo_project", "project.cfg"))["project"]["scenes"]
+        listed = list_project_scenes()
         expected = {"scenes/package_%s.gltf" % name for name in make_package_meshes.MESHES}
         self.assertEqual({item for item in listed if "/package_" in item}, expected)
 

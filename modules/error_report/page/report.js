@@ -80,9 +80,19 @@
 		report.add(section, make("div", { class: "overview" }, make("div", {}, make("div", { class: "bar-line" },
 			make("p", { class: "soft" }, "One dot a setting. Lower is closer to the reference, further left is faster."), choice), host), tiles),
 		partial, report.makeRankingTable("All settings, means over configurations", data.ranking),
-		data.best_settings.length > 0 ? report.makeRankingTable("Best setting chosen for each configuration", data.best_settings) : null);
+		data.best_settings.length > 0 && data.best_settings.length < data.ranking.length ? report.makeRankingTable("Best setting chosen for each configuration", data.best_settings) : null);
 		drawOnEverySize(host, draw);
 		return section;
+	}
+
+	/* The scene as its camera sees it, with the shadows of all its lights and without any. */
+	function makeSceneImages(scene) {
+		const shown = (report.data.scene_images || []).filter((item) => item.scene === scene && report.data.images[item.image]);
+		return make("div", { class: "scene-images" }, shown.map((item) => {
+			const what = item.has_shadows ? "with the shadows of its lights" : "without shadows";
+			return make("figure", {}, make("img", { src: report.data.images[item.image], alt: `${scene} ${what}`, loading: "lazy" }),
+				make("figcaption", { class: "soft" }, what));
+		}));
 	}
 
 	function makeScene(scene, configurations, index) {
@@ -93,6 +103,7 @@
 		const section = report.makeSection(`scene-${index}`, scene, make("p", { class: "soft" }, `${report.showCount(first.triangles)} triangles, ` +
 			`${lightCount} ${lightCount === 1 ? "light" : "lights"}. All plots of a scene have the same axes. A click on a dot shows its image below.`));
 		section.classList.add("scene");
+		section.append(makeSceneImages(scene));
 		const plots = [];
 		let chosen = null;
 		const floor = report.getErrorFloor(drawn.map(report.getMae));

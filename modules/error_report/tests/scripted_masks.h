@@ -50,6 +50,11 @@ public:
 		return reference;
 	}
 
+	std::vector<uint8_t> draw_scene(const std::shared_ptr<const SceneSnapshot> & /*p_scene*/,
+			glm::uvec2 p_size_px) override {
+		return std::vector<uint8_t>(size_t(4) * p_size_px.x * p_size_px.y, 128);
+	}
+
 	MeasuredMask measure(const MaskQuestion &p_question, const std::string &p_technique) override {
 		if (measure_count == kill_after_count) {
 			throw Killed();

@@ -137,7 +137,7 @@ TEST_CASE("[ErrorReport] the page holds library, data and images, and names cann
 	const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 	CHECK(data.at("project") == report.project);
 	CHECK(data.at("cells")[0].at("setting") == "</script>");
-	CHECK(data.at("images").size() == 3 + 7);
+	CHECK(data.at("images").size() == 3 + 7 + 2);
 	const std::string image = data.at("images").at(report.cells[0].image);
 	CHECK(image.rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);
 	CHECK(image.size() % 4 == 22 % 4); // whole groups of base64 after the prefix

@@ -126,7 +126,7 @@ TEST_CASE("[ErrorReport] a scene that cannot be shown fails alone") {
 	CHECK(plan.report.find_cells(0).empty());
 	CHECK(plan.report.configurations[4].message.find("no light") != std::string::npos);
 	CHECK(plan.report.count(ReportStatus::FAILED) == 2);
-	CHECK(plan.report.count(ReportStatus::MISSING) == 3 + 7);
+	CHECK(plan.report.count(ReportStatus::MISSING) == 3 + 7 + 2);
 }
 
 TEST_CASE("[ErrorReport] scaling curves vary one thing at a time and share their common point") {
