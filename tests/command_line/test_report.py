@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import sys
 import unittest
 
@@ -119,11 +120,13 @@ class Reports(ReportCase):
         self.assertEqual(len(set(images)), 4)
 
     def test_equal_warnings_are_printed_once_with_their_number(self):
-        arguments = ("--scenes", "sphere", "--sizes", "1.2", "--techniques", "outer_fins", "--light-types", "spot,omni")
+        arguments = ("--scenes", "sphere", "--sizes", "1.2", "--settings", "default", "--light-types", "spot,omni")
         lines = self.report("report", *arguments).stderr.splitlines()
-        warnings = [line for line in lines if "outer_fins is wrong above" in line]
-        self.assertEqual(len(warnings), 2, lines)
-        self.assertRegex(warnings[1], r"^WARNING: \d+ times: ")
+        warnings = [line[len("WARNING: ") :] for line in lines if line.startswith("WARNING: ")]
+        counted = [line.split(" times: ", 1)[1] for line in warnings if re.match(r"\d+ times: ", line)]
+        self.assertGreater(len(counted), 0, lines)  # lights that large are beyond the limits of some technique
+        for line in counted:
+            self.assertEqual(warnings.count(line), 1)
 
     def test_the_budget_names_the_least_error_within_it(self):
         result = self.small("report", "--budget", "1000000")
