@@ -2,7 +2,7 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed command_line demo stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed command_line demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
@@ -16,7 +16,7 @@ Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
                build/ (1.2 GB, as root)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
-               command_line demo stability removal template sanitized fuzz_replay; with --godot also godot; with
+               command_line demo bundle stability removal template sanitized fuzz_replay; with --godot also godot; with
                --full also sanitized_all
                threads tables editor_repeats large_meshes validator fuzz soak kills extremes; only when named:
                blender (installs Blender, 160 MB)
@@ -272,6 +272,9 @@ part_demo() {
     # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 }
+part_bundle() {
+    run_part bundle python3 tests/run_unittest.py tests/benchmark/test_bundle.py
+}
 part_stability() {
     run_part stability python3 tests/run_unittest.py tests/stability/test_stability.py tests/stability/test_untuned_meshes.py
 }
@@ -368,7 +371,7 @@ if is_requested build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
-run_lanes "docs engine" "godot_set_up embed command_line template" "demo stability removal"
+run_lanes "docs engine" "godot_set_up embed command_line template" "demo bundle stability removal"
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender

@@ -263,8 +263,11 @@ std::string find_cpu_name() {
 }
 
 std::string describe_program() {
-	return std::string(PROGRAM_VERSION) + " " +
-			format_hash(compute_hash(load_file("/proc/self/exe")));
+	const char *const self = "/proc/self/exe";
+	std::error_code code;
+	const bool is_known = fs::exists(self, code); // a chroot may lack /proc
+	return std::string(PROGRAM_VERSION) +
+			(is_known ? " " + format_hash(compute_hash(load_file(self))) : "");
 }
 
 } // namespace gnomon

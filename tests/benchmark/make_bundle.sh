@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# Packs a program that runs where nothing is installed: see usage. doc/benchmarks.md, "A portable program".
+set -euo pipefail
+
+usage() {
+    cat <<'TEXT'
+Usage: tests/benchmark/make_bundle.sh [options]
+  --out FILE    the archive (default build/gnomon-linux-x86_64.tar.xz)
+  --program P   the program to pack (default bin/gnomon)
+  --quick       references of two scenes only (for tests)
+Packs the stripped program, its shared libraries with their licences, the scenes as files, the references of
+measure.sh --quick, and scripts in sh. Needs what run_demo.sh installed. The archive runs on x86-64 Linux with the
+C library of Debian 12 (glibc 2.36) or newer and a Vulkan driver. Exit code: 0 done, 1 failed, 2 wrong usage.
+TEXT
+}
+
+fail() {
+    echo "ERROR: $1" >&2
+    exit 1
+}
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+out=$root/build/gnomon-linux-x86_64.tar.xz
+program=$root/bin/gnomon
+measure_options=()
+while [ $# -gt 0 ]; do
+    case $1 in
+        --out | --program)
+            [ $# -ge 2 ] || {
+                echo "ERROR: $1 needs a value. See tests/benchmark/make_bundle.sh --help." >&2
+                exit 2
+            }
+            if [ "$1" = --out ]; then out=$2; else program=$2; fi
+            shift
+            ;;
+        --quick) measure_options=(--scenes "sphere,contact_box" --size 64x64) ;;
+        -h | --help)
+            usage
+            exit 0
+            ;;
+        *)
+            echo "ERROR: unknown option $1. See tests/benchmark/make_bundle.sh --help." >&2
+            exit 2
+            ;;
+    esac
+    shift
+done
+[ -x "$program" ] || fail "$program is not there. Build it: scons bin/gnomon."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+bundle=$work/gnomon-linux-x86_64
+mkdir -p "$bundle/bin" "$bundle/lib" "$bundle/lib/fallback" "$bundle/licences" "$bundle/project/scenes"
+
+echo "== Program"
+strip -o "$bundle/bin/gnomon" "$program"
+
+echo "== Libraries"
+# Those of the C library stay out: they and the driver must be of one make. What a driver may need too is a fallback, for
+# systems without it: a process has one version of each, and a driver of a newer system needs the newer one.
+is_of_c_library() {
+    case $1 in
+        libc.so.* | libm.so.* | libdl.so.* | libpthread.so.* | librt.so.* | ld-linux*) return 0 ;;
+        *) return 1 ;;
+    esac
+}
+is_of_drivers() {
+    case $1 in
+        libstdc++.so.* | libgcc_s.so.* | libz.so.* | libvulkan.so.* | libX11.so.* | libxcb.so.* | libXau.so.* | \
+            libXdmcp.so.* | libbsd.so.* | libmd.so.*) return 0 ;;
+        *) return 1 ;;
+    esac
+}
+add_licence() {
+    local package
+    package=$(dpkg -S "$(realpath "$1")" 2>/dev/null || dpkg -S "*/$(basename "$(realpath "$1")")" | head -n 1) || fail "no package has $1"
+    package=${package%%:*}
+    cp -L "/usr/share/doc/$package/copyright" "$bundle/licences/$package.txt"
+}
+while read -r name path; do
+    is_of_c_library "$name" && continue
+    if is_of_drivers "$name"; then
+        mkdir -p "$bundle/lib/fallback/$name"
+        cp -L "$path" "$bundle/lib/fallback/$name/$name"
+    else
+        cp -L "$path" "$bundle/lib/$name"
+    fi
+    add_licence "$path"
+done < <(ldd "$program" | awk '$2 == "=>" { print $1, $3 }')
+find "$bundle/lib" -type f -exec strip --strip-unneeded {} +
+cp "$root/LICENSE" "$bundle/licences/gnomon.txt"
+cp "$root"/modules/error_report/page/third_party/*LICENSE* "$bundle/licences/"
+
+echo "== Scenes"
+cp "$root"/demo_project/scenes/*.gltf "$root"/demo_project/scenes/*.bin "$root"/demo_project/scenes/*.png "$bundle/project/scenes/"
+cp "$root/demo_project/project.cfg" "$bundle/project/"
+cp "$root/tests/benchmark/bundle/gnomon" "$root/tests/benchmark/bundle/measure.sh" "$root/tests/benchmark/bundle/README.txt" "$bundle/"
+chmod +x "$bundle/gnomon" "$bundle/measure.sh"
+
+echo "== References"
+"$bundle/measure.sh" --quick --out "$work/measured" "${measure_options[@]}" >"$work/log" 2>&1 || {
+    cat "$work/log" >&2
+    fail "the bundle does not measure"
+}
+
+rm -f "$bundle"/references/pipelines_* # of this machine's driver
+
+echo "== Archive"
+mkdir -p "$(dirname "$out")"
+tar -C "$work" --owner=0 --group=0 -cJf "$out" "$(basename "$bundle")"
+size=$(stat -c %s "$out")
+echo "$out: $((size / 1048576)) MiB"
+[ "$size" -lt $((60 * 1048576)) ] || fail "$out has $size bytes, must be below 60 MiB"
