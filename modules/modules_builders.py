@@ -147,6 +147,13 @@ def write_registration(target, source, env):
         file.write("\n".join(lines))
 
 
+def format_bytes(name, data):
+    """Lines of C++ that define `const unsigned char NAME[]`, which has a 0 behind the data."""
+    lines = ["const unsigned char %s[] = {" % name]
+    lines += ["\t" + ",".join(map(str, data[start : start + 32])) + "," for start in range(0, len(data), 32)]
+    return [*lines, "\t0 };"]
+
+
 def find_library(env, name):
     """For LIBS: what goes into a library for Godot is linked statically, as the user's system may lack it."""
     if not env["godot"]:

@@ -1,5 +1,7 @@
 #include "modules/editor/ui_context.h"
 
+#include "modules/editor/typeface.h"
+
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
@@ -10,6 +12,10 @@
 namespace gnomon {
 
 namespace {
+
+// Names of nodes and files: Latin with accents, Greek, Cyrillic; signs that texts use.
+const ImWchar GLYPH_RANGES[] = { 0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2044, 0x20ac, 0x20ac, 0x2190,
+	0x21ff, 0x2200, 0x22ff, 0xfffd, 0xfffd, 0 };
 
 // Dear ImGui, of which there is one, reads the mouse's position once a frame, and gets the one that
 // it has by then, ahead of the events that were read. During a long frame a mouse that went on at
@@ -36,8 +42,11 @@ UiContext::UiContext(Window &p_window) {
 	io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
 	const float scale = p_window.get_scale();
 	ImFontConfig font;
-	font.SizePixels = std::round(13.0f * scale);
-	io.Fonts->AddFontDefault(&font);
+	font.FontDataOwnedByAtlas = false;
+	const std::span<const unsigned char> typeface = get_typeface();
+	// Only read, though the parameter is not const.
+	io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char *>(typeface.data()),
+			static_cast<int>(typeface.size()), std::round(14.0f * scale), &font, GLYPH_RANGES);
 	ImGui::StyleColorsDark();
 	ImGui::GetStyle().ScaleAllSizes(scale);
 	ImGui::GetStyle().WindowRounding = 0.0f;

@@ -50,14 +50,14 @@ class EditorTimelineTest(EditorCase):
 
     def test_a_space_that_is_typed_plays_nothing(self):
         self.open_editor(project=self.scene)
-        self.click("node Pole")
+        self.click("node Trunk")
         self.wait_for(lambda state: "property position" in state["items"])
         self.click("search properties")
         self.press("type", "no such")
         self.wait_for(lambda state: state["items"] and "property position" not in state["items"])
         self.wait_frames()
         self.assertFalse(self.get_state()["timeline"]["is_playing"])
-        self.click("node Pole")  # or the field gets all keys
+        self.click("node Trunk")  # or the field gets all keys
         self.wait_frames()
         self.finish()
 
