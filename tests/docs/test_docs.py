@@ -12,7 +12,7 @@ DOC = os.path.join(ROOT, "doc")
 GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
-LARGEST_IMAGE_BYTES = 60 * 1024
+LARGEST_IMAGE_BYTES = 80 * 1024
 TIMEOUT_S = 60
 
 sys.path.insert(0, DOC)

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Measures the errors that README.md claims, and fails when one no longer holds.
+
+    check_claims.py [--groups study,package,...] [--samples N] [--size WxH]
+
+Each group of scenes is measured with `gnomon report`, edge_count and pcss at their defaults. A claim holds while the mean penumbra MAE of
+edge_count is at most TOLERANCE times the figure in README.md, that of pcss at least the figure over TOLERANCE, and receivers that are off by
+more than 0.2 are as rare as claimed. On two cores about ten minutes.
+Exit code: 0 all claims hold, 1 one does not, or a figure is not in README.md.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+README = os.path.join(ROOT, "README.md")
+PROJECT = os.path.join(ROOT, "demo_project")
+TOLERANCE = 1.25  # size of image and number of rays differ from those of the published tables
+# Name: scenes, sizes of the lights in metres, what README.md has: penumbra MAE of edge_count and of pcss, most wrong receivers in 100,000.
+GROUPS = {
+    "study": ("sphere,contact_box,torus_knot,stacked_layers,clutter,terrain", "0.08,0.4,1.2", "0.0011", "0.062", 1),
+    "package": (
+        "package_jeep,package_spider,package_regr01,package_wuson,package_duck,package_grail,package_epileptic,package_cat,package_horse",
+        "0.08,0.4", "0.0013", "0.064", 5,
+    ),
+    "pierced": ("kitbash,rigging,grass", "0.08,0.4", "0.0024", "0.11", 5),
+    "courtyard": ("courtyard", "own", "0.0032", "0.074", 5),
+}  # fmt: skip
+
+
+def measure(scenes, sizes, options, folder):
+    """Rows of the report's ranking by technique."""
+    command = [GNOMON, "report", PROJECT, "--scenes", scenes, "--sizes", sizes, "--techniques", "edge_count,pcss", "--settings", "default",
+               "--samples", str(options.samples), "--size", options.size, "--scaling", "none", "--change", "none", "--stability", "none",
+               "--frames", "1", "--out", folder]  # fmt: skip
+    result = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+    if result.returncode != 0:
+        raise SystemExit("ERROR: %s ended with %d" % (" ".join(command), result.returncode))
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+        return {row["technique"]: row for row in json.load(file)["ranking"]}
+
+
+def check(name, options):
+    """False where the claim on a group does not hold."""
+    scenes, sizes, own_text, pcss_text, most_wrong = GROUPS[name]
+    with open(README, encoding="utf-8") as file:
+        text = file.read()
+    missing = [figure for figure in (own_text, pcss_text) if figure not in text]
+    with tempfile.TemporaryDirectory() as folder:
+        rows = measure(scenes, sizes, options, folder)
+    own, pcss = rows["edge_count"]["penumbra_mae"], rows["pcss"]["penumbra_mae"]
+    wrong = rows["edge_count"]["receiver_wrong"] * 1e5
+    holds = own <= TOLERANCE * float(own_text) and pcss >= float(pcss_text) / TOLERANCE and wrong <= most_wrong and not missing
+    print("%s: edge_count %.4f (claimed %s), pcss %.4f (claimed %s), wrong %.1f in 100,000 (claimed at most %g)%s: %s" % (
+        name, own, own_text, pcss, pcss_text, wrong, most_wrong, "; not in README.md: " + ", ".join(missing) if missing else "",
+        "holds" if holds else "DOES NOT HOLD"), flush=True)  # fmt: skip
+    return holds
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Checks the errors that README.md claims.")
+    parser.add_argument("--groups", default=",".join(GROUPS), help="of " + ", ".join(GROUPS))
+    parser.add_argument("--samples", type=int, default=4096, help="rays of the reference a pixel")
+    parser.add_argument("--size", default="256x256", help="WxH of the masks")
+    options = parser.parse_args()
+    names = options.groups.split(",")
+    unknown = [name for name in names if name not in GROUPS]
+    if unknown:
+        parser.error("unknown group %s" % ", ".join(unknown))
+    return 0 if all([check(name, options) for name in names]) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
