@@ -12,12 +12,11 @@ Exit code: 0 all claims hold, 1 one does not, or a figure is not in README.md.
 import argparse
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+from driver import ROOT, run_gnomon
+
 README = os.path.join(ROOT, "README.md")
 PROJECT = os.path.join(ROOT, "demo_project")
 TOLERANCE = 1.25  # size of image and number of rays differ from those of the published tables
@@ -35,12 +34,9 @@ GROUPS = {
 
 def measure(scenes, sizes, options, folder):
     """Rows of the report's ranking by technique."""
-    command = [GNOMON, "report", PROJECT, "--scenes", scenes, "--sizes", sizes, "--techniques", "edge_count,pcss", "--settings", "default",
-               "--samples", str(options.samples), "--size", options.size, "--scaling", "none", "--change", "none", "--stability", "none",
-               "--frames", "1", "--out", folder]  # fmt: skip
-    result = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
-    if result.returncode != 0:
-        raise SystemExit("ERROR: %s ended with %d" % (" ".join(command), result.returncode))
+    run_gnomon("report", PROJECT, "--scenes", scenes, "--sizes", sizes, "--techniques", "edge_count,pcss", "--settings", "default",
+               "--samples", options.samples, "--size", options.size, "--scaling", "none", "--change", "none", "--stability", "none",
+               "--frames", "1", "--out", folder)  # fmt: skip
     with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
         return {row["technique"]: row for row in json.load(file)["ranking"]}
 

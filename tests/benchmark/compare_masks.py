@@ -22,7 +22,7 @@ import sys
 import tempfile
 
 from mask_file import load_mask
-from run_benchmarks import PROGRAM, SCENES, TIMEOUT_S, run
+from driver import PROGRAM, SCENES, TIMEOUT_S, run
 
 TYPES = ("spot", "point", "directional")
 LIGHTS = "KHR_lights_punctual"

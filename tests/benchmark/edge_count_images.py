@@ -5,12 +5,12 @@ import math
 import os
 import sys
 
-import run_benchmarks
+import driver
 from measure_techniques import SCENES as STUDY_SCENES
 from measure_techniques import SIZES_M
-from run_benchmarks import run
+from driver import run
 
-sys.path.insert(0, run_benchmarks.SCENES)
+sys.path.insert(0, driver.SCENES)
 from gltf_writer import save_files  # noqa: E402
 from make_artist_scenes import SCENES as ARTIST_SCENES  # noqa: E402
 from make_artist_scenes import build_scene_files, make_artist_set  # noqa: E402
@@ -69,7 +69,7 @@ def make_images(groups, folder):
     package mesh cannot be converted: the goals are means over all of them."""
     images = []
     if STUDY in groups:
-        paths = [os.path.join(run_benchmarks.SCENES, name + ".gltf") for name in STUDY_SCENES]
+        paths = [os.path.join(driver.SCENES, name + ".gltf") for name in STUDY_SCENES]
         images += [Image(STUDY, path, None, size_m / SCENE_SIZE_M) for path in paths for size_m in SIZES_M]
 
     def add(group, names, lights, shares):

@@ -12,18 +12,13 @@ import argparse
 import json
 import math
 import os
-import re
 import shutil
 import struct
-import subprocess
-import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
-SCENES = os.path.join(ROOT, "demo_project", "scenes")
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mask_file import load_mask  # noqa: E402
+from driver import ROOT, SCENES, write_table
+from driver import run_gnomon as run
+from mask_file import load_mask
 
 PAGE = os.path.join(ROOT, "doc", "animation.md")
 SIZE = "512x512"
@@ -36,13 +31,6 @@ MOVING = ("Figure", "Flag")
 TECHNIQUES = ("edge_count", "pcss", "views", "jittered_pcf", "penumbra_fins", "shadow_volume", "planar", "shadow_map")
 TIMED = ("edge_count", "pcss", "penumbra_fins", "shadow_volume")
 RINGS, SIDES = 350, 100  # 70,000 triangles
-
-
-def run(*arguments):
-    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
-    return result.stdout
 
 
 def make_still_scene(folder):
@@ -216,14 +204,6 @@ def measure_times():
     return lines
 
 
-def write_table(name, lines):
-    with open(PAGE, encoding="utf-8") as file:
-        page = file.read()
-    table = "<!-- begin %s -->\n%s\n<!-- end %s -->" % (name, "\n".join(lines), name)
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(re.sub("<!-- begin %s -->.*?<!-- end %s -->" % (name, name), lambda _: table, page, flags=re.DOTALL))
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", action="store_true", help="writes the tables into doc/animation.md")
@@ -235,11 +215,11 @@ def main():
         lines = measure_errors(options.techniques.split(","))
         print("\n".join(lines))
         if options.write:
-            write_table("errors", lines)
+            write_table("errors", lines, PAGE)
     if not options.errors:
         lines = measure_times()
         if options.write:
-            write_table("times", lines)
+            write_table("times", lines, PAGE)
 
 
 if __name__ == "__main__":

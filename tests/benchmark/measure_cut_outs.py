@@ -13,15 +13,14 @@ import json
 import math
 import os
 import random
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
-SCENES = os.path.join(ROOT, "demo_project", "scenes")
+from driver import ROOT, SCENES, write_table
+from driver import run_gnomon as run
+
 sys.path.insert(0, SCENES)
 from foliage_shapes import get_leaf_depth, make_mask_png  # noqa: E402
 from gltf_writer import encode_png  # noqa: E402
@@ -38,13 +37,6 @@ UNSEEN = {
     "leaves": "`leaves` of seed 7",
     "courtyard": "`courtyard` of seed 7, its sun",
 }
-
-
-def run(*arguments):
-    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
-    return result.stdout
 
 
 def list_lights(scene):
@@ -167,14 +159,6 @@ def build_unseen(techniques):
     return lines
 
 
-def write(name, lines):
-    with open(PAGE, encoding="utf-8") as file:
-        text = file.read()
-    pattern = re.compile(r"(<!-- begin %s -->\n).*?(<!-- end %s -->)" % (name, name), re.DOTALL)
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(pattern.sub(lambda match: match.group(1) + "\n".join(lines) + "\n" + match.group(2), text))
-
-
 def main():
     parser = argparse.ArgumentParser(description="Measures cut-out casters.")
     parser.add_argument("--write", action="store_true", help="into doc/cut_outs.md")
@@ -190,7 +174,7 @@ def main():
     else:
         lines = build_unseen(techniques) if options.unseen else build_errors(scenes, techniques)
     if options.write:
-        write(table, lines)
+        write_table(table, lines, PAGE)
     return 0
 
 

@@ -12,24 +12,15 @@ import argparse
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
-SCENES = os.path.join(ROOT, "demo_project", "scenes")
-PAGE = os.path.join(ROOT, "doc", "benchmarks.md")
+from driver import PAGE, SCENES
+from driver import run_gnomon as run
+
 STUDY = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain", "kitbash", "courtyard")
 TECHNIQUES = ("edge_count", "pcss", "penumbra_fins", "outer_fins", "shadow_volume", "jittered_pcf", "shadow_map", "views")
 ERROR_SIZE = "512x512"
-
-
-def run(*arguments):
-    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
-    return result.stdout
 
 
 def measure(options, scene, size, technique, folder):

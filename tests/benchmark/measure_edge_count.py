@@ -18,13 +18,13 @@ import statistics
 import sys
 import tempfile
 
-import run_benchmarks
+import driver
 from edge_count_images import ARTISTS, GROUPS, LARGE_SHARE, PACKAGES, PLAIN, STUDY, SUN, Image, make_images
 from mask_file import load_mask
 from measure_techniques import find_reference
-from run_benchmarks import answer, describe_machine, format_table, publish_tables, run
+from driver import answer, describe_machine, format_table, publish_tables, run
 
-GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
+GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 
 PER = 100_000  # receivers
 FINE_SAMPLES = 9216  # errors below 0.004
@@ -380,7 +380,7 @@ def main():
         parser.error("--write needs all groups for %s, whose goals hold all of them. Leave --groups out" % ", ".join(over_all))
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
-    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() runs
+    driver.PROGRAM = GNOMON  # the one that describe_machine() runs
     with tempfile.TemporaryDirectory() as folder:
         images = make_images(groups, folder)
         for part in parts:

@@ -13,10 +13,10 @@ import sys
 import tempfile
 import time
 
-import run_benchmarks
-from run_benchmarks import answer, describe_machine, format_table, publish_tables
+import driver
+from driver import answer, describe_machine, format_table, publish_tables
 
-sys.path.insert(0, os.path.join(run_benchmarks.ROOT, "tests", "command_line"))
+sys.path.insert(0, os.path.join(driver.ROOT, "tests", "command_line"))
 from editor_case import EditorCase  # noqa: E402
 
 STARTS = 5

@@ -17,15 +17,15 @@ import statistics
 import sys
 import tempfile
 
-import run_benchmarks
-from run_benchmarks import SCENES, answer, describe_machine, format_table, publish_tables, run
+import driver
+from driver import SCENES, answer, describe_machine, format_table, publish_tables, run
 
 sys.path.insert(0, SCENES)
 from gltf_writer import save_files  # noqa: E402
 from make_scenes import AMBER, GROUND_HALF, add_ground, make_document  # noqa: E402
 from shapes import make_box, make_torus_knot  # noqa: E402
 
-GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
+GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 
 # Triangles -> the paper's ratio.
 PAPER_PEELING = {2000: 1.92, 7700: 2.12, 30000: 2.19, 69000: 2.86, 97000: 2.72}
@@ -210,7 +210,7 @@ def main():
         parser.error("--rounds is %d, must be 1 or more" % arguments.rounds)
     if not os.path.isfile(GNOMON):
         raise SystemExit("ERROR: %s is missing. Run scons." % GNOMON)
-    run_benchmarks.PROGRAM = GNOMON  # the one that describe_machine() runs
+    driver.PROGRAM = GNOMON  # the one that describe_machine() runs
     load = os.getloadavg()[0]
     rounds = measure_rounds(arguments.rounds)
     machine = "%s Rounds: %d." % (describe_machine(load), arguments.rounds)

@@ -15,7 +15,7 @@ import statistics
 import tempfile
 
 import lean_scenes
-from run_benchmarks import PROGRAM, describe_machine, format_table, run, write_table
+from driver import PROGRAM, describe_machine, format_table, run, write_table
 
 HIDDEN_COUNT = 252
 MOST_EXTRA = 0.10  # what hidden lights may cost in addition to those in view

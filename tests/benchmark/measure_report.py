@@ -20,7 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, os.path.join(ROOT, "tests", "command_line"))
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import check_report_page  # noqa: E402
-from run_benchmarks import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
+from driver import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
 
 IMAGES = os.path.join(ROOT, "doc", "images")
 # The study's scenes and the population of its figures: doc/benchmarks.md.

@@ -12,11 +12,11 @@ import argparse
 import json
 import math
 import os
-import re
 import tempfile
 
+from driver import ROOT, write_table
 from mask_file import Mask, compute_mean_error, halve, load_mask
-from measure_techniques import ROOT, find_reference, run
+from measure_techniques import find_reference, run
 
 PAGE = os.path.join(ROOT, "doc", "techniques", "receiver_scatter.md")
 SCENES = (("teapot_s15", 0.15), ("teapot_s50", 0.50), ("teapot_s80", 0.80))
@@ -142,17 +142,6 @@ def measure_shades(folder, sample_count):
     return lines
 
 
-def write_table(name, lines):
-    with open(PAGE, encoding="utf-8") as file:
-        text = file.read()
-    pattern = re.compile(r"(<!-- begin %s -->\n).*?(<!-- end %s -->)" % (name, name), re.DOTALL)
-    if not pattern.search(text):
-        raise SystemExit("ERROR: %s has no table %s." % (PAGE, name))
-    text = pattern.sub(lambda match: match.group(1) + "\n".join(lines) + "\n" + match.group(2), text)
-    with open(PAGE, "w", encoding="utf-8") as file:
-        file.write(text)
-
-
 def main():
     parser = argparse.ArgumentParser(description="Measures shadows on translucent receivers.")
     parser.add_argument("--only", choices=("errors", "times", "resolutions", "shades"))
@@ -166,7 +155,7 @@ def main():
             "shades": lambda: measure_shades(folder, arguments.samples),
         }
         for name in (arguments.only,) if arguments.only else measures:
-            write_table(name, measures[name]())
+            write_table(name, measures[name](), PAGE)
             print("wrote table %s" % name, flush=True)
 
 

@@ -12,25 +12,18 @@ import argparse
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GNOMON = os.environ.get("GNOMON", os.path.join(ROOT, "bin", "gnomon"))
+from driver import ROOT
+from driver import run_gnomon as run
+
 PAGES = os.path.join(ROOT, "doc", "techniques")
 SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
 SIZES_M = (0.08, 0.4, 1.2)
 TIMED_SIZE_M = 0.4
 MASK_SIZE = "256x256"
 TABLE = re.compile(r"(<!-- begin (errors|times) (\w+)((?: \w+=\S+)*) -->\n).*?(<!-- end \2 -->)", re.DOTALL)
-
-
-def run(*arguments):
-    result = subprocess.run([GNOMON, *map(str, arguments)], capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise SystemExit("ERROR: gnomon %s: %s" % (" ".join(map(str, arguments)), result.stderr.strip()))
-    return result.stdout
 
 
 def find_reference():

@@ -14,11 +14,11 @@ import re
 import sys
 import tempfile
 
-import run_benchmarks
+import driver
 import volume_scenes
-from run_benchmarks import SCENES, describe_machine, format_table, publish_tables, run
+from driver import SCENES, describe_machine, format_table, publish_tables, run
 
-GNOMON = os.path.abspath(os.environ.get("GNOMON", run_benchmarks.PROGRAM))
+GNOMON = os.path.abspath(os.environ.get("GNOMON", driver.PROGRAM))
 SIZE = "400x400"
 POINT = ("light_size=0", "light_angular_distance=0")
 TIMED = {

@@ -2,6 +2,7 @@
 """Measures what the engine promises and writes the tables of doc/benchmarks.md.
 
     run_benchmarks.py [PART]... [--build] [--jobs N] [--write]
+    run_benchmarks.py --all [--write]      every table of that page: these parts, and what ALL lists, which takes hours
 
 Parts: load shadow_map static, and with --build also clean_build technique_build; default: all of
 these. Without --write the tables are printed only. Build first: scons && scons benchmarks.
@@ -9,7 +10,6 @@ Times depend on the machine and on what else it does, so that nothing here fails
 """
 
 import argparse
-import datetime
 import json
 import os
 import re
@@ -20,45 +20,16 @@ import sys
 import tempfile
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PROGRAM = os.path.join(ROOT, "bin", "gnomon")
+from driver import PROGRAM, ROOT, SCENES, answer, describe_machine, format_table, run, write_table
+
 LOAD_PROGRAM = os.path.join(ROOT, "bin", "gnomon_benchmark")
-PAGE = os.path.join(ROOT, "doc", "benchmarks.md")
-SCENES = os.path.join(ROOT, "demo_project", "scenes")
 PARTS = ("load", "shadow_map", "static")
 BUILD_PARTS = ("clean_build", "technique_build")
 TIMED_SCENES = ("torus_knot", "terrain")
+# The other scripts that write tables into doc/benchmarks.md.
+ALL = ("measure_edge_count", "measure_fins", "measure_volumes", "measure_lean", "measure_report", "measure_editor", "measure_device")
 TOUCHED_FILE = "modules/shadow_map/shadow_map.cpp"
 REPEATS = 3  # of `visibility --time`, each the median of 20 frames
-TIMEOUT_S = 3600
-
-
-def run(command, folder=ROOT, **options):
-    """The command's output. Ends the program when the command fails."""
-    result = subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT_S, **options
-    )
-    if result.returncode != 0:
-        raise SystemExit("ERROR: %s ended with %d: %s" % (" ".join(command), result.returncode, result.stderr.strip()))
-    return result.stdout
-
-
-def format_row(*cells):
-    return "| " + " | ".join(str(cell) for cell in cells) + " |"
-
-
-def format_table(header, rows):
-    return [format_row(*header), format_row(*("---" for _ in header))] + [format_row(*row) for row in rows]
-
-
-def answer(is_met):
-    return "yes" if is_met else "no"
-
-
-def describe_processor():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        found = re.search(r"^model name\s*:\s*(.+)$", file.read(), re.MULTILINE)
-    return found.group(1) if found else "unknown processor"
 
 
 def copy_tree(target):
@@ -167,48 +138,12 @@ def measure_technique_build(jobs):
     )
 
 
-def publish_tables(tables, measured, writes):
-    """Prints tables, lines by name, each with what was measured below it; writes them into the page if requested."""
-    for name, lines in tables.items():
-        lines += ["", measured]
-        print("\n%s\n%s" % (name, "\n".join(lines)), flush=True)
-        if writes:
-            write_table(name, lines)
-
-
-def write_table(name, lines, page=PAGE):
-    """Replaces what is between the page's two markers of that name."""
-    with open(page, encoding="utf-8") as file:
-        text = file.read()
-    begin, end = "<!-- begin %s -->" % name, "<!-- end %s -->" % name
-    if begin not in text or end not in text:
-        raise SystemExit("ERROR: %s has no markers %s and %s. Add them where the table belongs." % (page, begin, end))
-    before, rest = text.split(begin, 1)
-    after = rest.split(end, 1)[1]
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(before + begin + "\n" + "\n".join(lines) + "\n" + end + after)
-
-
-def describe_machine(load):
-    device, driver = "unknown", "unknown"
-    with tempfile.TemporaryDirectory() as folder:
-        times = os.path.join(folder, "time.json")
-        run([PROGRAM, "visibility", os.path.join(SCENES, "sphere.gltf"), "--technique", "shadow_map", "--size", "16x16",
-             "--out", os.path.join(folder, "mask.exr"), "--time", times])  # fmt: skip
-        with open(times, encoding="utf-8") as file:
-            result = json.load(file)
-        device, driver = result["device"], result["driver"]
-    cores = os.cpu_count() or 1
-    return "%s: %s, %d cores; %s, %s. Load when it began: %.1f%s." % (
-        datetime.date.today().isoformat(), describe_processor(), cores, device, driver, load,
-        " - other work ran at the same time, so the times are too long" if load > 1.5 else "")  # fmt: skip
-
-
 def main():
     parser = argparse.ArgumentParser(description="Measures loading, building and the shadow map; see doc/benchmarks.md.")
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS + BUILD_PARTS))
     parser.add_argument("--build", action="store_true", help="also the parts that build (minutes)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--all", action="store_true", help="every table of doc/benchmarks.md (hours)")
     parser.add_argument("--write", action="store_true", help="into doc/benchmarks.md")
     arguments = parser.parse_args()
     unknown = [part for part in arguments.parts if part not in PARTS + BUILD_PARTS]
@@ -223,12 +158,16 @@ def main():
         "clean_build": lambda: measure_clean_build(arguments.jobs),
         "technique_build": lambda: measure_technique_build(arguments.jobs),
     }
-    for part in arguments.parts or PARTS + (BUILD_PARTS if arguments.build else ()):
+    for part in arguments.parts or PARTS + (BUILD_PARTS if arguments.build or arguments.all else ()):
         load = os.getloadavg()[0]
         lines = measures[part]() + ["", describe_machine(load)]
         print("\n%s\n%s" % (part, "\n".join(lines)), flush=True)
         if arguments.write:
             write_table(part, lines)
+    for name in ALL if arguments.all else ():
+        script = os.path.join(ROOT, "tests", "benchmark", name + ".py")
+        print("\n== %s" % name, flush=True)
+        subprocess.run([sys.executable, script, *(["--write"] if arguments.write else [])], check=True)
     return 0
 
 

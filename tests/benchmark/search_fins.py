@@ -19,7 +19,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
 from measure_techniques import MASK_SIZE, PAGES, ROOT, SCENES, SIZES_M, find_reference, format_number, render, run
-from run_benchmarks import format_table
+from driver import format_table
 
 TECHNIQUE = "penumbra_fins"
 PAGE = os.path.join(PAGES, TECHNIQUE + ".md")

@@ -19,7 +19,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "tests", "benchmark"), os.path.dirname(os.path.abspath(__file__))]
 from measure_report import save_images  # noqa: E402
-from run_benchmarks import PROGRAM, format_table, write_table  # noqa: E402
+from driver import PROGRAM, format_table, write_table  # noqa: E402
 from untuned_project import make_untuned_project  # noqa: E402
 
 PAGE = os.path.join(ROOT, "doc", "stability.md")
