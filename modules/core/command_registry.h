@@ -12,23 +12,25 @@ class App;
 
 namespace gnomon {
 
-/// Options of every command.
+/// Options that every command has.
 struct CommonOptions {
-	std::string device; // index or part of the name; empty: the best
+	std::string device; // index of the device, or part of its name; empty: the best device
 	bool validation = false;
-	std::string stage = "auto"; // of commands that draw scenes: see stage_scene; auto, on or off
-	std::string animation;		// of commands that draw scenes: its name; empty: the first
-	std::optional<double> at_s; // the time of it that is drawn; empty: the scene is at rest
+	/// For commands that draw scenes, see stage_scene: "auto", "on" or "off".
+	std::string stage = "auto";
+	/// For commands that draw scenes: name of the animation; empty: the first.
+	std::string animation;
+	std::optional<double> at_s; // time in the animation, seconds; empty: the scene is drawn at rest
 };
 
 struct CommandInfo {
 	static constexpr int LAST = 100;
 
 	std::string id; // its word on the command line
-	/// Called once, before the command line is read: adds the subcommand. When that is chosen, it
-	/// runs inside CLI11's parse.
+	/// Called once, before the command line is parsed, to add the subcommand. If the user chose
+	/// that subcommand, it runs inside CLI11's parse.
 	std::function<void(CLI::App &r_app, CommonOptions &r_common)> add;
-	int help_order = LAST; // in --help, rising; those of equal order by id
+	int help_order = LAST; // position in --help, ascending; equal values are sorted by id
 };
 
 /// The commands of this build. Modules add theirs at ModuleLevel::FEATURES.

@@ -15,16 +15,16 @@ struct EmbeddedShader {
 
 /// Every entry point of the modules in this build, ordered by module and name.
 std::span<const EmbeddedShader> get_embedded_shaders();
-/// More entry points, found after those of the build and valid until the program ends: the test
-/// runner's kernels. Before any pipeline is made.
+/// Adds entry points to those of the build, such as the kernels of the test runner. They must stay
+/// valid until the program ends. Call it before any pipeline is made.
 void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders);
-/// Other SPIR-V for an entry point, from now on; empty: that of the build again. Pipelines that are
-/// there already do not change: see RenderingDevice::replace_shaders. One thread.
+/// Replaces the SPIR-V of an entry point; an empty span restores that of the build. Existing
+/// pipelines do not change, see RenderingDevice::replace_shaders. Call it from one thread only.
 void replace_embedded_shader(std::string_view p_name, std::vector<uint32_t> p_spirv);
-/// The SPIR-V that this build has of an entry point, whatever replaces it.
+/// Returns the SPIR-V that the build embedded for an entry point, even if it has been replaced.
 std::span<const uint32_t> find_built_shader(std::string_view p_name);
-/// The SPIR-V of one entry point, valid until it is replaced. An unknown name is an Error naming
-/// it.
+/// Returns the SPIR-V of one entry point, valid until it is replaced. An unknown name is an Error
+/// that names it.
 std::span<const uint32_t> find_embedded_shader(std::string_view p_name);
 
 } // namespace gnomon

@@ -20,13 +20,14 @@ public:
 	using Error::Error;
 };
 
-/// The device works no more: each later call to it fails too, so there is no use in going on.
+/// The device is lost: every later call to it fails too, so the caller should not continue.
 class DeviceLost : public Error {
 public:
 	using Error::Error;
 };
 
-/// The message of a caught exception. Of memory that ran out, which has none itself, what to do.
+/// Returns the message of a caught exception. For std::bad_alloc, which has no useful message, it
+/// says what the user can do.
 std::string describe_failure(const std::exception &p_failure);
 
 /// Throws Error with the arguments joined by text().

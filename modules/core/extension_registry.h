@@ -28,7 +28,7 @@ public:
 	static const std::vector<Info> &get_all() { return infos; }
 
 protected:
-	/// The first of which that is true, or null.
+	/// Returns the first entry for which the predicate is true, or null.
 	template <typename Predicate> static const Info *find_if(Predicate p_is_match) {
 		const auto found = std::find_if(infos.begin(), infos.end(), p_is_match);
 		return found == infos.end() ? nullptr : &*found;

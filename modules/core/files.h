@@ -13,29 +13,31 @@
 
 namespace gnomon {
 
-/// The whole file. Missing, unreadable, a folder, or larger than the limit: an Error naming it.
+/// Loads the whole file. A file that is missing, unreadable, a folder, or larger than the limit is
+/// an Error that names it.
 std::vector<uint8_t> load_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
-/// As load_file, as text.
+/// Loads a file like load_file, as text.
 std::string load_text_file(
 		const std::filesystem::path &p_path, uint64_t p_limit_bytes = uint64_t(1) << 31);
 
-/// Writes next to the target, syncs to disk and renames: the target is the old file or the new one,
-/// never a part, also when the process is killed (what it leaves next to the target is removed by
-/// the next one that saves there). An unwritable folder or a full disk is an Error naming the path.
+/// Writes next to the target, syncs to disk and renames, so that the target is always the complete
+/// old or the complete new file, even when the process is killed. The next save into the folder
+/// removes what a killed process left there. An unwritable folder or a full disk is an Error naming
+/// the path.
 void save_file_atomically(const std::filesystem::path &p_path, std::span<const uint8_t> p_bytes);
 void save_file_atomically(const std::filesystem::path &p_path, std::string_view p_text);
 
-/// How the files end that save_file_atomically has not renamed yet. They are next to the target,
-/// and are locked as long as their writer lives: what a killed process left is removed by the next
-/// one that saves into the folder.
+/// File name ending of files that save_file_atomically has not renamed yet. They are next to the
+/// target and are locked while their writer runs; the next save into the folder removes those that
+/// a killed process left behind.
 inline constexpr std::string_view UNFINISHED_FILE_ENDING = ".gnomon_part";
 
-/// Removes the unfinished files in the folder that no living process writes.
+/// Removes the unfinished files in the folder that no running process is writing.
 void remove_left_over_files(const std::filesystem::path &p_folder);
 
-/// Test hook: called after each step of each save, so that a test can end the process there. An
-/// empty function ends that. Returns the hook before.
+/// Test hook: the function is called after each step of each save, so that a test can end the
+/// process there. An empty function removes the hook. Returns the previous hook.
 std::function<void()> set_save_step_hook(std::function<void()> p_hook);
 
 /// True when the path, with `..` and links resolved, is in the folder or below it.
@@ -49,28 +51,31 @@ std::filesystem::path get_cache_folder();
 /// ~/.config/gnomon, else a folder below the system's temporary one. Created when absent.
 std::filesystem::path get_config_folder();
 
-/// 64 bits of xxHash3. Not for secrets; names cache entries and finds damaged ones.
+/// Computes a 64-bit xxHash3. It names cache entries and detects damaged ones; it is not
+/// cryptographic.
 uint64_t compute_hash(std::span<const uint8_t> p_bytes, uint64_t p_seed = 0);
 uint64_t compute_text_hash(std::string_view p_text, uint64_t p_seed = 0);
-/// Of one value without padding.
+/// Hashes one value of a type without padding.
 template <typename T> uint64_t compute_value_hash(const T &p_value, uint64_t p_seed) {
 	static_assert(std::is_trivially_copyable_v<T>);
 	return compute_hash({ reinterpret_cast<const uint8_t *>(&p_value), sizeof(T) }, p_seed);
 }
-/// 16 hexadecimal digits.
+/// Formats the hash as 16 hexadecimal digits.
 std::string format_hash(uint64_t p_hash);
-/// The bytes of a value or an array of values without padding.
+/// Views a value, or an array of values, of a type without padding as bytes.
 template <typename T> std::span<const uint8_t> bytes_of(std::span<const T> p_values) {
 	return { reinterpret_cast<const uint8_t *>(p_values.data()), p_values.size_bytes() };
 }
 
-/// What a file of the cache holds: a magic, the size and the hash of the bytes, the bytes.
+/// Builds the contents of a cache file: a magic number, the size and the hash of the bytes, the
+/// bytes.
 std::vector<uint8_t> build_cache_entry(std::span<const uint8_t> p_bytes);
-/// The bytes in such a file; nothing when it is damaged.
+/// Returns the bytes stored in a cache file, or nothing when the file is damaged.
 std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_t> p_entry);
 /// Stores bytes under a name in the cache folder with a checksum. A failure to write only warns.
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes);
-/// The stored bytes, or empty when absent or damaged (a damaged entry is logged and removed).
+/// Returns the stored bytes, or nothing when the entry is absent or damaged (a damaged entry is
+/// logged and removed).
 std::vector<uint8_t> load_cache_entry(const std::string &p_name);
 
 } // namespace gnomon

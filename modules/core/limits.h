@@ -6,16 +6,16 @@
 
 namespace gnomon {
 
-/// Of images, masks and frames, on each side.
+/// Largest width and height of images, masks and frames, in pixels.
 inline constexpr uint32_t MAX_IMAGE_SIZE_PX = 16384;
-/// Of an image, how many texels a side make a pixel.
+/// Largest supersampling factor of an image: texels per pixel along each axis.
 inline constexpr uint32_t MAX_ANTIALIASING = 4;
-/// Of lengths that a user sets: sizes of lights, widths of penumbrae, distances in materials.
+/// Largest length that a user may set, in metres: light sizes, penumbra widths, material distances.
 inline constexpr double MAX_LENGTH_M = 1e4;
-/// The range of such a length as a property has it, in centimetres.
+/// The range of such a length as a PropertyInfo::hint: minimum, maximum and step.
 inline constexpr const char *LENGTH_HINT = "0,10000,0.01";
-/// What was not used for so many frames is freed: a camera or light that turns away often turns
-/// back soon, and one that stays away holds no memory.
+/// Resources that were not used for this many frames are freed. A camera or light that turns away
+/// often turns back soon; one that stays away should hold no memory.
 inline constexpr uint64_t MAX_UNUSED_FRAMES = 60;
 
 } // namespace gnomon

@@ -15,7 +15,7 @@ using LogSink = std::function<void(LogLevel, const std::string &)>;
 /// Replaces where lines go (default: stderr, "WARNING: " or "ERROR: " in front) and returns the
 /// sink before. An empty function restores the default.
 LogSink set_log_sink(LogSink p_sink);
-/// Hands a line on as a sink before would have got it: to that sink, or where lines go by default.
+/// Passes a line to a previous sink, or to the default output when that sink is empty.
 void forward_log(const LogSink &p_sink, LogLevel p_level, const std::string &p_line);
 /// Lines below this level are dropped. Default INFO.
 void set_log_level(LogLevel p_level);

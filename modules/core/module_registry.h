@@ -18,8 +18,8 @@ struct ModuleInfo {
 	std::string version;
 	std::string doc; // path of its page, from the repository's root
 	int layer = 0;
-	bool can_disable = false; // while the program runs
-	bool is_example = false;  // there to be copied; lists for users omit it
+	bool can_disable = false; // whether it can be switched off while the program runs
+	bool is_example = false;  // a template to copy; lists for users omit it
 	std::vector<std::string> dependencies;
 	void (*initialize)(ModuleLevel) = nullptr;
 	void (*uninitialize)(ModuleLevel) = nullptr;

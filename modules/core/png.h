@@ -9,12 +9,12 @@
 
 namespace gnomon {
 
-/// Any 8-bit image of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels, rows from the top.
+/// Saves an 8-bit image of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels, top row first.
 /// A size that is not 1..16384 on each side or an unwritable path is an Error.
 void save_png(const std::filesystem::path &p_path, const glm::uvec2 &p_size_px,
 		uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
 
-/// The bytes of such a file.
+/// Encodes such an image as the bytes of a PNG file.
 std::vector<uint8_t> encode_png(
 		const glm::uvec2 &p_size_px, uint32_t p_channel_count, std::span<const uint8_t> p_pixels);
 

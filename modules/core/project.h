@@ -14,25 +14,27 @@ public:
 	std::filesystem::path folder; // everything a project uses is below it
 	std::string name;
 	std::filesystem::path start_scene;		   // absolute; empty = none named
-	std::vector<std::filesystem::path> scenes; // absolute; those that exist
-	/// Absolute; those that exist of what a report also draws with its stability sweeps.
+	std::vector<std::filesystem::path> scenes; // absolute paths of the listed scenes that exist
+	/// Absolute paths of the existing scenes that a report draws in its stability sweeps only.
 	std::vector<std::filesystem::path> stability_scenes;
-	std::vector<std::filesystem::path> missing_scenes; // absolute; listed, but not there; each once
+	/// Absolute paths of listed scenes that do not exist, without duplicates.
+	std::vector<std::filesystem::path> missing_scenes;
 	std::vector<std::string> disabled_modules;
-	std::map<std::string, std::string> defaults; // [defaults] as written, quotes removed
-	/// Of each [technique.ID], the same; by ID.
+	/// The [defaults] section as written, without quotes.
+	std::map<std::string, std::string> defaults;
+	/// The [technique.ID] sections as written, without quotes; by ID.
 	std::map<std::string, std::map<std::string, std::string>> technique_settings;
 
 	/// p_path: the folder or its project.cfg. A missing or malformed file is an Error with the
 	/// line.
 	static Project load(const std::filesystem::path &p_path);
-	/// The same for the text of a project.cfg that is at p_path.
+	/// Parses the text of a project.cfg; p_path is where that file is.
 	static Project parse(const std::string &p_text, const std::filesystem::path &p_path);
-	/// Writes disabled_modules into project.cfg and leaves all else in it as it is. Without a
-	/// project.cfg nothing is stored.
+	/// Writes disabled_modules into project.cfg and leaves everything else in the file unchanged.
+	/// Does nothing when there is no project.cfg.
 	void save_disabled_modules() const;
-	/// The text of a project.cfg with that list of disabled modules, all else as it was. p_path:
-	/// for the Error that malformed text is.
+	/// Returns the text of a project.cfg with the given list of disabled modules and everything
+	/// else unchanged. p_path names the file in the Error that malformed text causes.
 	static std::string replace_disabled_modules(const std::string &p_text,
 			const std::vector<std::string> &p_modules, const std::filesystem::path &p_path);
 	/// The nearest folder at or above the file's that has a project.cfg; else the file's folder.
@@ -43,10 +45,10 @@ private:
 			const std::vector<std::string> &p_names, std::vector<std::filesystem::path> &r_scenes);
 };
 
-/// What a path on the command line names.
+/// The project and scene that a path on the command line names.
 struct ProjectScene {
-	/// The project that the path is, or that the scene is in. Without a project.cfg it has a
-	/// folder alone: the scene's.
+	/// The project at the path, or the one that contains the scene. Without a project.cfg, only its
+	/// folder is set: that of the scene.
 	Project project;
 	std::filesystem::path scene_path; // of the .gltf or .glb file
 };
@@ -54,8 +56,8 @@ struct ProjectScene {
 /// p_path: a project's folder, its project.cfg, or a scene. A project without a scene is an Error.
 ProjectScene find_project_scene(const std::filesystem::path &p_path);
 
-/// Switches off the modules that the project names. A name of another build only warns: the project
-/// must open everywhere.
+/// Switches off the modules that the project disables. A module that this build lacks only causes a
+/// warning, so that the project opens with every build.
 void disable_modules(const Project &p_project);
 
 } // namespace gnomon

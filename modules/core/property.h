@@ -31,23 +31,25 @@ struct PropertyInfo {
 	std::string tooltip; // one sentence or two: meaning, and what happens at the edges
 	std::string unit;	 // "m", "px", "deg", or empty
 	std::string group;	 // heading in the inspector
-	/// A value outside the range that is allowed too and means something else: "-1" for "derived".
+	/// A value outside the range that is also allowed and has its own meaning: "-1" for "derived".
 	std::string special;
-	/// ENUM: what each choice is, in the order of the hint; may be empty.
+	/// ENUM: the tooltip of each choice, in the order of the hint; may be empty.
 	std::vector<std::string> choice_tooltips;
 	bool is_color = false; // VECTOR3: linear red, green, blue
 };
 
 /// One step of a technique's ladder from cheap to good, which the error report measures.
 struct QualitySetting {
-	std::string name; // "32 taps"; its own in the technique
-	/// Of the technique, or of every light (penumbra_outer_width). Replace the light's own.
+	std::string name; // "32 taps"; unique within the technique
+	/// Properties of the technique or of every light (penumbra_outer_width); they override the
+	/// light's own.
 	PropertyValues properties;
-	/// So slow that the report measures it at one light size only.
+	/// The setting is so slow that the report measures it at one light size only.
 	bool is_expensive = false;
 };
 
-/// A property of earlier versions: files may still hold it, nothing reads it, a save keeps it.
+/// A property of earlier versions: files may still contain it, nothing reads it, and saving
+/// preserves it.
 struct RemovedProperty {
 	std::string name;
 	std::string advice; // a sentence: what replaced it
@@ -81,11 +83,11 @@ private:
 std::string check_property(const PropertyInfo &p_info, const PropertyValue &p_value);
 /// The value converted to the property's type. Only for values that check_property allows.
 PropertyValue convert_property(const PropertyInfo &p_info, const PropertyValue &p_value);
-/// Reads "0.4", "true", "hard", "1,2,3". Text that is no such value, or is refused by
-/// check_property, is an Error that begins with p_object and names the value and the range.
+/// Reads "0.4", "true", "hard", "1,2,3". Text that does not parse, or that check_property refuses,
+/// is an Error that begins with p_object and names the value and the range.
 PropertyValue parse_property(
 		const PropertyInfo &p_info, std::string_view p_text, const std::string &p_object);
-/// As parse_property reads it.
+/// Formats a value so that parse_property reads it back.
 std::string format_property(const PropertyValue &p_value);
 /// A property's value as JSON: a vector is a list of three numbers.
 template <typename Json> Json property_to_json(const PropertyValue &p_value) {
@@ -104,11 +106,11 @@ std::string describe_range(const PropertyInfo &p_info);
 
 /// The names of an ENUM, in order.
 std::vector<std::string> get_choices(const PropertyInfo &p_info);
-/// What a number may be, apart from its special value. Without a hint there are no limits.
+/// The allowed range of a number, apart from its special value. Without a hint there are no limits.
 struct PropertyRange {
 	double minimum = -1e30;
 	double maximum = 1e30;
-	double step = 0.01; // of a slider
+	double step = 0.01; // step of the slider
 };
 PropertyRange get_range(const PropertyInfo &p_info);
 

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: core holds only what the others are made of.
+// Nothing to register: core has only building blocks for the other modules.

@@ -15,7 +15,7 @@ template <typename... Arguments> std::string text(const Arguments &...p_argument
 	return stream.str();
 }
 
-/// For people: 6 significant digits, so that 0.3f is 0.3.
+/// Formats a number for people, with 6 significant digits, so that 0.3f is "0.3".
 inline std::string format_number(double p_value) {
 	char digits[32];
 	std::snprintf(digits, sizeof(digits), "%.6g", p_value);

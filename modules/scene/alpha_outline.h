@@ -17,25 +17,27 @@ struct AlphaOutline {
 	glm::ivec2 size = glm::ivec2(0); // of the tile in units
 	std::vector<glm::ivec2> points;	 // in units, from the image's upper left corner
 	std::vector<uint32_t>
-			triangles;		 // three points each, all turned one way; none: nothing is there
-	bool is_whole = false;	 // all of the tile is there
-	uint32_t edge_count = 0; // of its border
-	/// 0: the contour itself. Else its squares represent blocks of so many texels a side.
+			/// Three points each, all with the same winding; empty: the tile is fully transparent.
+			triangles;
+	bool is_whole = false;	 // the whole tile is opaque
+	uint32_t edge_count = 0; // edges of the region's border
+	/// 0: the outline is the contour itself. Above 0: squares stand for blocks of this many texels
+	/// a side.
 	uint32_t block_size_px = 0;
 
 	bool is_empty() const { return triangles.empty(); }
 };
 
-/// The contour by marching squares through texels' centres: crossings are interpolated, a saddle is
-/// decided by the mean of its four; simplified without crossings to within p_tolerance_px, texels.
-/// At the tile's border it is closed, at the same points on either side where the texture repeats.
-/// Of a nearest sampler the squares of its texels, simplified where the tolerance is half of one or
-/// more.
+/// Finds the contour by marching squares through the texel centres: crossings are interpolated, a
+/// saddle is resolved by the mean of its four texels. The contour is simplified without
+/// self-intersection to within p_tolerance_px texels. At the tile's border it is closed, at the
+/// same points on opposite sides if the texture repeats. For a nearest sampler the contour follows
+/// the texels' squares, simplified only if the tolerance is at least half a texel.
 ///
-/// A mask with more edges than p_edge_budget is simplified further, to at most a texel. One that
-/// still has more, noise for instance, becomes a half-tone: of each block of texels a square hole
-/// or a square that has as much area as the mask has there. The blocks are as small as the budget,
-/// at least 4, allows; a tile that is one hole has 8 edges.
+/// A mask with more edges than p_edge_budget is simplified further, to at most a texel. If it still
+/// has more edges, as noise has, it becomes a half-tone: each block of texels gets a square, or a
+/// square hole, of the same area as the mask has there. The blocks are as small as the budget
+/// allows, at least 4 texels a side; a tile that is one hole has 8 edges.
 AlphaOutline make_alpha_outline(
 		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px = 0.125);
 

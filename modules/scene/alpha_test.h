@@ -8,27 +8,28 @@
 
 namespace gnomon {
 
-/// Where a texture's alpha decides that a surface is there. Two of one region are equal.
+/// An alpha test of a texture: which points of a surface are there. Tests that compare equal keep
+/// the same region.
 struct AlphaTest {
 	const Image *image = nullptr;
-	/// Of the texel's alpha, 0..1: a surface is there where it is at least that.
+	/// Alpha threshold, 0..1: the surface is there where the texel's alpha is at least this.
 	float cutoff = 0.5f;
 	TextureWrap wrap_u = TextureWrap::REPEAT;
 	TextureWrap wrap_v = TextureWrap::REPEAT;
-	bool is_nearest = false; // else the four nearest texels are interpolated
+	bool is_nearest = false; // false: the four nearest texels are interpolated
 };
 
-/// Of its base colour texture, of whose alpha the material's own is a factor: the cutoff is that of
-/// the product. Without texture the image is null.
+/// Makes the test for the material's base colour texture. The cutoff is divided by the material's
+/// own alpha, which multiplies the texture's. The image is null if there is no texture.
 AlphaTest make_alpha_test(const Material &p_material);
-/// Of all that it tests, texels included; of a null image of the rest.
+/// Hashes everything that affects the test, texels included; without an image, the other fields.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);
 
-/// Alpha at a point of an image, 0..1, as a sampler reads its first level. p_uv: 1 is the image's
-/// width and height. Beyond the image as its wrapping defines; 0 where a coordinate is not finite.
+/// Samples alpha, 0..1, at a point of the image's first mip level. p_uv: 0..1 spans the image's
+/// width and height; outside, the wrap mode applies. Returns 0 if a coordinate is not finite.
 float sample_alpha(const AlphaTest &p_test, const glm::dvec2 &p_uv);
 
-/// The texel that replaces one beyond the image's edge; p_index: -1 .. p_count.
+/// Returns the texel index that replaces one just outside the image; p_index: -1 .. p_count.
 uint32_t wrap_texel(int64_t p_index, uint32_t p_count, TextureWrap p_wrap);
 
 } // namespace gnomon

@@ -36,15 +36,16 @@ glm::dvec3 to_vector(const std::vector<double> &p_values) {
 	return glm::dvec3(p_values[0], p_values[1], p_values[2]);
 }
 
-/// The parts of a node's transform: those of its file unless the user has moved it since. Which
-/// axis mirrors is not stored in a matrix: as the file has it, or x.
+/// Returns the file's translation, rotation and scale if the node's matrix still equals them;
+/// otherwise it decomposes the matrix that the user has set. The file's parts are preferred because
+/// a matrix does not store which axis is mirrored; decomposition assumes x.
 NodeTransform choose_parts(const NodeTransform &p_of_file, const Node3D &p_node) {
 	return p_of_file.compose() == p_node.parent_from_node
 			? p_of_file
 			: decompose_transform(p_node.parent_from_node);
 }
 
-/// What channels set of one node.
+/// The values that channels set on one node.
 struct NodePose {
 	std::optional<glm::dvec3> translation;
 	std::optional<glm::dquat> rotation;
@@ -91,7 +92,8 @@ void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_tim
 		if (instance) {
 			instance->posed_morph_weights.reset();
 		}
-		// The first of an index: what else the node of the file is, such as a light, hangs below.
+		// Several nodes share a file index if one file node became several, such as a mesh with a
+		// light below it. The animation poses only the first, and the others move with it.
 		const auto pose = poses.find(node->file_index);
 		if (node->file_index < 0 || pose == poses.end()) {
 			continue;
@@ -116,7 +118,7 @@ void pose_nodes(const Scene &p_scene, const Animation *p_animation, double p_tim
 std::vector<double> AnimationSampler::sample(double p_time_s, bool p_is_rotation) const {
 	const size_t count = component_count;
 	const bool is_cubic = interpolation == Interpolation::CUBIC_SPLINE;
-	// p_part: of a cubic spline's key; 1 is its value.
+	// p_part selects an element of a cubic-spline key: 0 in-tangent, 1 value, 2 out-tangent.
 	const auto get = [&](size_t p_key, size_t p_part) {
 		const size_t first = is_cubic ? (3 * p_key + p_part) * count : p_key * count;
 		return std::vector<double>(

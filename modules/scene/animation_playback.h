@@ -13,13 +13,13 @@ public:
 	double time_s = 0;							// in 0..duration
 	double speed = 1;							// below 0: backwards
 	bool is_playing = true;
-	bool loops = true; // false: it pauses at its end; played backwards, at its begin
+	bool loops = true; // false: it pauses at its end, or at its start when played backwards
 
-	/// Plays; from the other end where it has paused at one.
+	/// Starts playing; restarts from the other end if it is paused at one.
 	void play();
-	/// Goes on by so many seconds of real time and poses the scene.
+	/// Advances by p_seconds of real time, times the speed, and poses the scene.
 	void advance(Scene &r_scene, double p_seconds);
-	/// Poses the scene as it is now.
+	/// Poses the scene at the current time.
 	void apply(Scene &r_scene) const;
 };
 

@@ -10,30 +10,36 @@
 
 namespace gnomon {
 
-/// A cut mesh with outlines of several tolerances: under a wide penumbra a coarser one, which has
-/// fewer edges, casts the same shadow. All keep the area of each hole.
+/// Levels of detail of a cut mesh: outlines simplified with several tolerances. Under a wide
+/// penumbra a coarser outline with fewer edges casts the same shadow. All levels keep the area of
+/// each hole.
 class CutLevels {
 public:
-	/// How far an outline may be from the contour, in texels, from finest to coarsest.
+	/// Largest distance of the outline from the exact contour, in texels, from finest to coarsest.
 	static constexpr std::array<double, 6> TOLERANCES_PX = { 0.03125, 0.0625, 0.125, 0.25, 0.5,
 		1.0 };
-	static constexpr uint32_t BASE = 2; // that of CutMesh::mesh
+	static constexpr uint32_t BASE = 2; // the level of CutMesh::mesh
 
 	/// p_cut: what cut_mesh made of the mesh.
 	CutLevels(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 			const std::shared_ptr<const Mesh> &p_cut);
 
-	/// The coarsest level that suits penumbrae up to p_radius, half as wide: in metres of the
-	/// node's space, on the mesh. The finest where none does; BASE where there is no penumbra.
+	/// Returns the coarsest level whose outline error is invisible under a penumbra whose half
+	/// width is p_radius, in metres of the node's space, measured at the caster. Returns the finest
+	/// level if none qualifies, and BASE for a hard shadow (p_radius 0 or less).
 	uint32_t choose_level(double p_radius) const;
-	/// Made on first use, from any thread; null where nothing is left, or the mesh is gone.
+	/// Returns a level's mesh, built on first use, from any thread. Null if nothing of the mesh is
+	/// left, or if the source mesh was freed.
 	std::shared_ptr<const Mesh> get_mesh(uint32_t p_level) const;
 
 private:
 	std::weak_ptr<const Mesh> source;
-	std::weak_ptr<const Mesh> base; // whoever has the levels has it too
+	/// A weak pointer: the owner of the levels owns the base mesh too.
+	std::weak_ptr<const Mesh> base;
 	Material material;
-	double texel_size = 0; // the longest on the mesh, in metres of the node's space
+	/// Largest extent of a texel on the mesh, node-space metres; doubled where the texture repeats
+	/// within a triangle.
+	double texel_size = 0;
 	struct Level {
 		std::shared_ptr<const Mesh> mesh;
 		bool is_made = false;

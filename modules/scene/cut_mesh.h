@@ -11,38 +11,38 @@ namespace gnomon {
 
 class CutLevels;
 
-/// The part of a mesh that casts its shadow.
+/// The part of a mesh that casts a shadow: what the alpha test leaves of it.
 struct CutMesh {
-	/// The mesh itself where all of it is there; null where nothing is. Else an open mesh: each
-	/// triangle cut along the alpha's contour, so that all that reads triangles and edges sees the
-	/// holes. It has no coordinates and no colours.
+	/// The source mesh itself if nothing was cut away; null if nothing is left. Otherwise an open
+	/// mesh whose triangles are cut along the alpha contour, so that everything that reads
+	/// triangles and edges sees the holes. It has no texture coordinates and no colours.
 	std::shared_ptr<const Mesh> mesh;
-	/// Above 0: the mask has more edges than the budget, and squares represent blocks of so many
+	/// Above 0: the mask has more edges than the budget, and squares stand for blocks of this many
 	/// texels a side, see AlphaOutline.
 	uint32_t block_size_px = 0;
-	/// Of the alpha that cut it, which the mesh follows only as closely as its outline does; 0 of
-	/// one that is not cut.
+	/// Hash of the alpha that cut the mesh, since the mesh follows it only as closely as its
+	/// outline does; 0 if it is not cut.
 	uint64_t content_hash = 0;
-	/// Levels of detail, of a mesh that get_cut_mesh cut along the contour; else null.
+	/// Levels of detail of a mesh that get_cut_mesh cut along its contour; otherwise null.
 	std::shared_ptr<const CutLevels> levels;
 };
 
-/// Cuts a mesh where its surface is not there: its alpha, that of the material times that of the
-/// base colour texture's first level times the mean of the triangle's vertex colours, is below the
-/// cutoff. Where the contour crosses an edge of the mesh, both triangles there make the same point,
+/// Cuts away the parts of a mesh whose alpha is below the cutoff. Alpha is the product of the
+/// material's alpha, the first mip level of the base colour texture, and the mean of the triangle's
+/// vertex colours. Where the contour crosses a mesh edge, both triangles compute the same point,
 /// bit for bit, if their coordinates agree. Computed in double, rounded to float once.
-/// p_tolerance_px: how far its outline may be from the contour, in texels.
+/// p_tolerance_px: largest distance of the outline from the contour, in texels.
 CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 		const OutlineBudget &p_budget = {}, double p_tolerance_px = 0.125);
 
-/// As cut_mesh, cached: materials that cut alike share it. For materials that are not cut out the
-/// mesh itself. From any thread.
+/// Cuts like cut_mesh, but cached: materials with the same alpha test share the result. If the
+/// material is not cut out, it returns the mesh itself. Callable from any thread.
 CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		const std::shared_ptr<const Material> &p_material);
-/// Frees what get_cut_mesh holds of meshes that are gone, and of materials that are gone or were
-/// changed, unless it is in use. Once a frame, from any thread.
+/// Frees cached cut meshes whose mesh was freed or whose material was freed or changed, unless they
+/// are in use. Call it once a frame, from any thread.
 void drop_unused_cut_meshes();
-/// How many get_cut_mesh holds.
+/// Returns the number of cached cut meshes.
 size_t get_cut_mesh_count();
 
 } // namespace gnomon

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// What `--set` sets of a light.
+/// A light property that `--set` assigns.
 struct LightSetting {
 	std::string light_name; // empty: the command's own light
 	std::string property;

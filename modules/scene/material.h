@@ -18,7 +18,7 @@ enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 /// drawn and casts like MASK.
 enum class AlphaMode { OPAQUE, MASK, BLEND };
 
-/// What a surface looks like. Colours are linear. Immutable once shared. A texture multiplies the
+/// A surface's material. Colours are linear. Immutable once shared. Each texture multiplies the
 /// values above it; a mesh's vertex colours multiply base colour and alpha.
 struct Material {
 	std::string name;
@@ -30,36 +30,38 @@ struct Material {
 	ShadingModel shading_model = ShadingModel::METALLIC_ROUGHNESS;
 	/// s in 0..1 (Wang, Xiao 2015): how much light spreads below the surface; 0 = opaque.
 	float scatter = 0.0f;
-	float scatter_distance_m = 0.0f; // 0..1e4; how far it spreads at s = 1; 0: not given
-	/// KHR_materials_transmission: the share of the light that goes through, 0..1; it gets the
-	/// base colour.
+	float scatter_distance_m = 0.0f; // 0..1e4; how far light spreads at s = 1; 0: not given
+	/// KHR_materials_transmission: the fraction of light that passes through, 0..1; the base colour
+	/// tints it.
 	float transmission = 0.0f;
-	/// KHR_materials_volume: how much there is to go through, and what that leaves of the light:
-	/// attenuation_color after attenuation_distance_m (0: infinite, nothing is lost).
+	/// KHR_materials_volume: the thickness of the volume, and the light that remains in it:
+	/// attenuation_color after attenuation_distance_m (0: infinite, nothing is absorbed).
 	float thickness_m = 0.0f; // in the mesh's space
 	glm::vec3 attenuation_color = glm::vec3(1.0f);
 	float attenuation_distance_m = 0.0f;
 	bool is_double_sided = false;
 	AlphaMode alpha_mode = AlphaMode::OPAQUE;
 	float alpha_cutoff = 0.5f;			// 0..1
-	Texture base_color_texture;			// sRGB; its alpha is that of the surface
+	Texture base_color_texture;			// sRGB; its alpha is the surface's alpha
 	Texture metallic_roughness_texture; // green: roughness, blue: metallic
-	/// A unit vector in tangent space, 0..1 for -1..1; x and y times the scale.
+	/// Tangent-space unit normals, stored as 0..1 for -1..1; x and y are multiplied by the scale.
 	Texture normal_texture;
 	float normal_scale = 1.0f;
-	/// Red: how much of the ambient light arrives; 1 + strength (red - 1).
+	/// Red: the fraction of ambient light that arrives, applied as 1 + strength (red - 1).
 	Texture occlusion_texture;
 	float occlusion_strength = 1.0f; // 0..1
 	Texture emissive_texture;		 // sRGB
-	/// Index in the file it came from, or -1. A changed copy keeps it, so that saving keeps what
+	/// Index in the source file, or -1. A changed copy keeps it, so that saving preserves data that
 	/// the program does not understand.
 	int file_index = -1;
 
 	bool operator==(const Material &) const = default;
-	/// What a caster leaves of the light that meets it once, 0..1 for each colour; 0 = opaque.
-	/// p_scale: of its node, for the thickness. Beer and Lambert's law (KHR_materials_volume).
+	/// Computes the fraction of light that one pass through the caster leaves, 0..1 per colour; 0 =
+	/// opaque. p_scale: scale of the node, for the thickness. Beer-Lambert law
+	/// (KHR_materials_volume).
 	glm::vec3 compute_transmittance(float p_scale) const;
-	/// Whether parts of its surfaces are not there. What lets light through is whole.
+	/// Whether an alpha test removes parts of the surface. Materials that transmit light are not
+	/// cut out.
 	bool is_cut_out() const { return alpha_mode != AlphaMode::OPAQUE && !(transmission > 0.0f); }
 	std::array<const Texture *, 5> list_textures() const {
 		return { &base_color_texture, &metallic_roughness_texture, &normal_texture,

@@ -28,17 +28,18 @@ struct Bounds {
 		return glm::dvec3(p_index & 1 ? maximum.x : minimum.x, p_index & 2 ? maximum.y : minimum.y,
 				p_index & 4 ? maximum.z : minimum.z);
 	}
-	/// From the point to the nearest of the box; 0 inside. Not for an empty one.
+	/// Distance from the point to the box; 0 inside. The box must not be empty.
 	double compute_distance(const glm::dvec3 &p_point) const {
 		return glm::distance(p_point, glm::clamp(p_point, minimum, maximum));
 	}
-	/// From a point inside along a unit vector to where that leaves the box; 0 outside of it.
+	/// Distance from a point inside, along a unit vector, to where the ray leaves the box; 0 if the
+	/// point is outside.
 	double compute_way_out(const glm::dvec3 &p_point, const glm::dvec3 &p_way) const;
 	/// Length of the diagonal; 0 when empty.
 	double get_diagonal() const { return is_empty() ? 0 : glm::length(maximum - minimum); }
 };
 
-/// Of a box's corners after a transform; not for an empty one.
+/// Returns the bounds of a box's corners after a transform; the box must not be empty.
 Bounds transform_bounds(const Bounds &p_bounds, const glm::dmat4 &p_target_from_source);
 
 struct Mesh;
@@ -48,25 +49,25 @@ struct MeshRig;
 /// vertex.
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
-	/// Where x of the first coordinates of a normal map grows on the surface; w: 1 or -1, whether y
-	/// grows along their cross product with the normal (normal first) or against it.
+	/// Direction in which u of the normal map's first coordinates grows on the surface. w is 1 or
+	/// -1: whether v grows along, or against, the cross product of normal and tangent.
 	std::vector<glm::vec4> tangents;
 	std::vector<glm::vec4> colors;		// linear, and alpha
 	std::shared_ptr<const MeshRig> rig; // how the mesh deforms; null: it does not
 };
 
-/// A point of a triangle: where it is when the corners have moved.
+/// A point on a triangle, as barycentric coordinates: it follows the corners when they move.
 struct TrianglePoint {
 	glm::uvec3 corners = glm::uvec3(0);	   // vertices
-	glm::vec3 shares = glm::vec3(1, 0, 0); // barycentric, sum 1
+	glm::vec3 shares = glm::vec3(1, 0, 0); // barycentric weights; their sum is 1
 };
 
-/// Of a mesh that was cut out of another: in which of its triangles each one is. Their planes are
-/// the source's, as rounding bends those of small triangles.
+/// For a mesh that was cut out of another: the source triangle of each triangle. Face planes come
+/// from the source, because rounding tilts those of small triangles.
 struct MeshSource {
 	std::weak_ptr<const Mesh> mesh; // null: the mesh is its own
 	std::vector<uint32_t> triangles;
-	std::vector<TrianglePoint> points; // one a vertex, where the source has a rig; else empty
+	std::vector<TrianglePoint> points; // one per vertex if the source has a rig; otherwise empty
 };
 
 /// Triangles of one material. Immutable once shared; identified by `id`.
@@ -77,16 +78,17 @@ struct Mesh {
 	MeshAttributes attributes;
 	std::vector<uint32_t> indices; // three per triangle, each below the number of positions
 	MeshSource source;
-	/// Of a mesh that poses deform (PoseSlot): the mesh at rest, whose triangles and attributes it
-	/// has. Its own vertices are those at rest, too; only the GPU's are deformed. Null: none does.
+	/// For a mesh that poses deform on the GPU (PoseSlot): the mesh at rest, whose triangles and
+	/// attributes it shares. Its CPU vertices are those at rest as well. Null: the mesh does not
+	/// deform.
 	std::shared_ptr<const Mesh> rest;
-	uint64_t slot_id = 0; // of that slot
+	uint64_t slot_id = 0; // id of that PoseSlot
 	Bounds bounds_node;
 	uint64_t id = 0;		   // unique in the process, see make_mesh
 	uint64_t content_hash = 0; // of positions, normals, indices and rig
 
 	uint32_t get_triangle_count() const { return static_cast<uint32_t>(indices.size() / 3); }
-	/// Whether a pose may move its vertices against each other.
+	/// Whether a pose can move its vertices relative to one another.
 	bool is_deformable() const { return attributes.rig || !source.points.empty(); }
 };
 
@@ -96,13 +98,14 @@ struct Mesh {
 std::shared_ptr<const Mesh> make_mesh(std::string p_name, std::vector<glm::vec3> p_positions_node,
 		std::vector<glm::vec3> p_normals_node, std::vector<uint32_t> p_indices,
 		MeshAttributes p_attributes = {}, MeshSource p_source = {});
-/// The same triangles under an id of their own, for vertices that a pose sets; see Mesh::rest.
+/// Makes a mesh with the same triangles and an id of its own, whose vertices a pose sets; see
+/// Mesh::rest.
 std::shared_ptr<const Mesh> make_deformed_mesh(
 		const std::shared_ptr<const Mesh> &p_rest, uint64_t p_slot_id);
 
-/// Tangents of a mesh for coordinates of a normal map, where it has none of its own: of each vertex
-/// the sum over its faces, weighted by their angles there, at right angles to its normal. Vertices
-/// whose faces disagree on the side are not split. p_uvs: one a vertex.
+/// Computes tangents for normal-map coordinates when the mesh has none: for each vertex the
+/// angle-weighted sum over its faces, orthogonal to its normal. Vertices whose faces disagree on
+/// handedness are not split. p_uvs: one per vertex.
 std::vector<glm::vec4> compute_tangents(const std::vector<glm::vec3> &p_positions,
 		const std::vector<glm::vec3> &p_normals, const std::vector<uint32_t> &p_indices,
 		const std::vector<glm::vec2> &p_uvs);

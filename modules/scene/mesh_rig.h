@@ -24,23 +24,25 @@ struct MorphTarget {
 /// 3.7.3.3). Immutable once shared.
 struct MeshRig {
 	size_t vertex_count = 0;
-	uint32_t influence_count = 0; // joints a vertex: 0 (no skin), 4 or 8
-	std::vector<uint32_t> joints; // influence_count a vertex
-	std::vector<float> weights;	  // as many; 0..1, the sum of a vertex is 1
-	/// The sums stay as they are: a host draws the mesh so, although its rounding made them less.
+	uint32_t influence_count = 0; // joints per vertex: 0 (no skin), 4 or 8
+	std::vector<uint32_t> joints; // influence_count per vertex
+	std::vector<float> weights;	  // as many as joints; 0..1, summing to 1 per vertex
+	/// Weight sums are not normalised: the host draws the mesh with its sums, which rounding made
+	/// less than 1.
 	bool keeps_weight_sums = false;
 	std::vector<MorphTarget> targets;
 
-	// Of what follows make_mesh_rig takes care.
-	uint32_t joint_count = 0;		  // one more than the greatest joint
-	std::vector<Bounds> joint_bounds; // of the vertices at rest that each joint moves; may be empty
-	std::vector<Bounds> target_bounds; // of what each target adds
-	double least_weight_sum = 1;	   // of a vertex, at most 1
-	double greatest_weight_sum = 1;	   // at least 1
+	// make_mesh_rig fills in the following members.
+	uint32_t joint_count = 0;		  // one more than the largest joint index
+	/// Bounds of the rest vertices that each joint moves; may be empty.
+	std::vector<Bounds> joint_bounds;
+	std::vector<Bounds> target_bounds; // bounds of the offsets that each target adds
+	double least_weight_sum = 1;	   // smallest weight sum of a vertex, at most 1
+	double greatest_weight_sum = 1;	   // largest weight sum of a vertex, at least 1
 	uint64_t content_hash = 0;
 
-	/// Of all that moves one vertex: vertices of different values must not be welded. Joints of
-	/// weight 0, their order, and a joint that is named twice make no difference.
+	/// Hashes everything that moves one vertex: vertices with different hashes must not be welded.
+	/// Joints of weight 0, the order of joints, and repeated joints make no difference.
 	uint64_t compute_vertex_hash(uint32_t p_vertex) const;
 };
 
@@ -51,18 +53,19 @@ struct MeshRig {
 std::shared_ptr<const MeshRig> make_mesh_rig(
 		MeshRig p_rig, std::span<const glm::vec3> p_positions_node, const std::string &p_name);
 
-/// A vertex where a pose puts it.
+/// The positions and normals of vertices in a pose.
 struct DeformedVertices {
 	std::vector<glm::vec3> positions; // metres
 	std::vector<glm::vec3> normals;	  // unit
 };
 
-/// Computed in double, rounded to float once. p_joints: where each joint takes the mesh's space,
-/// at least MeshRig::joint_count; empty: no skin. p_weights: of the targets; those that are not
-/// there are 0. p_mesh has a rig.
+/// Deforms vertices in double, rounded to float once. p_joints: one matrix per joint that
+/// transforms the mesh's space, at least MeshRig::joint_count of them; empty: no skin. p_weights:
+/// morph target weights; missing ones are 0. p_mesh must have a rig.
 DeformedVertices deform_vertices(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
-/// Encloses the vertices at a pose: of each joint's vertices at rest, moved as the joint is.
+/// Returns bounds that enclose the posed vertices: the union of each joint's rest bounds,
+/// transformed by that joint.
 Bounds bound_deformed_vertices(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
 

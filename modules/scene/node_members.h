@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-// What the files share that declare the members of node classes as properties.
+// Shared by the files that declare members of node classes as properties.
 
 namespace gnomon {
 
@@ -48,10 +48,10 @@ inline PropertyInfo make_info(const char *p_name, PropertyType p_type, PropertyV
 	return { p_name, p_type, std::move(p_default), p_hint, p_tooltip, p_unit, p_group };
 }
 
-/// Those of a mesh's materials, for its node.
+/// The fields of a mesh node's materials.
 std::vector<NodeField> make_material_fields();
 
-/// The fields of every node, then more.
+/// Appends fields to those that every node has.
 std::vector<NodeField> extend_node_fields(std::vector<NodeField> p_more);
 
 template <typename T> std::unique_ptr<Node3D> copy_as(const Node3D &p_node) {

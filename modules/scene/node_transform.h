@@ -5,8 +5,8 @@
 
 namespace gnomon {
 
-/// A transform without shear in parts, as scene files have it and animations replace them:
-/// translation * rotation * scale.
+/// A transform without shear, as scene files store it and animations replace its parts: translation
+/// * rotation * scale.
 struct NodeTransform {
 	glm::dvec3 translation = glm::dvec3(0.0);
 	glm::dquat rotation = glm::dquat(1, 0, 0, 0); // unit
@@ -15,8 +15,8 @@ struct NodeTransform {
 	glm::dmat4 compose() const;
 };
 
-/// Of an affine matrix; x mirrors where something does. An axis without length, and shear, give the
-/// nearest that there is. Check compose() where that matters.
+/// Decomposes an affine matrix; a mirroring transform gets a negative x scale. For an axis of
+/// length 0 or a shear, the result is an approximation. Check compose() where that matters.
 NodeTransform decompose_transform(const glm::dmat4 &p_matrix);
 
 } // namespace gnomon

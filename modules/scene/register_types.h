@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: nodes are made by whoever reads a file, and found by their class.
+// Nothing to register: file readers create nodes and find them by class.

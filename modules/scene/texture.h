@@ -13,9 +13,8 @@ namespace gnomon {
 struct Image {
 	std::string name;
 	glm::uvec2 size_px = glm::uvec2(0);
-	/// Red, green, blue and alpha of 8 bits, rows from the top. What they mean, colours of sRGB or
-	/// numbers, is up to the texture's slot in the material; alpha is linear and not multiplied
-	/// in.
+	/// 8-bit red, green, blue and alpha, top row first. The material's texture slot decides whether
+	/// they are sRGB colours or linear data; alpha is linear and not premultiplied.
 	std::vector<uint8_t> texels;
 	uint64_t id = 0;		   // unique in the process, see make_image
 	uint64_t content_hash = 0; // of size and texels
@@ -25,26 +24,27 @@ struct Image {
 	}
 };
 
-/// Four bytes a texel, at least one texel: else a programming error.
+/// Four bytes per texel and at least one texel; anything else is a programming error.
 std::shared_ptr<const Image> make_image(
 		std::string p_name, glm::uvec2 p_size_px, std::vector<uint8_t> p_texels);
 
-/// What is beyond an image's edge: its edge, or the image again, as it is or mirrored.
+/// How coordinates beyond the image's edge are handled: its edge texels, repetition, or mirrored
+/// repetition.
 enum class TextureWrap { CLAMP, REPEAT, MIRROR };
-/// How levels of detail are used: the first alone, the nearest, or two of them blended.
+/// How mip levels are used: only the first, the nearest, or two of them blended.
 enum class MipFilter { NONE, NEAREST, LINEAR };
 
-/// An image on a surface. Without image it changes nothing.
+/// An image with its sampler state and coordinates. Without an image it has no effect.
 struct Texture {
 	std::shared_ptr<const Image> image;
 	TextureWrap wrap_u = TextureWrap::REPEAT;
 	TextureWrap wrap_v = TextureWrap::REPEAT;
-	bool is_magnified_nearest = false; // else neighbouring texels are interpolated
+	bool is_magnified_nearest = false; // false: neighbouring texels are interpolated
 	bool is_minified_nearest = false;
 	MipFilter mip_filter = MipFilter::LINEAR;
-	uint32_t uv_set = 0; // 0 or 1: which coordinates of the mesh
-	/// Then moved to these of the image: x along its rows, y down from the top, 1 its width and
-	/// height (KHR_texture_transform).
+	uint32_t uv_set = 0; // 0 or 1: the mesh's texture coordinate set
+	/// Transforms the mesh's coordinates to the image's: x along its rows, y down from the top,
+	/// 0..1 over its width and height (KHR_texture_transform).
 	glm::mat3x2 transform = glm::mat3x2(1, 0, 0, 1, 0, 0);
 
 	bool operator==(const Texture &) const = default;

@@ -14,14 +14,14 @@
 namespace gnomon {
 
 using PositionBits = std::array<uint32_t, 3>;
-/// -0 as 0.
+/// Returns the position's bits, with -0 as 0.
 PositionBits to_position_bits(const glm::vec3 &p_position);
 
-/// An edge of the mesh in the order of its ends' positions: the same from both its triangles.
+/// An edge of the mesh, ordered by the positions of its ends: the same from both its triangles.
 struct MeshSide {
 	glm::dvec2 uv[2];
 	glm::dvec3 position[2];
-	bool is_turned = false; // against the triangle's own direction
+	bool is_turned = false; // reversed relative to the triangle's winding
 
 	glm::vec3 get_position(double p_share) const {
 		return glm::vec3(position[0] + (position[1] - position[0]) * p_share);
@@ -37,14 +37,14 @@ struct MeshTriangle {
 	glm::dvec2 uv[3];
 	glm::vec3 position[3];
 	MeshSide sides[3]; // from corner i to i + 1
-	/// Twice, in the texture's coordinates; negative: mirrored. 0 where it is so thin that rounding
-	/// decides.
+	/// Twice the signed area in texture coordinates; negative: mirrored. 0 if the triangle is so
+	/// thin that rounding decides.
 	double area = 0;
 
 	void set_up();
-	/// Else all of it shows one line of texels, or none.
+	/// False: the whole triangle shows one line of texels, or none.
 	bool has_area() const { return std::isfinite(area) && area != 0; }
-	/// Above 0 inside, for each of the sides.
+	/// Signed distance value for one of the sides, positive inside.
 	double compute_inside(int p_side, const glm::dvec2 &p_uv) const;
 	glm::vec3 compute_position(const glm::dvec2 &p_uv) const;
 };
@@ -55,9 +55,9 @@ class ClippedPiece {
 public:
 	struct Point {
 		glm::dvec2 uv = glm::dvec2(0.0);
-		int corner = -1;  // of the triangle
-		int side = -1;	  // of the triangle, on which it lies
-		double share = 0; // along that side
+		int corner = -1;  // corner index of the triangle, or -1
+		int side = -1;	  // side of the triangle on which the point lies, or -1
+		double share = 0; // position along that side, 0..1
 	};
 
 	ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm::dvec2, 3> &p_uvs);
@@ -67,7 +67,9 @@ public:
 
 private:
 	struct Line {
-		int side = -1; // of the triangle; else these two points of the outline, in order
+		/// Side of the triangle; -1: the line runs through these two points of the outline, in
+		/// order.
+		int side = -1;
 		glm::dvec2 a = glm::dvec2(0.0), b = glm::dvec2(0.0);
 	};
 
