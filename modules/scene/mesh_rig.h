@@ -33,7 +33,7 @@ struct MeshRig {
 	std::vector<MorphTarget> targets;
 
 	// make_mesh_rig fills in the following members.
-	uint32_t joint_count = 0;		  // one more than the largest joint index
+	uint32_t joint_count = 0; // one more than the largest joint index
 	/// Bounds of the rest vertices that each joint moves; may be empty.
 	std::vector<Bounds> joint_bounds;
 	std::vector<Bounds> target_bounds; // bounds of the offsets that each target adds
