@@ -15,29 +15,29 @@ namespace gnomon {
 /// ones and the integer formats of KHR_mesh_quantization are included.
 class GltfAccessors {
 public:
-	/// All must outlive it.
+	/// The arguments must outlive this object.
 	GltfAccessors(
 			const tinygltf::Model &p_model, GltfBuffers &p_buffers, const GltfMessages &p_messages);
 
-	/// A VEC3 of floats or of integers of 8 or 16 bits, normalized or not. Shared with the caller
-	/// as exporters like to let many primitives share one vertex array.
+	/// Reads a VEC3 of floats or of 8- or 16-bit integers, normalized or not. The result is shared,
+	/// because exporters often let many primitives use one vertex array.
 	std::shared_ptr<const std::vector<glm::vec3>> read_vectors(size_t p_accessor_index);
-	/// The same for VEC2 to VEC4, not shared: other vertex attributes.
-	/// p_fewest, p_most: components that are allowed. Those that are not there are 0, 0, 0, 1.
+	/// Reads a VEC2 to VEC4 vertex attribute in the same way, not shared. p_fewest, p_most: allowed
+	/// component counts. Missing components are filled from 0, 0, 0, 1.
 	std::vector<glm::vec4> read_attribute(size_t p_accessor_index, int p_fewest, int p_most);
-	/// Floats, or normalized integers of 8 or 16 bits, of SCALAR to VEC4 and MAT4, one element
-	/// behind the other. p_components: of an element.
+	/// Reads floats, or normalized 8- or 16-bit integers, of SCALAR to VEC4 and MAT4, tightly
+	/// packed. p_components: components per element.
 	std::vector<float> read_floats(size_t p_accessor_index, int p_components);
-	/// A SCALAR of unsigned integers, each below p_vertex_count.
+	/// Reads a SCALAR of unsigned integers, each below p_vertex_count.
 	std::vector<uint32_t> read_indices(size_t p_accessor_index, size_t p_vertex_count);
 
 private:
-	struct Layout; // of one accessor or its sparse part, all bounds checked
+	struct Layout; // of one accessor or its sparse part; all bounds are checked
 	/// p_fewest, p_most: components of an element.
 	enum class Components { NUMBERS, INDICES }; // floats or small integers; unsigned integers
 	Layout read_layout(size_t p_index, int p_fewest, int p_most,
 			Components p_components = Components::NUMBERS);
-	/// Finds the elements in a view. p_path: where its index and the offset in it are.
+	/// Finds the elements in a buffer view. p_path: JSON path of the view's index and byte offset.
 	void find_bytes(int p_view, size_t p_offset, const std::string &p_path, Layout &r_layout);
 	template <typename Convert>
 	void read_elements(size_t p_index, const Layout &p_layout, const Convert &p_convert);

@@ -11,7 +11,8 @@ const uint64_t GLTF_MAX_CHANNEL_COUNT = uint64_t(1) << 20; // of all animations
 /// cannot be read is reported; its path becomes "", which the reader skips.
 void check_skins(const GltfObject &p_root);
 void check_animations(const GltfObject &p_root);
-/// Of a node or a mesh: numbers, else reported and removed.
+/// Checks the morph weights of a node or a mesh: those that are not numbers are reported and
+/// removed.
 void check_morph_weights(const GltfObject &p_object);
 
 } // namespace gnomon

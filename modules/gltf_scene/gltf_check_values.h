@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-// What the checks of a document have in common: each makes a value what tinygltf takes, or fails.
+// Helpers of the document checks: each converts a value to a form that tinygltf accepts, or fails.
 
 /// Checks the elements of a list of the document, or of one of its objects.
 template <typename Check>
@@ -18,7 +18,8 @@ void check_elements(const GltfObject &p_parent, std::string_view p_key, const Ch
 	}
 }
 
-/// A whole number: it may be written with a fraction of zero, which tinygltf does not take.
+/// Checks a whole number, which may be written with a fraction of zero ("3.0"); tinygltf rejects
+/// that form, so it is rewritten.
 void check_integer(
 		const GltfObject &p_object, std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum);
 void require_integer(

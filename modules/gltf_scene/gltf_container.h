@@ -13,16 +13,17 @@ namespace gnomon {
 struct GltfContainer {
 	Json json;
 	std::optional<std::vector<uint8_t>> bin_chunk; // binary form only
-	std::vector<uint8_t> other_chunks; // with their headers, as they were behind the BIN chunk
+	/// Chunks after the BIN chunk, unchanged and with their headers.
+	std::vector<uint8_t> other_chunks;
 };
 
-/// Reads either form; the first bytes decide, not the name. Truncated, of another version or not
-/// JSON: an Error.
+/// Parses either form, decided by the first bytes and not by the name. Truncated data, another glTF
+/// version or invalid JSON is an Error.
 GltfContainer parse_gltf_container(
 		std::span<const uint8_t> p_bytes, const GltfMessages &p_messages);
-/// The bytes of a .glb file. More than its 32 bits of length: an Error.
+/// Builds the bytes of a .glb file. A size that exceeds 32 bits is an Error.
 std::vector<uint8_t> build_glb(const GltfContainer &p_container, const GltfMessages &p_messages);
-/// The text of a .gltf file.
+/// Builds the text of a .gltf file.
 std::string build_gltf_text(const Json &p_json);
 
 } // namespace gnomon

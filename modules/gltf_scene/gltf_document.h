@@ -22,7 +22,7 @@ inline constexpr char GLTF_VOLUME[] = "KHR_materials_volume";
 inline constexpr char GLTF_TEXTURE_TRANSFORM[] = "KHR_texture_transform";
 inline constexpr char GLTF_EMISSIVE_STRENGTH[] = "KHR_materials_emissive_strength";
 
-/// A node as it was loaded. What still equals it is not written.
+/// A node's state at loading. Saving writes only what differs from it.
 struct GltfNodeState {
 	bool is_loaded = false; // false: in no scene, or in another one
 	std::string name;
@@ -31,22 +31,23 @@ struct GltfNodeState {
 	bool is_planar_receiver = false;
 };
 
-/// A file as it was read, which its scene holds: saving changes a copy of it.
+/// The file that a scene was loaded from, which the scene keeps: saving changes a copy of it.
 class GltfDocument : public SceneDocument {
 public:
-	/// Meshes of one node, as pointers that name them.
+	/// Identifies the meshes of one node by pointers.
 	using SurfaceKey = std::vector<std::pair<const Mesh *, const Material *>>;
 
-	std::string file; // as the user named it
+	std::string file; // path as given by the user
 	GltfLocation location;
-	GltfContainer container; // as it was read
-	/// The same as tinygltf holds it: without the bytes of buffers and images, refused values
-	/// replaced by their defaults.
+	GltfContainer container; // contents as read
+	/// tinygltf's model of the same document, without the bytes of buffers and images, and with
+	/// invalid values replaced by their defaults.
 	tinygltf::Model model;
 	std::optional<size_t> scene_index; // none: the file has no scenes
 	double scene_size_m = 0;
 	std::vector<GltfNodeState> nodes; // by index in the file
-	/// By index of their node: what the scene named a light or camera that shares its node.
+	/// By index of the node: the names that the scene gave to lights or cameras that share the
+	/// node.
 	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, LightSettings> lights;			   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
@@ -54,15 +55,15 @@ public:
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;
-	/// Keep those alive.
+	/// Keeps the skins alive.
 	std::vector<std::shared_ptr<const Skin>> retained_skins;
 	std::map<size_t, SurfaceKey> node_surfaces; // by index of their node
 	std::map<const Material *, size_t> material_indices;
-	/// Which primitive of its mesh in the file each is.
+	/// For each mesh, the index of its primitive in the file's mesh.
 	std::map<const Mesh *, size_t> primitive_indices;
 	/// Whether nodes that the scene does not have may show the file's materials too.
 	bool shares_materials = false;
-	/// Keep the meshes alive whose pointers are above.
+	/// Keeps alive the meshes whose pointers are stored above.
 	std::vector<std::vector<MeshInstance3D::Surface>> retained_surfaces;
 
 	static SurfaceKey make_key(const std::vector<MeshInstance3D::Surface> &p_surfaces) {
@@ -74,13 +75,13 @@ public:
 	}
 };
 
-/// tinygltf's model of a document that check_gltf let pass. What tinygltf refuses all the same: an
+/// Parses a document that has passed check_gltf. Anything that tinygltf refuses nevertheless is an
 /// Error.
 tinygltf::Model parse_gltf_model(Json p_checked, const GltfMessages &p_messages);
 
-/// The document that tinygltf writes of a changed model. p_read, p_before: the document as it was
-/// read, and tinygltf's model of it; all that the model does not hold, and all that did not change,
-/// stays in it unchanged, in its order. Both null for a new document.
+/// Merges a changed model into the document. p_read, p_before: the document as read, and tinygltf's
+/// model of it; everything that the model does not represent, or that did not change, stays
+/// unchanged and in its order. Both are null for a new document.
 Json write_gltf_model(
 		const tinygltf::Model &p_model, const Json *p_read, const tinygltf::Model *p_before);
 

@@ -16,7 +16,7 @@ namespace gnomon {
 /// Keeps the order of keys, so that a saved file differs only where it changed.
 using Json = nlohmann::ordered_json;
 
-/// Counts that no scene needs and every machine survives; beyond them a file is refused.
+/// Limits that exceed any real scene but fit every machine's memory; a file beyond them is refused.
 const uint64_t GLTF_MAX_FILE_BYTES = uint64_t(1) << 30;
 const uint64_t GLTF_MAX_BUFFER_BYTES = uint64_t(1) << 31; // all buffers of a file together
 const uint64_t GLTF_MAX_NODE_COUNT = 1000000;
@@ -24,47 +24,49 @@ const uint64_t GLTF_MAX_NODE_DEPTH = 1000;				   // the tree is walked recursive
 const uint64_t GLTF_MAX_VERTEX_COUNT = uint64_t(1) << 25;  // of all meshes; 0.8 GB
 const uint64_t GLTF_MAX_INDEX_COUNT = uint64_t(1) << 27;   // of all meshes; 0.5 GB
 const uint64_t GLTF_MAX_SURFACE_COUNT = uint64_t(1) << 22; // of all nodes; 0.3 GB
-/// What all nodes' lights hold in their extras, a value or 64 bytes of text counted as one.
+/// Limit on the extras of all nodes' lights; a value, or 64 bytes of text, counts as one.
 const uint64_t GLTF_MAX_LIGHT_VALUE_COUNT = uint64_t(1) << 20;
 const uint64_t GLTF_MAX_JSON_DEPTH = 256;			 // copying and writing a value is recursive
 const uint64_t GLTF_MAX_JSON_KEY_COUNT = 4096;		 // of one object; looked up one by one
 const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed
 
-/// Where messages about one file go.
+/// Receives the messages about one file.
 struct GltfMessages {
 	std::string file;			 // as the user named it
-	std::set<std::string> shown; // lines and kinds: a value read twice is reported once
+	/// Lines and kinds already logged, so that a value read twice is reported once.
+	std::set<std::string> shown;
 
-	/// Logs the line as an error, unless it was logged before.
+	/// Logs the line as an error unless it was logged before.
 	void report(const std::string &p_line);
-	/// Logs a warning, unless one of this kind was logged before: one per file is enough.
+	/// Logs a warning unless one of the same kind was logged before: one per file is enough.
 	void warn(const char *p_kind, std::string_view p_path, std::string_view p_problem);
 	/// `"desk.gltf": nodes[3].mesh is 7, must be 0..1. <next step>`, always one line.
 	std::string describe(std::string_view p_path, std::string_view p_problem) const;
-	/// Throws an Error with such a line.
+	/// Throws an Error with a line in that form.
 	[[noreturn]] void fail(std::string_view p_path, std::string_view p_problem) const;
 	/// "is <value>, must be <range>. Correct it or export the file again."
 	[[noreturn]] void fail_value(
 			std::string_view p_path, std::string_view p_value, std::string_view p_range) const;
 };
 
-/// The text without line breaks and other control characters, cut where it gets too long to read.
+/// Removes line breaks and other control characters, and truncates long text.
 std::string to_one_line(std::string_view p_text);
-/// A name as one line; the other where it is empty.
+/// Returns a name as one line, or the fallback if it is empty.
 std::string make_name(std::string_view p_name, const std::string &p_otherwise);
-/// A value for a message: numbers and short texts as they are, "an array", "an object".
+/// Describes a value for a message: numbers and short texts verbatim, otherwise "an array", "an
+/// object".
 std::string describe_json(const Json &p_value);
 
 /// Parses a file's JSON. Text that is not JSON, or exceeds the limits above, is an Error.
 Json parse_gltf_json(std::string_view p_text, const GltfMessages &p_messages);
 
-/// An object of a document and where it is; every access is checked. "Fails" below: throws
+/// An object of a document and its JSON path; every access is checked. "Fails" below: throws an
 /// Error with file, path, value and range.
 class GltfObject {
 public:
-	/// Both must outlive it.
+	/// Both the JSON and the messages must outlive this object.
 	GltfObject(Json &r_json, std::string p_path, GltfMessages &p_messages);
-	/// Keeps the value alive itself.
+	/// Shares ownership of the JSON value, so that it stays alive.
 	GltfObject(std::shared_ptr<Json> p_json, std::string p_path, GltfMessages &p_messages);
 
 	const Json &get_json() const { return *json; }
@@ -80,38 +82,40 @@ public:
 
 	/// The value, or null when absent or JSON's null.
 	Json *find(std::string_view p_key) const;
-	/// Absent: nothing. Not an object: fails.
+	/// Returns nothing if absent; fails if the value is not an object.
 	std::optional<GltfObject> find_object(std::string_view p_key) const;
 	GltfObject require_object(std::string_view p_key) const;
-	/// `extensions.<name>`; absent: nothing.
+	/// Returns `extensions.<name>`; nothing if absent.
 	std::optional<GltfObject> find_extension(std::string_view p_name) const;
-	/// The length of an array; 0 when absent. Not an array: fails.
+	/// Returns the length of an array; 0 if absent. Fails if the value is not an array.
 	size_t get_count(std::string_view p_key) const;
-	/// An array's element, which must be an object. p_index is below get_count.
+	/// Returns an array's element; fails unless it is an object. p_index is below get_count.
 	GltfObject get_element(std::string_view p_key, size_t p_index) const;
 
-	/// A whole number from 0; nothing where it is absent or another value.
+	/// Returns a whole number of at least 0; nothing if absent or of another type.
 	std::optional<uint64_t> find_whole_number(std::string_view p_key) const;
-	/// A whole number in p_minimum..p_maximum, else fails.
+	/// Returns a whole number in p_minimum..p_maximum; fails on any other value.
 	std::optional<uint64_t> find_integer(
 			std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
 	uint64_t require_integer(std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
-	/// An index into an array of p_count elements, else fails.
+	/// Returns an index into an array of p_count elements; fails on any other value.
 	std::optional<size_t> find_index(std::string_view p_key, size_t p_count) const;
 	size_t require_index(std::string_view p_key, size_t p_count) const;
-	/// An index as an element of the array p_key, else fails.
+	/// Returns an element of the array p_key as an index; fails on any other value.
 	size_t require_index_at(std::string_view p_key, size_t p_position, size_t p_count) const;
-	/// Exactly as many finite numbers as the span holds, else fails. False when absent.
+	/// Reads exactly as many finite numbers as the span holds, else fails. Returns false if absent.
 	bool find_numbers(std::string_view p_key, std::span<double> r_numbers) const;
-	/// Text; absent or not text: empty, as no text decides whether a file can be drawn.
+	/// Returns text; empty if absent or not text, because names never decide whether a file can be
+	/// drawn.
 	std::string get_text(std::string_view p_key) const;
 
-	/// A number in p_minimum..p_maximum; any other value is reported and the default returned.
+	/// Returns a number in p_minimum..p_maximum; any other value is reported and the default
+	/// returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
 			std::string_view p_unit = "") const;
-	/// Three numbers in 0..p_maximum, in the same way.
+	/// Reads three numbers in 0..p_maximum; any other value is reported.
 	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
-	/// True, false, 1 or 0 (Blender writes flags as numbers), in the same way.
+	/// Returns true, false, 1 or 0 (Blender writes flags as numbers); any other value is reported.
 	bool read_bool(std::string_view p_key, bool p_default) const;
 
 	[[noreturn]] void fail_at(std::string_view p_key, std::string_view p_problem) const;
@@ -128,7 +132,7 @@ private:
 	GltfMessages *messages;
 };
 
-/// The shortest decimal number that reads back as this float.
+/// Returns the shortest decimal number that reads back as this float.
 double to_shortest(float p_value);
 
 } // namespace gnomon

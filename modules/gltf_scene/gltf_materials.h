@@ -8,9 +8,9 @@
 
 namespace gnomon {
 
-/// A material's values. Refused values of its extras are reported and replaced by their defaults.
-/// Where a material with scatter has no scatter_distance, the attenuation distance of
-/// KHR_materials_volume replaces it: both state how far light comes before it meets something.
+/// Reads a material. Invalid values of its extras are reported and replaced by their defaults. If a
+/// material with scatter has no scatter_distance, the attenuation distance of KHR_materials_volume
+/// is used: both are mean distances that light travels in the medium.
 Material read_material(const tinygltf::Model &p_model, size_t p_index, GltfTextures &r_textures,
 		GltfMessages &r_messages);
 

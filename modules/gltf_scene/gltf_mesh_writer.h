@@ -19,12 +19,13 @@ public:
 	/// the materials of the scene that is written. r_model and p_document must outlive it.
 	GltfMeshWriter(tinygltf::Model &r_model, size_t p_buffer_index, size_t p_first_byte,
 			const GltfDocument *p_document, std::set<const Material *> p_used);
-	/// Index of the new mesh. p_surfaces is not empty.
+	/// Writes a new mesh and returns its index. p_surfaces is not empty.
 	size_t append_mesh(
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
-	/// As append_mesh where the document has a mesh that differs in its materials alone: its
-	/// vertices and all that the program does not understand stay. Where the materials stay in
-	/// their indices, it is that mesh itself. None: there is no such mesh.
+	/// Like append_mesh, for a mesh that differs from one of the document only in its materials:
+	/// its vertices, and all data that the program does not understand, are kept. If the material
+	/// indices do not change either, the existing mesh is returned. Nothing: the document has no
+	/// such mesh.
 	std::optional<size_t> change_materials(const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	const std::vector<uint8_t> &get_bytes() const { return bytes; }
 
@@ -37,8 +38,8 @@ private:
 	Accessors append_vertices(const Mesh &p_mesh);
 	int append_accessor(
 			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
-	/// Index of the material. A changed one replaces the one it came from, where the scene
-	/// does not use that any more; else it is appended.
+	/// Returns the index of the material. A changed material replaces the one it was copied from if
+	/// the scene no longer uses that; otherwise it is appended.
 	size_t put_material(const Material &p_material);
 
 	std::optional<size_t> find_loaded_mesh(
@@ -51,9 +52,10 @@ private:
 	std::vector<uint8_t> bytes;
 	std::map<const Mesh *, Accessors> accessors;
 	std::map<const Material *, size_t> material_indices;
-	std::vector<const Material *> loaded_materials; // by index in the file; null: not used there
+	/// By index in the file; null: not used by the scene.
+	std::vector<const Material *> loaded_materials;
 	std::set<const Material *> used;
-	std::map<size_t, tinygltf::Material> replaced; // as they were loaded
+	std::map<size_t, tinygltf::Material> replaced; // the replaced materials as loaded
 	std::vector<size_t> changed_meshes;
 };
 

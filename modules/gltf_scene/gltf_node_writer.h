@@ -11,11 +11,11 @@
 
 namespace gnomon {
 
-/// Writes a scene's nodes, lights, cameras and size into a document's model: what differs from the
-/// document that was loaded, or all where there is none.
+/// Writes a scene's nodes, lights, cameras and size into a document's model: only what differs from
+/// the loaded document, or everything if there is none.
 class GltfNodeWriter {
 public:
-	/// p_document may be null. All must outlive it.
+	/// p_document may be null. The arguments must outlive this object.
 	GltfNodeWriter(
 			const GltfDocument *p_document, tinygltf::Model &r_model, GltfMeshWriter &r_meshes) :
 			document(p_document),
@@ -27,7 +27,7 @@ public:
 	void write(const Scene &p_scene);
 
 private:
-	/// Where a node of the scene is in the file.
+	/// A node of the scene and its index in the file.
 	struct Entry {
 		const Node3D *node = nullptr;
 		size_t index = 0;
@@ -35,7 +35,7 @@ private:
 		bool is_part = false; // a light or camera of a node that is also something else
 		std::vector<size_t> children;
 	};
-	/// By index in the file, definitions that nodes share: written once per value.
+	/// Definitions that nodes share, by index in the file: each value is written once.
 	template <typename T> using Written = std::map<size_t, T>;
 
 	/// The node in the document.

@@ -10,12 +10,12 @@
 
 namespace gnomon {
 
-/// Joints and weights (JOINTS_0 and 1, where p_has_skin) and morph targets of a primitive, before
-/// make_mesh_rig; without both: a rig with neither. p_path: where the primitive is.
-/// p_vertex_count: of its POSITION.
+/// Reads a primitive's joints and weights (JOINTS_0 and JOINTS_1, if p_has_skin) and morph targets,
+/// not yet processed by make_mesh_rig; a primitive with neither gives an empty rig. p_path: JSON
+/// path of the primitive. p_vertex_count: number of elements of POSITION.
 MeshRig read_rig(const tinygltf::Primitive &p_primitive, const std::string &p_path, bool p_has_skin,
 		size_t p_vertex_count, GltfAccessors &p_accessors, GltfMessages &r_messages);
-/// The rig of some of its vertices.
+/// Extracts the rig of a subset of the vertices.
 MeshRig gather_rig(const MeshRig &p_rig, const std::vector<uint32_t> &p_vertices);
 
 std::shared_ptr<const Skin> read_skin(const tinygltf::Model &p_model, size_t p_index,

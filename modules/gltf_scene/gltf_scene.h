@@ -13,7 +13,8 @@
 namespace gnomon {
 
 struct GltfLoadOptions {
-	/// Files outside of it are refused, whatever a URI or a link names. Empty = the scene's folder.
+	/// Files outside this folder are refused, even if a URI or symbolic link names them. Empty =
+	/// the scene's folder.
 	std::filesystem::path project_folder;
 	/// Finds a technique's property by its full name ("<id>_<name>"), or returns null. Properties
 	/// that are found are checked and converted; others are preserved as they are. May be empty.
@@ -27,18 +28,18 @@ struct GltfLoadOptions {
 /// read; one warning reports it.
 std::unique_ptr<Scene> load_gltf(
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
-/// The same for the bytes of a file. p_path: where it is, for messages and the files that it
-/// refers to; it need not exist.
+/// Parses the bytes of a file. p_path: location of the file, for messages and for the files that it
+/// references; it need not exist.
 std::unique_ptr<Scene> parse_gltf(std::span<const uint8_t> p_bytes,
 		const std::filesystem::path &p_path, const GltfLoadOptions &p_options = {});
 
-/// Writes the scene, binary when the name ends in .glb. A scene that came from a file keeps
-/// everything of it that the program does not understand; only what changed is rewritten. The
-/// file itself is replaced atomically, after the files it refers to.
+/// Writes the scene, as binary if the name ends in .glb. A scene that was loaded from a file keeps
+/// all data of it that the program does not understand; only changes are rewritten. The file is
+/// replaced atomically, after the files that it references.
 ///
-/// Saved in another folder, buffers and images next to the old file are copied next to the new one
-/// (never over a file with other content: the copy then gets a number). A scene without a file gets
-/// its vertices in <name>.bin next to the .gltf, or inside the .glb.
+/// If the scene is saved in another folder, buffers and images next to the old file are copied next
+/// to the new one (never over a file with other content: the copy then gets a number). A scene
+/// without a source file gets its vertices in <name>.bin next to the .gltf, or inside the .glb.
 void save_gltf(const Scene &p_scene, const std::filesystem::path &p_path);
 
 } // namespace gnomon

@@ -15,8 +15,8 @@ enum class GltfForm { TEXT, BINARY };
 class GltfSideFiles {
 public:
 	explicit GltfSideFiles(std::filesystem::path p_folder);
-	/// Notes a file to write and returns the name it gets: the requested one, or where another file
-	/// has that name already, one with a number.
+	/// Adds a file to write and returns its name: the requested one, with a number appended if
+	/// another file has that name already.
 	std::string add(const std::string &p_requested_name, std::vector<uint8_t> p_bytes);
 	/// The names that add tries: "desk.bin", "desk_2.bin", and so on.
 	static std::string number_name(const std::string &p_name, size_t p_number);
@@ -30,9 +30,9 @@ private:
 	std::map<std::string, std::vector<uint8_t>> files;
 };
 
-/// Makes a copy of a document ready for another form or folder: buffer 0 moves into the BIN chunk
-/// or out of it, and what URIs name is copied along. A missing file is an Error for a buffer that
-/// must move, and left as it is for an image.
+/// Prepares a copy of a document for another form or folder: moves buffer 0 into or out of the BIN
+/// chunk and copies the files that URIs reference. A missing file is an Error for a buffer that
+/// must move; for an image it is ignored.
 void relocate_container(const GltfDocument &p_document, const std::filesystem::path &p_target,
 		GltfForm p_form, GltfContainer &r_container, GltfSideFiles &r_files);
 

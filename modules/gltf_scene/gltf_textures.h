@@ -11,14 +11,15 @@
 
 namespace gnomon {
 
-/// Reads textures and their images, each once. An image that cannot be read is reported, and what
-/// shows it has no texture then.
+/// Reads textures and decodes their images; each image is decoded only once. An image that cannot
+/// be read is reported, and textures that use it are empty.
 class GltfTextures {
 public:
-	/// p_root: the document as it was read, for the images' locations. All must outlive it.
+	/// p_root: the document as read, for the locations of images. The document, the model and the
+	/// buffers must outlive this object.
 	GltfTextures(const GltfObject &p_root, const tinygltf::Model &p_model, GltfBuffers &p_buffers);
 
-	/// p_info: a TextureInfo of tinygltf, also that of a normal or occlusion map.
+	/// Reads the texture of a tinygltf TextureInfo, NormalTextureInfo or OcclusionTextureInfo.
 	template <typename Info> Texture read(const Info &p_info) {
 		return p_info.index < 0
 				? Texture()

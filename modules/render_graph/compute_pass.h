@@ -9,18 +9,19 @@
 
 namespace gnomon {
 
-/// One resource of a compute pass: what the graph must know of it, and where the shader finds it.
+/// One resource of a compute pass: its access for the graph, and its binding in the shader.
 struct PassBinding {
 	uint32_t binding = 0;
 	RGTexture texture;
 	RGBuffer buffer;
 	Access access = Access::SHADER_READ_COMPUTE;
-	PassBuilder::Content content = PassBuilder::Content::FRESH; // of what is written
+	/// Whether a written resource keeps earlier content.
+	PassBuilder::Content content = PassBuilder::Content::FRESH;
 
-	SamplerRID sampler; // with a texture that the shader samples, not only fetches
+	SamplerRID sampler; // set for a texture that the shader samples with filtering
 	uint32_t layer = Binding::ALL_LAYERS; // of the texture
 
-	/// Sampled or fetched.
+	/// The shader samples or fetches the texture.
 	static PassBinding read(uint32_t p_binding, RGTexture p_texture, SamplerRID p_sampler = {}) {
 		return { p_binding, p_texture, {}, Access::SHADER_READ_COMPUTE, PassBuilder::Content::FRESH,
 			p_sampler };
@@ -28,11 +29,11 @@ struct PassBinding {
 	static PassBinding read(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::SHADER_READ_COMPUTE };
 	}
-	/// A block of constants, see RenderGraph::upload_constants.
+	/// A uniform block of constants, see RenderGraph::upload_constants.
 	static PassBinding constants(uint32_t p_binding, RGBuffer p_buffer) {
 		return { p_binding, {}, p_buffer, Access::UNIFORM_READ };
 	}
-	/// A storage image or buffer. UPDATE: the shader reads it too, or does not write all of it.
+	/// A storage image or buffer. UPDATE: the shader also reads it, or does not write all of it.
 	static PassBinding write(uint32_t p_binding, RGTexture p_texture,
 			PassBuilder::Content p_content = PassBuilder::Content::FRESH) {
 		return { p_binding, p_texture, {}, Access::SHADER_WRITE_COMPUTE, p_content };
@@ -43,20 +44,20 @@ struct PassBinding {
 	}
 };
 
-/// The reads and writes of a pass's bindings.
+/// Declares the reads and writes of a pass's bindings.
 void declare_bindings(PassBuilder &r_pass, std::span<const PassBinding> p_bindings);
 /// Binds pipeline, resources and push constants (empty: the shader has none), for a dispatch.
 void bind_compute(PassContext &r_context, PipelineRID p_pipeline,
 		std::span<const PassBinding> p_bindings, std::span<const uint8_t> p_push);
 
-/// A pass that runs one compute shader over the items: enough groups of its local size to cover
-/// them. The bindings declare the reads and writes and bind the resources in one. p_push: the
-/// shader's push constants, copied; empty when it has none.
+/// Adds a pass that runs one compute shader over the items, with enough workgroups to cover them.
+/// The bindings both declare reads and writes and bind the resources. p_push: the shader's push
+/// constants, copied; empty if it has none.
 void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, glm::uvec3 p_item_count,
 		std::span<const uint8_t> p_push = {});
 
-/// As above over the texels of an image, with a push-constant block.
+/// Adds such a pass over the texels of an image, with a push-constant block.
 template <typename Push>
 void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, glm::uvec2 p_size_px, const Push &p_push) {

@@ -11,7 +11,8 @@ namespace gnomon {
 /// packed; for a host pass. Not with a stencil.
 RGBuffer add_copy_for_host(RenderGraph &r_graph, RGTexture p_texture, uint32_t p_layer = 0);
 
-/// As above, and r_bytes gets them when the graph is executed; it must live until then.
+/// Like add_copy_for_host; r_bytes receives the data when the graph is executed and must live until
+/// then.
 void add_readback(RenderGraph &r_graph, RGTexture p_texture, std::vector<uint8_t> &r_bytes,
 		uint32_t p_layer = 0);
 

@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// A texture or buffer of one graph. Transient ones exist from their first to their last pass.
+/// A texture or buffer of one graph. Transient resources live from their first to their last pass.
 struct RGResource {
 	uint32_t index = ~0u;
 	explicit operator bool() const { return index != ~0u; }
@@ -24,7 +24,7 @@ struct RGBuffer : RGResource {};
 class RenderGraph;
 class TransientPool;
 
-/// What a pass's function gets: where to record, and which real resources its handles became.
+/// Passed to a pass's function: the command list, and the resources behind the graph's handles.
 class PassContext {
 public:
 	CommandList &commands;
@@ -40,7 +40,7 @@ private:
 	const RenderGraph &graph;
 };
 
-/// What a host pass gets: its buffers as mapped memory, with the GPU's work finished.
+/// Passed to a host pass: its buffers as mapped memory, after the GPU has finished its work.
 class HostContext {
 public:
 	uint8_t *get_mapped(RGBuffer p_buffer) const;
@@ -74,9 +74,9 @@ public:
 			glm::vec4 p_clear = glm::vec4(0.0f), uint32_t p_layer = 0);
 	PassBuilder &depth(
 			RGTexture p_texture, LoadOp p_load, float p_clear = 0.0f, uint32_t p_layer = 0);
-	/// The rendering has no attachments but a size: for fragment shaders that only store.
+	/// Renders without attachments, at a given size: for fragment shaders that only store.
 	PassBuilder &without_targets(glm::uvec2 p_size_px);
-	/// Runs even when nothing reads what it writes.
+	/// Keeps the pass even if nothing reads its output.
 	PassBuilder &keep();
 	void execute(std::function<void(PassContext &)> p_record);
 	/// Runs on the CPU: everything before it is submitted and waited for. Its buffers are READBACK
@@ -105,7 +105,7 @@ public:
 
 	RGTexture create_texture(const TextureDesc &p_desc);
 	RGBuffer create_buffer(const BufferDesc &p_desc);
-	/// A buffer that holds these bytes; for constants and small lists of this frame.
+	/// Creates a buffer with these bytes; for constants and small lists of this frame.
 	RGBuffer upload(
 			const std::string &p_name, BufferUsage p_usage, std::span<const uint8_t> p_bytes);
 	/// For storage blocks of std140 layout, or for uniform blocks. Mesa's lavapipe 22.3 compiles a
@@ -123,16 +123,17 @@ public:
 	enum class ImportedContent { NONE, PRESERVED };
 	RGTexture import_texture(TextureRID p_texture, ImportedContent p_content);
 	RGBuffer import_buffer(BufferRID p_buffer);
-	/// The window's next image, got from p_acquire when its first pass is recorded and shown when
-	/// that pass is submitted; one pass uses it. The pass is skipped when p_acquire gives nothing.
+	/// Imports the window's next image, acquired by p_acquire when its first pass is recorded and
+	/// presented when that pass is submitted; one pass uses it. The pass is skipped if p_acquire
+	/// returns nothing.
 	RGTexture import_window_image(std::function<std::optional<TextureRID>()> p_acquire);
 
-	/// By value: a reference would end with the next resource that is made.
+	/// Returned by value, because creating another resource would invalidate a reference.
 	TextureDesc get_desc(RGTexture p_texture) const;
 	BufferDesc get_desc(RGBuffer p_buffer) const;
 
 	PassBuilder add_pass(const std::string &p_name);
-	/// Goes before the names of the passes added from now on: "Lamp: ". Empty = nothing.
+	/// Sets the prefix of the names of passes added from now on: "Lamp: ". Empty = no prefix.
 	void set_pass_prefix(const std::string &p_prefix) { pass_prefix = p_prefix; }
 
 	/// QUEUE: returns at once; timings() then belong to an earlier frame. WAIT: returns when the
@@ -143,11 +144,11 @@ public:
 	void execute(Mode p_mode);
 
 	const std::vector<PassTiming> &get_timings() const { return timings; }
-	/// Sum over the passes, and the wall time of execute() from the first to the last command.
+	/// Wall time of execute() from the first to the last command; the sum over the passes.
 	double get_wall_ms() const { return wall_ms; }
-	/// Passes that were culled because nothing uses what they write.
+	/// Names of the passes that were culled because nothing uses their output.
 	std::vector<std::string> get_culled_passes() const;
-	/// Bytes of transient textures as if none shared memory, and as placed. After execute().
+	/// Bytes of transient textures without aliasing, and as placed. Valid after execute().
 	uint64_t get_unaliased_bytes() const { return unaliased_bytes; }
 	uint64_t get_aliased_bytes() const { return aliased_bytes; }
 	/// Graphviz text: passes as boxes, resources as ellipses, culled passes dashed.

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-// Private to render_graph: what the graph keeps of resources and passes.
+// Private to render_graph: the graph's records of resources and passes.
 
 namespace gnomon {
 
@@ -18,10 +18,10 @@ struct RenderGraph::Resource {
 	BufferDesc buffer_desc;
 	TextureRID texture;
 	BufferRID buffer;
-	// Passes that are not culled; first > last means that it is unused.
+	// First and last pass that use it, culled passes excluded; first > last: it is unused.
 	uint32_t first_pass = ~0u;
 	uint32_t last_pass = 0;
-	/// Accesses of the resources that had this one's memory before (aliasing).
+	/// Accesses of the resources that used this memory before (aliasing).
 	std::vector<Access> earlier_users;
 	Access last_access = Access::NONE; // while barriers are derived
 };

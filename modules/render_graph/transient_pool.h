@@ -22,9 +22,9 @@ struct TransientRequest {
 struct TransientPlacement {
 	std::vector<TextureRID> textures;
 	std::vector<BufferRID> buffers;
-	/// Requests whose memory request i takes over (all lived before it).
+	/// For each request, the requests whose memory it reuses (all of them ended before it starts).
 	std::vector<std::vector<uint32_t>> predecessors;
-	uint64_t unaliased_bytes = 0; // of the textures, as if none shared memory
+	uint64_t unaliased_bytes = 0; // of the textures, without aliasing
 	uint64_t aliased_bytes = 0;	  // of the textures, as placed
 };
 
@@ -41,14 +41,15 @@ struct PlacedBlock {
 uint64_t place_blocks(std::vector<PlacedBlock> &r_blocks);
 
 enum class SharedKinds { BUFFERS, BUFFERS_AND_TEXTURES };
-/// For each request the one whose resource it gets: its own, or one with the same description but
-/// for the name that was done with before. r_predecessors, one list per request, gets those that
-/// had it before. Buffers that the host maps, and kinds that are not shared, get their own.
+/// Chooses for each request the one whose resource it uses: its own, or that of an earlier request
+/// with the same description (names may differ) that has ended. r_predecessors, one list per
+/// request, gets the requests that used it before. Host-mapped buffers, and kinds that are not
+/// shared, get their own.
 std::vector<uint32_t> share_resources(const std::vector<TransientRequest> &p_requests,
 		SharedKinds p_kinds, std::vector<std::vector<uint32_t>> &r_predecessors);
 
-/// Keeps the transient resources of the last few frame shapes, so that a frame like an earlier one
-/// allocates nothing. What many frames did not use is freed.
+/// Caches the transient resources of the last few frame layouts, so that a frame like an earlier
+/// one allocates nothing. Resources unused for many frames are freed.
 class TransientPool {
 public:
 	explicit TransientPool(RenderingDevice &p_device) : device(p_device) {}
@@ -67,7 +68,7 @@ private:
 	};
 
 	std::unique_ptr<Entry> make_entry(const std::vector<TransientRequest> &p_requests);
-	/// All textures in one block of memory, those that do not live at the same time over another.
+	/// Places all textures in one memory block; those that do not live at the same time overlap.
 	void place_textures(Entry &r_entry);
 
 	RenderingDevice &device;

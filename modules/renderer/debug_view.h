@@ -17,8 +17,8 @@ struct ReferenceMask {
 	std::vector<float> receiver;   // 1, or 0 where the light does not reach
 };
 
-/// "error": the mask minus the reference in the colours of shared/heat_map_shared.h. A reference of
-/// another size than the frame's is an Error.
+/// Adds the view "error": the mask minus the reference in the colours of shared/heat_map_shared.h.
+/// A reference of a size other than the frame's is an Error.
 ShadowTechnique::DebugView add_error_view(
 		const LitImage &p_image, const LightShadow &p_shadow, const ReferenceMask &p_reference);
 
@@ -29,12 +29,12 @@ struct DebugViewWish {
 	bool has_reference = false;
 };
 
-/// The one that is requested; an unknown one is an Error that lists those there are. Null: the lit
-/// image is shown.
+/// Returns the requested view; an unknown one is an Error that lists the available views. Null:
+/// show the lit image.
 const ShadowTechnique::DebugView *choose_debug_view(
 		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
 
-/// RGBA8_UNORM: the texture of a debug view instead of the lit image.
+/// Draws a debug view's texture in place of the lit image, as RGBA8_UNORM.
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view);
 
 } // namespace gnomon

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// What the camera sees, one texel per pixel.
+/// The geometry that the camera sees, one texel per pixel.
 struct GBuffer {
 	RGTexture depth;			// D32_SFLOAT, reversed
 	RGTexture base_color;		// RGBA8_SRGB; alpha: how much ambient light arrives
@@ -18,7 +18,7 @@ struct GBuffer {
 	RGTexture emissive;			// RGBA16_SFLOAT, cd/m^2
 };
 
-/// Draws the instances the camera may see. r_drawn_count: how many those are.
+/// Draws the instances that may be in the camera's view. r_drawn_count: the number of those.
 GBuffer add_gbuffer_pass(RenderGraph &r_graph, RenderingDevice &p_device, MeshStore &r_meshes,
 		MaterialStore &r_materials, const SceneSnapshot &p_scene, glm::uvec2 p_size_px,
 		RGBuffer p_frame, uint32_t &r_drawn_count);

@@ -12,11 +12,11 @@
 
 namespace gnomon {
 
-/// An image and all its levels of detail, RGBA8: each texel of a level is the mean of those it
-/// covers, of sRGB colours as they are linear, weighted by their alpha.
+/// Returns an image with all its mip levels, RGBA8: each texel of a level is the mean of those it
+/// covers, weighted by their alpha; sRGB colours are averaged in linear space.
 std::vector<uint8_t> make_mip_levels(const Image &p_image, bool p_is_srgb, uint32_t &r_level_count);
 
-/// A material's textures in GPU memory, and what else a shader needs of it.
+/// A material's textures in GPU memory, and its shader constants.
 struct GpuMaterial {
 	OwnedBuffer constants;				// shader::MaterialConstants
 	std::array<TextureRID, 5> textures; // in the order of Material::list_textures
@@ -31,7 +31,7 @@ struct GpuAttributes {
 	OwnedBuffer colors;
 };
 
-/// One vertex stream: of a mesh, or with one element for all vertices.
+/// One vertex stream: from a mesh, or with a single element that all vertices share.
 struct VertexStream {
 	BufferRID buffer;
 	bool is_constant = false;
@@ -44,11 +44,11 @@ public:
 
 	/// Uploads the material and its images the first time.
 	const GpuMaterial &get(const std::shared_ptr<const Material> &p_material);
-	/// First and second coordinates, tangents and colours of a mesh, in the order of gbuffer.vert.
-	/// Makes tangents where the material needs them and the mesh has none.
+	/// Returns first and second texture coordinates, tangents and colours of a mesh, in the order
+	/// of gbuffer.vert. Computes tangents if the material needs them and the mesh has none.
 	std::array<VertexStream, 4> get_streams(MeshStore &r_meshes,
 			const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material);
-	/// Frees what belongs to materials that are gone. Once a frame.
+	/// Frees resources of materials that were freed. Call it once a frame.
 	void collect_garbage();
 	size_t get_texture_count() const { return images.size(); }
 
@@ -69,7 +69,7 @@ private:
 	std::array<OwnedBuffer, 4> constant_streams;
 };
 
-/// Whether the G-buffer needs more of the surface than InstancePush has.
+/// Whether the G-buffer pass needs more of the surface than InstancePush contains.
 bool has_look(const Mesh &p_mesh, const Material &p_material);
 
 } // namespace gnomon

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Shows the image (SAMPLED, values as they are stored) in the window whose next image p_acquire
-/// gives, see RenderGraph::import_window_image: stretched over it, nearest texel.
+/// Presents the image (SAMPLED; stored values are copied) in the window whose next image p_acquire
+/// returns, see RenderGraph::import_window_image: stretched to the window, nearest texel.
 void add_present_pass(RenderGraph &r_graph, RGTexture p_image,
 		std::function<std::optional<TextureRID>()> p_acquire);
 

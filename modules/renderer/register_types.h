@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: techniques and filters come from the modules that hold them.
+// Nothing to register: techniques and filters come from their own modules.

@@ -24,64 +24,67 @@ struct OverlayVertex {
 	glm::vec4 color;	   // sRGB-encoded, alpha not premultiplied
 };
 
-/// What one frame is to make.
+/// The inputs of one frame.
 struct RenderRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(512); // 1..16384 each
-	/// 1..4: the image is drawn so many times as wide and high, its masks too, and each pixel is
-	/// the mean of what is shown there. Masks alone and debug views are drawn at their size.
+	/// Supersampling, 1..4: the image and its masks are drawn at this many times the width and
+	/// height, and each pixel is the mean of its texels. Masks alone and debug views are drawn at
+	/// size_px.
 	uint32_t antialiasing = 1;
 	/// Replaces the technique of every light. Empty = each light's own.
 	std::string technique_override;
-	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" where
-	/// there is a reference.
+	/// Shows an intermediate image of a light's technique: its id, or "mask", or "error" if there
+	/// is a reference.
 	std::string debug_view;
-	/// Which light's. Empty, or one that casts no shadow: the first that does.
+	/// Name of the light of the debug view. If empty, or if it casts no shadow: the first that
+	/// does.
 	std::string debug_light;
-	/// Of that light, as the same camera sees it; of the frame's size.
+	/// Reference mask of that light for the same camera; of the frame's size.
 	std::shared_ptr<const ReferenceMask> reference;
-	/// False: where there is no such view the lit image is shown, as a user expects who changes the
-	/// technique or the lights while looking at one.
+	/// False: if the debug view does not exist, the lit image is shown, as a user expects who
+	/// changes the technique or the lights while looking at a view.
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
 	bool wants_graph = false; // RenderResult::dot
-	/// Gets the image too, when it is there: RGBA8_UNORM, of the frame's size, COPY_TARGET.
+	/// Receives a copy of the image, if valid: RGBA8_UNORM, of the frame's size, COPY_TARGET.
 	TextureRID image_target;
 	/// Only this light's mask: no lighting, no image. Empty = all lights and the image.
 	std::string mask_light;
 	bool wants_mask = false;	 // with mask_light: RenderResult::visibility and receiver
 	bool wants_surfaces = false; // with wants_mask: RenderResult::surfaces and their texels
-	/// Gets the window's next image to show the lit image in; see RenderGraph::import_window_image.
+	/// Acquires the window's next image to show the lit image in; see
+	/// RenderGraph::import_window_image.
 	std::function<std::optional<TextureRID>()> acquire_window_image;
 	std::vector<OverlayVertex> overlay; // three per triangle
 	RenderGraph::Mode mode = RenderGraph::Mode::WAIT;
-	/// False: runs everything, also what the image does not need (for the test that compares both).
+	/// False: runs all passes, even those that the image does not need (for the test that compares
+	/// both).
 	bool may_skip = true;
-	/// False: techniques use nothing that they cached of earlier frames, as if everything had
-	/// moved.
+	/// False: techniques use nothing cached from earlier frames, as if everything had moved.
 	bool may_reuse = true;
-	/// True: shadows make geometric normals from the depth, as for a host that draws none.
+	/// True: shadows derive geometric normals from the depth, for a host that draws none.
 	bool has_depth_alone = false;
 };
 
-/// The mask's values are there when they were requested.
+/// The mask's values are set if they were requested.
 struct RenderResult : MaskValues {
 	FramePlan plan;
 	std::vector<PassTiming> timings;	  // QUEUE: of an earlier frame
 	double gpu_ms = 0;					  // sum of the passes
 	double wall_ms = 0;					  // of the frame's submission
 	std::vector<uint8_t> image;			  // RGBA8, sRGB-encoded, rows from the top
-	std::vector<std::string> debug_views; // that there are, when one was requested
+	std::vector<std::string> debug_views; // available views, if one was requested
 	float standard_error = 0;			  // of visibility, see ShadowTechnique
 	std::vector<SurfacePoint> surfaces;	  // one per pixel
-	std::vector<uint8_t> depth_texels;	  // as HostSurfaces has them, with the surfaces
+	std::vector<uint8_t> depth_texels;	  // in the format of HostSurfaces; with the surfaces
 	std::vector<uint8_t> normal_texels;
 	CommandCounts commands;		  // draws and dispatches of the frame
 	std::string dot;			  // the frame's graph for Graphviz, when it was requested
 	uint64_t unaliased_bytes = 0; // of transient textures, as if none shared memory
 	uint64_t aliased_bytes = 0;
 
-	/// The passes of one light, named without it.
+	/// Returns the passes of one light, without the light's name in their names.
 	std::vector<PassTiming> find_light_passes(const std::string &p_light) const;
 };
 
@@ -93,7 +96,7 @@ public:
 
 	/// An unknown technique, light or debug view, or a size out of range, is an Error.
 	RenderResult render(const RenderRequest &p_request);
-	/// Techniques start from scratch, as after shaders were replaced.
+	/// Makes techniques discard their caches, as after shaders were replaced.
 	void forget_cached() { shadows.forget_cached(); }
 	RenderingDevice &get_device() { return device; }
 

@@ -13,8 +13,8 @@ class CommandList {
 public:
 	virtual ~CommandList() = default;
 
-	/// A named span with timestamps around it; also the breadcrumb that a lost device reports.
-	/// Spans do not nest and are outside begin_rendering .. end_rendering.
+	/// Begins a named span with timestamps around it; it is also the breadcrumb that a lost device
+	/// reports. Spans do not nest and are outside begin_rendering .. end_rendering.
 	virtual void begin_span(const std::string &p_name) = 0;
 	virtual void end_span() = 0;
 
@@ -27,19 +27,20 @@ public:
 	virtual void begin_rendering_without_targets(glm::uvec2 p_size_px) = 0;
 	virtual void end_rendering() = 0;
 	virtual void set_viewport(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) = 0;
-	/// Nothing outside is drawn; the next set_viewport covers all of it again.
+	/// Nothing outside the rectangle is drawn; the next set_viewport resets it to the whole
+	/// viewport.
 	virtual void set_scissor(glm::uvec2 p_offset_px, glm::uvec2 p_size_px) = 0;
-	/// Of the pipelines with has_depth_bounds; each begin_rendering sets 0 to 1.
+	/// Applies to pipelines with has_depth_bounds; each begin_rendering resets it to 0..1.
 	virtual void set_depth_bounds(float p_least, float p_greatest) = 0;
 
 	virtual void bind_pipeline(PipelineRID p_pipeline) = 0;
-	/// All bindings that the bound pipeline declares, and no other: a missing or an extra one is an
+	/// Binds exactly the bindings that the bound pipeline declares: a missing or an extra one is an
 	/// assertion that names pipeline and number.
 	virtual void bind_resources(std::span<const Binding> p_bindings) = 0;
 	void bind_resources(std::initializer_list<Binding> p_bindings) {
 		bind_resources(std::span<const Binding>(p_bindings.begin(), p_bindings.size()));
 	}
-	/// At most 128 bytes; the size must be what the shader's block has.
+	/// At most 128 bytes; the size must equal that of the shader's block.
 	virtual void push_constants(std::span<const uint8_t> p_bytes) = 0;
 	template <typename T>
 	requires std::is_trivially_copyable_v<T> &&
@@ -59,22 +60,22 @@ public:
 	virtual void begin_conditional(BufferRID p_predicate, uint64_t p_offset_bytes = 0) = 0;
 	virtual void end_conditional() = 0;
 	virtual void dispatch(glm::uvec3 p_group_count) = 0;
-	/// Enough groups of the bound pipeline's local size to cover the items.
+	/// Dispatches enough workgroups of the bound pipeline's local size to cover the items.
 	virtual void dispatch_items(glm::uvec3 p_item_count) = 0;
 	virtual void dispatch_indirect(BufferRID p_arguments, uint64_t p_offset_bytes) = 0;
 
-	/// All bytes become 0. Other values: add_fill_pass of the render graph.
+	/// Sets all bytes to 0. For other values see add_fill_pass of the render graph.
 	virtual void clear_buffer(BufferRID p_buffer) = 0;
 	virtual void copy_buffer(BufferRID p_source, BufferRID p_target, uint64_t p_size_bytes,
 			uint64_t p_source_offset_bytes = 0, uint64_t p_target_offset_bytes = 0) = 0;
-	/// Tightly packed rows. Depth textures give their depth.
+	/// Rows are tightly packed. Depth textures copy their depth aspect.
 	virtual void copy_texture_to_buffer(
 			TextureRID p_source, BufferRID p_target, uint32_t p_layer = 0) = 0;
 	virtual void copy_buffer_to_texture(BufferRID p_source, TextureRID p_target,
 			uint32_t p_layer = 0, uint64_t p_source_offset_bytes = 0) = 0;
-	/// Same size and format.
+	/// Both textures must have the same size and format.
 	virtual void copy_texture(TextureRID p_source, TextureRID p_target) = 0;
-	/// The texture has Access::COPY_WRITE; of UINT formats: the value is converted.
+	/// The texture must be in Access::COPY_WRITE; for UINT formats the value is converted.
 	virtual void clear_color(TextureRID p_texture, glm::vec4 p_value) = 0;
 
 protected:

@@ -17,19 +17,21 @@ struct DeviceFeatures;
 /// { &DeviceFeatures::geometry_shader, ... }
 using FeatureList = std::vector<bool DeviceFeatures::*>;
 
-/// What the user may choose of the device.
+/// The user's choices for the device.
 struct DeviceOptions {
 	std::string
 			device; // index ("0") or part of a name, any case; empty = discrete > integrated > CPU
 	bool validation = false; // validation and synchronization layers
-	/// 0 = $GNOMON_MEMORY_BUDGET_MIB, else what the device reports, at most 90 % of its heap.
+	/// 0 = $GNOMON_MEMORY_BUDGET_MIB, else what the device reports, but at most 90 % of its heap.
 	uint64_t memory_budget_bytes = 0;
-	/// A wait in which no submission ends and no pass begins for so long is an Error. 0 = waits for
-	/// ever. Absent = $GNOMON_DEVICE_TIMEOUT_S, else 60 s, of a CPU 600 s.
+	/// Timeout without progress, in seconds: a wait in which no submission ends and no pass begins
+	/// for this long is an Error. 0 = no timeout. Absent = $GNOMON_DEVICE_TIMEOUT_S, else 60 s (600
+	/// s on a CPU device).
 	std::optional<double> wait_limit_s;
 	bool needs_surface = false;					  // a window will be shown
 	std::vector<std::string> instance_extensions; // what the window system needs
-	FeatureList denied_features;				  // that it is to lack, though it may have them
+	/// Features to treat as absent even if the device has them.
+	FeatureList denied_features;
 };
 
 /// One device as `gnomon info` lists it.
@@ -41,7 +43,7 @@ struct DeviceInfo {
 	std::string api_version;   // "1.3.230"
 	uint64_t memory_bytes = 0; // of the largest device-local heap
 	bool is_usable = false;
-	std::string refusal; // why it is not: "Vulkan 1.1, 1.3 is needed"
+	std::string refusal; // why it is unusable: "Vulkan 1.1, 1.3 is needed"
 };
 
 /// What the device can do beyond the minimum that Gnomon requires: compute shaders, 128 bytes of
@@ -50,7 +52,7 @@ struct DeviceInfo {
 /// copies to textures
 /// make frames faster; without them the masks are the same.
 struct DeviceFeatures {
-	/// Geometry shaders, and the primitive's index in fragment shaders.
+	/// Geometry shaders, and gl_PrimitiveID in fragment shaders.
 	bool geometry_shader = false;
 	bool aliased_memory = false; // create_texture_memory, create_placed_texture
 	bool depth_clamp = false;
@@ -73,7 +75,7 @@ struct MemoryUse {
 	uint64_t peak_bytes = 0; // highest used_bytes since the device began
 };
 
-/// Commands recorded since the device began; those under a condition count too.
+/// Commands recorded since the device was created; those under a condition count too.
 struct CommandCounts {
 	uint64_t draws = 0;
 	uint64_t dispatches = 0;
@@ -110,24 +112,25 @@ public:
 	virtual MemoryUse get_memory_use() const = 0;
 	virtual CommandCounts get_command_counts() const = 0;
 
-	// Resources. Above the budget or the device's limits: an Error naming resource, size and limit.
+	// Creates resources. Beyond the budget or the device's limits: an Error naming resource, size
+	// and limit.
 	virtual BufferRID create_buffer(const BufferDesc &p_desc) = 0;
-	/// Device-local, filled with the bytes before the next submission's commands.
+	/// Creates a device-local buffer, filled with the bytes before the next submission's commands.
 	virtual BufferRID create_buffer_with_data(
 			BufferDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
 	virtual TextureRID create_texture(const TextureDesc &p_desc) = 0;
-	/// Filled with tightly packed texels (layer 0), ready for SAMPLED use.
+	/// Creates a texture filled with tightly packed texels (layer 0), ready for SAMPLED use.
 	virtual TextureRID create_texture_with_data(
 			TextureDesc p_desc, std::span<const uint8_t> p_bytes) = 0;
 	virtual SamplerRID create_sampler(const SamplerDesc &p_desc) = 0;
-	/// Made from the embedded SPIR-V, or taken from a cache of equal descriptions. Owned by the
-	/// device.
+	/// Creates the pipeline from the embedded SPIR-V, or returns a cached one with an equal
+	/// description. The device owns it.
 	virtual PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) = 0;
 	virtual PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) = 0;
-	/// Other SPIR-V for these entry points from now on: recreates all pipelines that use one of
-	/// them, after the GPU is done. Handles stay valid. What the device refuses, and a shader that
-	/// wants other bindings or push constants than this build's, are an Error that leaves
-	/// everything as it was. Not while commands are being recorded; SPIR-V of another stage is a
+	/// Replaces the SPIR-V of these entry points and recreates all pipelines that use one of them,
+	/// after the GPU is done. Handles stay valid. SPIR-V that the device refuses, or that has
+	/// bindings or push constants other than this build's, is an Error that leaves everything
+	/// unchanged. Not allowed while commands are being recorded; SPIR-V of another stage is a
 	/// programming error.
 	virtual void replace_shaders(
 			const std::map<std::string, std::vector<uint32_t>> &p_spirv_by_name) = 0;
@@ -160,8 +163,8 @@ public:
 	/// swapchain image that the recorded barriers brought to Access::PRESENT is presented.
 	enum class SubmitMode { QUEUE, WAIT };
 	virtual void submit_commands(SubmitMode p_mode) = 0;
-	/// Drops what was recorded since begin_commands, for when an Error ends a frame half-way. An
-	/// acquired swapchain image stays acquired. Does nothing when no commands are being recorded.
+	/// Discards what was recorded since begin_commands, for when an Error ends a frame early. An
+	/// acquired swapchain image stays acquired. Does nothing if no commands are being recorded.
 	virtual void abandon_commands() = 0;
 	virtual void wait_idle() = 0;
 	/// Copies the buffer, as it is at this command (usage COPY_SOURCE, Access::COPY_READ), and
@@ -171,22 +174,24 @@ public:
 	/// commands.
 	using ReadBackCallback = std::function<void(std::span<const uint8_t>)>;
 	virtual void read_back(BufferRID p_buffer, ReadBackCallback p_callback) = 0;
-	/// As above, of a texture's layer: tightly packed rows, of depth textures their depth.
+	/// Reads back a texture's layer in the same way: tightly packed rows; for depth textures the
+	/// depth.
 	virtual void read_back(TextureRID p_texture, uint32_t p_layer, ReadBackCallback p_callback) = 0;
 	/// Spans of the newest finished submission, in recording order.
 	virtual const std::vector<GpuSpan> &get_gpu_spans() const = 0;
 };
 
-// The backend that the program is linked with defines these.
+// The backend that is linked into the program defines these functions.
 
-/// No driver or no usable device: an Error with the package to install and the reasons per device.
+/// Creates the device. No driver or no usable device is an Error that names the package to install
+/// and the reason for each device.
 std::unique_ptr<RenderingDevice> create_rendering_device(const DeviceOptions &p_options);
 /// Never throws: without a driver the list is empty.
 std::vector<DeviceInfo> find_rendering_devices();
 /// Validation messages (warnings and errors, synchronization included) since the program began.
 unsigned get_validation_message_count();
-/// A device of this process hangs and could not be ended: what belongs to it stays, and the program
-/// must be left with std::_Exit, since the driver waits for it too.
+/// A device of this process hangs and could not be destroyed. Its resources are leaked, and the
+/// program must exit with std::_Exit, because the driver would wait for the device too.
 bool has_device_hung();
 
 /// Frees the resource when it goes out of scope.

@@ -45,10 +45,10 @@ uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
 bool is_depth_format(Format p_format);
 bool has_stencil(Format p_format);
-/// Of those that are drawn into; blending does nothing to them.
+/// Whether it is an integer format. These are render targets; blending has no effect on them.
 bool is_uint_format(Format p_format);
 
-/// What a resource is used for; bits are joined with |.
+/// How a resource may be used; bits are combined with |.
 enum class TextureUsage : uint32_t {
 	SAMPLED = 1,
 	STORAGE = 2,
@@ -65,8 +65,8 @@ enum class BufferUsage : uint32_t {
 	INDIRECT = 16,
 	COPY_SOURCE = 32,
 	COPY_TARGET = 64,
-	/// Uniform texel buffer; then BufferDesc::texel_format counts. With STORAGE only where
-	/// DeviceFeatures::storage_texel_buffers.
+	/// Uniform texel buffer, of BufferDesc::texel_format. Combined with STORAGE only if the device
+	/// has DeviceFeatures::storage_texel_buffers.
 	TEXEL = 128,
 	CONDITIONAL = 256, // read by CommandList::begin_conditional
 };
@@ -89,19 +89,19 @@ struct TextureDesc {
 	std::string name; // shown in errors, leaks and debuggers
 	Format format = Format::RGBA8_UNORM;
 	glm::uvec2 size_px = glm::uvec2(1);
-	uint32_t layer_count = 1; // above 1 only of arrays
+	uint32_t layer_count = 1; // above 1 only for arrays
 	TextureUsage usage = TextureUsage::SAMPLED;
-	/// Shaders declare it as a 2D array, also where it has one layer; a Binding of one of its
-	/// layers is a 2D texture.
+	/// Shaders declare it as a 2D array even if it has one layer; a Binding of one of its layers is
+	/// a plain 2D texture.
 	bool is_array = false;
-	/// Levels of detail, each half of that before, at least one texel. Above 1 only of textures
-	/// with one layer that are made with data, of all levels one after another.
+	/// Mip levels, each half as large as the one before, at least one texel. Above 1 only for
+	/// single-layer textures that are created with data, which contains all levels in order.
 	uint32_t mip_count = 1;
 	bool operator==(const TextureDesc &) const = default;
 };
-/// Of a level: half as large as that before, at least 1.
+/// Size of a mip level: half that of the level before, at least 1.
 glm::uvec2 compute_mip_size(glm::uvec2 p_size_px, uint32_t p_level);
-/// Of one layer with all its levels, tightly packed.
+/// Bytes of one layer with all its mip levels, tightly packed.
 uint64_t compute_layer_bytes(const TextureDesc &p_desc);
 
 struct BufferDesc {
@@ -114,9 +114,9 @@ struct BufferDesc {
 };
 
 enum class Filter { NEAREST, LINEAR };
-/// What a texture has beyond its edge: the edge's colour, or itself again, as it is or mirrored.
+/// Texture addressing beyond the edge: edge texels, repetition, or mirrored repetition.
 enum class AddressMode { CLAMP, REPEAT, MIRROR };
-/// Which levels of detail are read: the first alone, the nearest, or two of them, blended.
+/// How mip levels are sampled: only the first, the nearest, or two of them blended.
 enum class MipMode { NONE, NEAREST, LINEAR };
 struct SamplerDesc {
 	std::string name;
@@ -127,12 +127,12 @@ struct SamplerDesc {
 	AddressMode address_v = AddressMode::CLAMP;
 };
 
-/// One resource at a binding of set 0. Which kind of descriptor it is, is read from the SPIR-V.
+/// One resource at a binding of set 0. The kind of descriptor follows from the SPIR-V.
 struct Binding {
 	uint32_t binding = 0;
 	BufferRID buffer;
 	TextureRID texture;
-	SamplerRID sampler;			 // with a texture: combined, when the shader declares it
+	SamplerRID sampler;			 // with a texture: for a combined image sampler
 	uint32_t layer = ALL_LAYERS; // of the texture
 
 	static constexpr uint32_t ALL_LAYERS = ~0u;
@@ -143,7 +143,7 @@ struct Binding {
 };
 
 enum class CompareOp { NEVER, LESS, EQUAL, LESS_EQUAL, GREATER, NOT_EQUAL, GREATER_EQUAL, ALWAYS };
-/// What happens to a stencil value, in the order that devices know. WRAP: 255 + 1 is 0.
+/// Stencil operations, in Vulkan's order. WRAP: 255 + 1 is 0.
 enum class StencilOp {
 	KEEP,
 	ZERO,
@@ -154,9 +154,9 @@ enum class StencilOp {
 	INCREMENT_WRAP,
 	DECREMENT_WRAP
 };
-/// Of one side of the triangles.
+/// Stencil state of front or back faces.
 struct StencilFace {
-	/// Of StencilTest::reference with what is stored.
+	/// Compares StencilTest::reference with the stored value.
 	CompareOp compare = CompareOp::ALWAYS;
 	StencilOp fail = StencilOp::KEEP;
 	StencilOp depth_fail = StencilOp::KEEP;
@@ -169,7 +169,7 @@ struct StencilTest {
 	uint32_t reference = 0; // what is compared with and what REPLACE writes, 0 to 255
 	auto operator<=>(const StencilTest &) const = default;
 };
-/// In the order that devices know.
+/// In Vulkan's order.
 enum class CullMode { NONE, FRONT, BACK };
 /// NORMAL: front faces are counter-clockwise as seen in a y-up view. Mirrored transforms wind them
 /// the other way.
@@ -184,8 +184,8 @@ struct SpecializationConstant {
 	auto operator<=>(const SpecializationConstant &) const = default;
 };
 
-/// Shown in errors and debuggers. It changes nothing, and so all are equal: descriptions that
-/// differ in their name alone are of one pipeline.
+/// A name for errors and debuggers. All names compare equal, so that descriptions that differ only
+/// in their name share one pipeline.
 struct PipelineName : std::string {
 	using std::string::string;
 	PipelineName(std::string p_name) : std::string(std::move(p_name)) {}
@@ -223,35 +223,35 @@ struct RasterPipelineDesc {
 	Topology topology = Topology::TRIANGLES;
 	CullMode cull_mode = CullMode::NONE;
 	Winding winding = Winding::NORMAL;
-	/// Without any, and has_depth false: for a rendering without targets, where fragment shaders
-	/// only store.
+	/// Empty, with has_depth false: for rendering without targets, where fragment shaders only
+	/// store.
 	std::vector<Format> color_formats;
-	BlendMode blend = BlendMode::OFF; // all colour targets alike
+	BlendMode blend = BlendMode::OFF; // the same for all colour targets
 	bool has_depth = true;			  // a D32_SFLOAT attachment is bound
 	bool has_stencil = false;		  // with has_depth: it is a D32_SFLOAT_S8_UINT one
 	StencilTest stencil;
 	bool writes_depth = true;
 	CompareOp depth_compare = CompareOp::LESS;
 	bool clamps_depth = false; // depth clamp instead of near and far clipping
-	/// Only where the depth in the attachment is in CommandList::set_depth_bounds.
+	/// Draws only where the stored depth is within CommandList::set_depth_bounds.
 	bool has_depth_bounds = false;
 	float depth_bias_constant = 0.0f;
 	float depth_bias_slope = 0.0f;
 	auto operator<=>(const RasterPipelineDesc &) const = default;
 };
 
-/// Where an attachment's first content comes from, in the order that devices know.
+/// The initial content of an attachment, in Vulkan's order.
 enum class LoadOp { KEEP, CLEAR, DISCARD };
 struct ColorTarget {
 	TextureRID texture;
 	LoadOp load = LoadOp::CLEAR;
-	glm::vec4 clear = glm::vec4(0.0f); // of UINT formats: converted
+	glm::vec4 clear = glm::vec4(0.0f); // converted for UINT formats
 	uint32_t layer = 0;
 };
 struct DepthTarget {
 	TextureRID texture;
 	LoadOp load = LoadOp::CLEAR;
-	float clear = 1.0f; // the stencil, where there is one, to 0
+	float clear = 1.0f; // clear depth; a stencil is cleared to 0
 	uint32_t layer = 0;
 };
 
@@ -284,7 +284,7 @@ struct Barrier {
 	TextureRID texture;
 	Access before = Access::NONE; // NONE on a texture: its content is discarded
 	Access after = Access::NONE;
-	/// With before == NONE on a texture that shares memory: the accesses of the earlier users.
+	/// For a texture that aliases memory, with before == NONE: the accesses of the earlier users.
 	std::vector<Access> earlier_users;
 };
 

@@ -32,7 +32,7 @@ public:
 	Resource &get(Handle p_handle) { return *slots[find_index(p_handle)].resource; }
 	const Resource &get(Handle p_handle) const { return *slots[find_index(p_handle)].resource; }
 
-	/// Takes the resource out; the handle names nothing from now on.
+	/// Removes and returns the resource; the handle becomes invalid.
 	Resource remove(Handle p_handle) {
 		Slot &slot = slots[find_index(p_handle)];
 		Resource resource = std::move(*slot.resource);
@@ -57,12 +57,12 @@ private:
 	struct Slot {
 		std::optional<Resource> resource;
 		uint32_t generation = 1;
-		std::string freed_name; // of the resource before
+		std::string freed_name; // name of the slot's previous resource
 	};
 
 	static uint32_t get_index(Handle p_handle) { return static_cast<uint32_t>(p_handle.id) - 1u; }
 
-	/// Of a handle that names a resource; any other is an assertion.
+	/// Returns the slot index of a valid handle; an invalid one is an assertion.
 	uint32_t find_index(Handle p_handle) const {
 		GNOMON_ASSERT(p_handle, "An empty ", kind, " handle was used.");
 		GNOMON_ASSERT(get_index(p_handle) < slots.size(), "A ", kind, " handle of another device, ",

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// The bits and the order are those of Vulkan.
+/// Shader stages; bits and order are those of Vulkan.
 enum class ShaderStage : uint32_t {
 	NONE = 0,
 	VERTEX = 1,
@@ -32,15 +32,16 @@ struct ReflectedBinding {
 	ResourceKind kind = ResourceKind::SAMPLER;
 	uint32_t stages = 0;	 // bits of ShaderStage
 	bool is_arrayed = false; // a texture that the shader declares as an array
-	bool is_used = false;	 // some function touches it; what is only declared needs no resource
+	/// Some function accesses it; a binding that is only declared needs no resource.
+	bool is_used = false;
 };
 
-/// What a pipeline must know of one entry point.
+/// The interface of one entry point that a pipeline needs to know.
 struct ReflectedShader {
 	ShaderStage stage = ShaderStage::NONE;
 	std::vector<ReflectedBinding> bindings;	 // ordered by binding
 	uint32_t push_constant_bytes = 0;		 // to the end of the last member; 0 = no block
-	glm::uvec3 local_size = glm::uvec3(1);	 // of compute, specialization applied
+	glm::uvec3 local_size = glm::uvec3(1);	 // for compute, with specialization applied
 	std::vector<uint32_t> boolean_constants; // ids of specialization constants
 };
 
@@ -49,11 +50,12 @@ struct ReflectedShader {
 ReflectedShader reflect_spirv(std::string_view p_name, std::span<const uint32_t> p_words,
 		std::span<const SpecializationConstant> p_constants);
 
-/// What a pipeline of these entry points needs, ordered by binding. Two kinds at one binding are an
-/// Error naming the pipeline.
+/// Merges the bindings of a pipeline's entry points, ordered by binding. Two kinds at one binding
+/// are an Error naming the pipeline.
 std::vector<ReflectedBinding> merge_bindings(
 		const std::string &p_pipeline, std::span<const ReflectedShader> p_shaders);
-/// Of all entry points together, in whole blocks of 16: C++ blocks are padded to that.
+/// Largest push-constant size of the entry points, rounded up to 16 bytes, to which C++ blocks are
+/// padded.
 uint32_t compute_push_constant_bytes(std::span<const ReflectedShader> p_shaders);
 
 } // namespace gnomon

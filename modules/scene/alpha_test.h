@@ -19,8 +19,9 @@ struct AlphaTest {
 	bool is_nearest = false; // false: the four nearest texels are interpolated
 };
 
-/// Makes the test for the material's base colour texture. The cutoff is divided by the material's
-/// own alpha, which multiplies the texture's. The image is null if there is no texture.
+/// Makes the test for the material's base colour texture. The cutoff applies to the product of the
+/// texture's alpha and the material's own, which callers multiply. The image is null if there is no
+/// texture.
 AlphaTest make_alpha_test(const Material &p_material);
 /// Hashes everything that affects the test, texels included; without an image, the other fields.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);

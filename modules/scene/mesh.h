@@ -50,7 +50,7 @@ struct MeshRig;
 struct MeshAttributes {
 	std::vector<glm::vec2> uvs[2]; // x along an image's rows, y down from its top
 	/// Direction in which u of the normal map's first coordinates grows on the surface. w is 1 or
-	/// -1: whether v grows along, or against, the cross product of normal and tangent.
+	/// -1: whether v grows along the cross product of normal and tangent, or against it.
 	std::vector<glm::vec4> tangents;
 	std::vector<glm::vec4> colors;		// linear, and alpha
 	std::shared_ptr<const MeshRig> rig; // how the mesh deforms; null: it does not
