@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: whoever shows something makes its window.
+// Nothing to register: callers create the window.

@@ -13,41 +13,41 @@ struct GLFWwindow;
 
 namespace gnomon {
 
-/// A window of the desktop and its keys. One at a time.
+/// A desktop window and its keyboard. Only one at a time.
 class Window {
 public:
-	/// No display: an Error that ends with the advice.
+	/// Without a display: an Error whose message ends with the advice.
 	Window(const std::string &p_title, glm::uvec2 p_size_px, const std::string &p_advice);
 	~Window();
 	Window(const Window &) = delete;
 	Window &operator=(const Window &) = delete;
 
-	/// What a device needs to draw in windows of this desktop: DeviceOptions::instance_extensions.
+	/// Returns DeviceOptions::instance_extensions for drawing in windows of this desktop.
 	static std::vector<std::string> get_instance_extensions();
-	/// The images of this window, for a device that was created with needs_surface; they end before
-	/// the window and the device.
+	/// Creates the swapchain of this window, for a device that was created with needs_surface.
+	/// Destroy it before the window and the device.
 	std::unique_ptr<Swapchain> create_swapchain(RenderingDevice &r_device);
 
-	/// Reads events. False once the user closed the window.
+	/// Processes events. Returns false once the user has closed the window.
 	bool poll();
 	void close();
-	/// After the user closed it: takes that back, so that poll goes on.
+	/// Cancels closing after the user closed the window, so that poll returns true again.
 	void keep_open();
-	/// Of the drawable area; 0 while minimised.
+	/// Size of the drawable area; 0 while minimised.
 	glm::uvec2 get_size_px() const;
-	/// Of the desktop: 1 on a normal screen, 2 on a dense one.
+	/// Content scale of the desktop: 1 on a normal screen, 2 on a high-density one.
 	float get_scale() const;
 	void set_title(const std::string &p_title);
 
 	bool is_down(int p_glfw_key) const;
-	/// For a user interface library, which adds its own callbacks.
+	/// Returns the GLFW handle, for a user interface library that adds its own callbacks.
 	GLFWwindow *get_handle() { return window; }
-	/// A key that went down, even if it is up again.
+	/// A key press, reported even if the key has been released since.
 	struct KeyPress {
 		int key = 0;	   // GLFW's code
 		int modifiers = 0; // GLFW's bits, as they were then
 	};
-	/// Since the last poll, in order.
+	/// Key presses since the last poll, in order.
 	const std::vector<KeyPress> &get_key_presses() const { return key_presses; }
 	/// Movement since the last poll while the right button is held, in pixels.
 	glm::dvec2 get_drag_px() const { return drag_px; }

@@ -7,30 +7,31 @@
 
 namespace gnomon {
 
-/// Does what keys and buttons request, asks what must be answered first, and follows the file on
-/// disk: all between opening a scene and closing it that is not drawing.
+/// Executes commands of keys and buttons, asks for confirmation where needed, and watches the file
+/// on disk: everything between opening and closing a scene except drawing.
 class EditorSession {
 public:
 	using Clock = EditorDocument::Clock;
 
-	/// p_program: this program's file.
+	/// p_program: path of this program's executable.
 	EditorSession(EditorContext &r_context, std::filesystem::path p_program);
 
-	/// The camera as the scene's first, or so that all of it is seen.
+	/// Moves the viewport's camera to the scene's first camera, or so that the whole scene is
+	/// visible.
 	void look_as_scene();
-	/// Another program, such as Blender, may have written the file.
+	/// Checks whether another program, such as Blender, has written the file.
 	void follow_file(Clock::time_point p_now);
-	/// What the panels and keys of this frame have requested.
+	/// Executes the command that panels and keys requested in this frame.
 	void run_command();
 	void draw_questions();
-	/// Prompts for what is to become of changes, if need be.
+	/// Starts closing; prompts for unsaved changes if needed.
 	void close() { is_closing = true; }
 
 	bool is_prompting() const { return is_closing || prompts_recovery || prompts_reload; }
 	bool is_closed() const { return is_done; }
-	/// Of a window that cannot be seen: closes if there is no question.
+	/// For a window that is not visible: closes if no prompt is needed.
 	void close_unseen() { is_done |= is_closing && !document.is_changed(); }
-	/// To be opened once this one is closed; empty: nothing.
+	/// Scene to open after this one is closed; empty: none.
 	const std::filesystem::path &get_next_path() const { return next_path; }
 
 private:

@@ -6,22 +6,22 @@
 
 namespace gnomon {
 
-/// Keeps the error panel current: the mask of the light in question as the viewport sees it, its
-/// reference in the background, and what the mask costs, a frame at a time. Works only while
-/// somebody looks.
+/// Updates the error panel: the mask of the light in question as the viewport sees it, its
+/// reference (traced in the background), and the mask's cost, one measured frame at a time. Works
+/// only while the panel is visible.
 class ErrorMeter {
 public:
 	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Once a frame, after the viewport is drawn. p_image_count: sharp ones drawn so far, see
-	/// ViewportRenderer.
+	/// Call it once a frame, after the viewport is drawn. p_image_count: full-resolution images
+	/// drawn so far, see ViewportRenderer.
 	void update(EditorContext &r_context, uint32_t p_image_count);
 
-	/// Measures it again: the shaders are others.
+	/// Discards the measured cost, because the shaders have changed.
 	void forget_cost();
 
-	/// RGBA8_UNORM, SAMPLED; empty where there is none yet.
+	/// RGBA8_UNORM, SAMPLED; empty if there is none yet.
 	TextureRID get_mask_texture() const { return mask_texture.get(); }
 	TextureRID get_reference_texture() const { return reference_texture.get(); }
 	TextureRID get_error_texture() const { return error_texture.get(); }
@@ -38,20 +38,20 @@ private:
 
 	RenderingDevice &device;
 	Renderer &renderer;
-	RenderRequest request; // of the mask that is shown
+	RenderRequest request; // request of the mask that is shown
 	LightSnapshot light;
-	uint32_t measured_image = 0; // ViewportRenderer's count then
+	uint32_t measured_image = 0; // ViewportRenderer's count when the mask was measured
 	uint32_t traced_sample_count = 0;
-	std::string timed_key; // what `timings` are of
+	std::string timed_key; // key of what `timings` measured
 	TimingSamples timings;
 	double timed_ms = 0;		 // by those frames
-	bool is_error_stale = false; // the viewport may show an error that is none
-	/// Traced once the cost is known: both at once would slow each other.
+	bool is_error_stale = false; // the error view may be outdated
+	/// Traced after the cost is measured: both at once would slow each other down.
 	std::function<std::unique_ptr<ReferenceSource>()> requested_reference;
 	OwnedTexture mask_texture;
 	OwnedTexture reference_texture;
 	OwnedTexture error_texture;
-	BackgroundReference background_reference; // last: its thread ends first
+	BackgroundReference background_reference; // last, so that its thread ends first
 };
 
 } // namespace gnomon

@@ -7,28 +7,28 @@
 
 namespace gnomon {
 
-/// The viewport's camera: it turns about a point in front of it, and stays upright.
+/// The viewport's orbit camera: it rotates about a pivot in front of it and stays upright.
 class OrbitCamera {
 public:
-	/// Where a camera of the scene is; it turns about a point that is so far away.
+	/// Moves to a camera of the scene; the pivot is at that distance in front of it.
 	void look_as(const Camera3D &p_camera, double p_distance_m);
-	/// Radians.
+	/// Rotates about the pivot, by angles in radians.
 	void orbit(double p_yaw_rad, double p_pitch_rad);
-	/// Sideways, in heights of the image.
+	/// Moves sideways; the unit is the height of the image.
 	void pan(const glm::dvec2 &p_heights);
-	/// Nearer by factors below 1.
+	/// Multiplies the distance to the pivot by the factor; below 1 moves closer.
 	void zoom(double p_factor);
-	/// Turns without moving.
+	/// Rotates about the camera's own position, by angles in radians.
 	void turn(double p_yaw_rad, double p_pitch_rad);
 	/// Flies: x right, y up, z back, in metres.
 	void move(const glm::dvec3 &p_way_m);
-	/// Shows all of it.
+	/// Moves so that the whole bounds are visible.
 	void frame(const Bounds &p_bounds_world);
 	/// Writes position and field of view into a camera whose parent is the root.
 	void apply(Camera3D &r_camera) const;
 
 	double get_distance_m() const { return distance_m; }
-	/// Counts movements.
+	/// Counter that changes with every movement.
 	uint64_t get_revision() const { return revision; }
 
 private:

@@ -11,14 +11,15 @@
 
 namespace gnomon {
 
-/// Rays against what a scene shows, in the world: for picking and for guides.
+/// Casts rays against the visible scene in world space: for picking and for guides.
 class SceneRays {
 public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
-		std::shared_ptr<const Mesh> mesh; // what is there of it, see CutMesh; as posed
+		std::shared_ptr<const Mesh> mesh; // its visible part, see CutMesh; as posed
 		glm::dmat4 world_from_node =
-				glm::dmat4(1.0); // of a skin: from the mesh, see compute_skin_transforms
+				/// For a skinned mesh: the transform from mesh space, see compute_skin_transforms.
+				glm::dmat4(1.0);
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
 		bool casts_shadow = true;
@@ -28,14 +29,14 @@ public:
 		const Instance *instance = nullptr;
 	};
 
-	/// Reads the scene again, as it is posed. Flat nodes are skipped: no ray meets them in a way
-	/// that could be inverted; so are nodes whose pose is refused. Trees of meshes, and of poses,
-	/// that were there before are reused.
+	/// Updates from the scene as it is posed. Flattened nodes are skipped, because their transform
+	/// has no inverse, and so are nodes with an invalid pose. Ray trees of unchanged meshes and
+	/// poses are reused.
 	void follow(const Scene &p_scene);
 	const std::vector<Instance> &get_instances() const { return instances; }
-	/// Of meshes that a ray came near.
+	/// Returns the number of meshes that a ray has come near.
 	size_t get_tree_count() const { return trees.size(); }
-	/// The nearest beyond p_begin, but for one instance.
+	/// Returns the nearest hit beyond p_begin, ignoring one instance.
 	std::optional<Hit> find_nearest(const glm::dvec3 &p_origin_world,
 			const glm::dvec3 &p_direction_world, double p_begin = 0.0,
 			const Instance *p_ignored = nullptr);

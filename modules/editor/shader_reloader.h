@@ -7,17 +7,17 @@
 
 namespace gnomon {
 
-/// Takes over changed shader sources while the editor runs. What does not compile is reported in
-/// the viewport, and the last good one stays.
+/// Reloads changed shader sources while the editor runs. Compile errors are shown in the viewport,
+/// and the last working version stays in use.
 class ShaderReloader {
 public:
 	using Clock = std::chrono::steady_clock;
 
-	/// p_folder: of the shaders' sources; where it is not there, nothing is watched.
+	/// p_folder: folder of the shader sources; if it does not exist, nothing is watched.
 	ShaderReloader(RenderingDevice &p_device, const std::filesystem::path &p_folder) :
 			device(p_device), watcher(p_folder) {}
 
-	/// Looks twice a second. True: some shaders are others now.
+	/// Checks twice a second. Returns true if shaders have been replaced.
 	bool update(EditorContext &r_context, Clock::time_point p_now);
 
 private:

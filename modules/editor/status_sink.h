@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// While it lives, errors and warnings of all modules are collected for the status bar, in addition
-/// to where they went before. They may come from any thread.
+/// While it exists, errors and warnings of all modules are collected for the status bar, in
+/// addition to the previous log sink. They may come from any thread.
 class StatusSink {
 public:
 	StatusSink();
@@ -17,7 +17,7 @@ public:
 	StatusSink(const StatusSink &) = delete;
 	StatusSink &operator=(const StatusSink &) = delete;
 
-	/// Those since the last call.
+	/// Returns the messages since the last call.
 	std::vector<std::string> take();
 
 private:

@@ -6,29 +6,31 @@
 
 namespace gnomon {
 
-/// Which animation of the edited scene is shown, and at which time. It poses nodes alone, and that
-/// is never saved and no step to undo. A scene is at rest at first: as its file has it.
+/// Selects the animation of the edited scene and its time. It only poses nodes, which is neither
+/// saved nor undoable. A scene starts at rest, as loaded.
 class Timeline {
 public:
-	/// p_default: the name of the animation that play() chooses at rest; where the scene has none
-	/// of that name, its first.
+	/// p_default: name of the animation that play() chooses at rest; if the scene has none of that
+	/// name, its first.
 	explicit Timeline(std::string p_default = {}) : default_name(std::move(p_default)) {}
 
-	/// The scene, which may be another one, has just been read. The same animation is shown at the
-	/// same time, if it has one of that name; else it is at rest. r_scene must outlive it.
+	/// Call it after a scene was loaded or reloaded. The animation of the same name is shown at the
+	/// same time if there is one; otherwise the scene is at rest. r_scene must outlive this object.
 	void set_scene(Scene &r_scene);
-	/// By its name, from its begin; empty, or a name that the scene lacks: at rest, paused.
+	/// Chooses an animation by name, from its start; an empty or unknown name puts the scene at
+	/// rest, paused.
 	void choose(const std::string &p_name);
-	/// Clamped to 0..duration. What is not finite changes nothing.
+	/// Sets the time, clamped to 0..duration. A value that is not finite is ignored.
 	void seek(double p_time_s);
 	void set_speed(double p_speed) { playback.speed = p_speed; }
 	void set_loops(bool p_loops) { playback.loops = p_loops; }
-	/// At rest: the animation that was shown last, else the default. Without animations: nothing.
+	/// Starts playing. At rest it chooses the last shown animation, or the default. Does nothing
+	/// without animations.
 	void play();
 	void pause() { playback.is_playing = false; }
-	/// While it plays: goes on by so many seconds of real time. True: the scene is posed otherwise.
+	/// Advances by p_seconds of real time if it is playing. Returns true if the pose has changed.
 	bool advance(double p_seconds);
-	/// Poses the scene again, whose nodes have changed.
+	/// Poses the scene again after its nodes have changed.
 	void pose();
 
 	/// Null: at rest.
@@ -41,7 +43,7 @@ public:
 private:
 	Scene *scene = nullptr;
 	std::string default_name;
-	std::string last_name; // of the animation that was shown last; empty: none yet
+	std::string last_name; // name of the last shown animation; empty: none yet
 	AnimationPlayback playback{ .is_playing = false };
 };
 

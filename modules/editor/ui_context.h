@@ -4,14 +4,14 @@
 
 namespace gnomon {
 
-/// Dear ImGui for one window. One at a time.
+/// The Dear ImGui context of one window. Only one at a time.
 class UiContext {
 public:
 	explicit UiContext(Window &p_window);
 	~UiContext();
 	UiContext(const UiContext &) = delete;
 	UiContext &operator=(const UiContext &) = delete;
-	/// Reads the window's events; then widgets can be drawn until ImGui::Render.
+	/// Processes the window's events and begins an ImGui frame, which ImGui::Render ends.
 	void begin_frame();
 };
 

@@ -9,13 +9,13 @@
 
 namespace gnomon {
 
-/// Steps of changes to one scene's nodes, which can be undone and done again. Nodes that a step
-/// removed live on in it, so that pointers to nodes stay valid as long as the history does.
+/// Undo and redo steps for the nodes of one scene. Nodes that a step removed stay alive in it, so
+/// that pointers to nodes stay valid as long as the history exists.
 class UndoHistory {
 public:
-	/// Runs p_change, which may change the node's state but not its children. Steps of the same key
-	/// that follow each other are one, until close(): a slider that is dragged. Empty: never
-	/// joined. A change that throws, or changes nothing, leaves no step.
+	/// Runs p_change, which may change the node's state but not its children. Consecutive steps
+	/// with the same key are merged until close(), as when a slider is dragged; an empty key is
+	/// never merged. A change that throws, or changes nothing, leaves no step.
 	void change(Node3D &r_node, const std::string &p_name, const std::string &p_key,
 			const std::function<void()> &p_change);
 	void close() { open_key.clear(); }
@@ -24,17 +24,18 @@ public:
 
 	bool can_undo() const { return step_index > 0; }
 	bool can_redo() const { return step_index < steps.size(); }
-	/// What the next undo or redo takes back or does again: "Set light_size of Spot".
+	/// Name of the step that the next undo reverts or the next redo repeats: "Set light_size of
+	/// Spot".
 	const std::string &get_undo_name() const { return steps[step_index - 1].name; }
 	const std::string &get_redo_name() const { return steps[step_index].name; }
 	/// Returns the node that changed.
 	Node3D *undo();
 	Node3D *redo();
 
-	/// The scene as it is now is what the file has.
+	/// Marks the current state as saved.
 	void set_saved() { saved_serial = get_serial(); }
 	bool is_saved() const { return saved_serial == get_serial(); }
-	/// Another number whenever the scene is another.
+	/// Changes whenever the scene changes.
 	uint64_t get_serial() const { return step_index == 0 ? 0 : steps[step_index - 1].serial; }
 
 private:
@@ -43,10 +44,10 @@ private:
 		std::string key;
 		uint64_t serial = 0;
 		Node3D *node = nullptr;
-		// A change: the node's state before and after, without children.
+		// For a change: the node's state before and after, without children.
 		std::unique_ptr<Node3D> before;
 		std::unique_ptr<Node3D> after;
-		// Added or removed: where, and the node while it is in no tree.
+		// For a node that was added or removed: its position, and the node while it is in no tree.
 		Node3D *parent = nullptr;
 		size_t index = 0;
 		std::unique_ptr<Node3D> held;
@@ -54,11 +55,12 @@ private:
 	};
 
 	void push(Step p_step);
-	/// Gives the step's node a state, else puts it into the tree or takes it out. Returns it.
+	/// Restores a state of the step's node, or inserts it into or removes it from the tree. Returns
+	/// it.
 	Node3D *apply(Step &r_step, const Node3D *p_state, bool p_is_put_in);
 
 	std::vector<Step> steps;
-	size_t step_index = 0; // steps before it are done
+	size_t step_index = 0; // number of steps that are applied
 	std::string open_key;
 	uint64_t next_serial = 1;
 	uint64_t saved_serial = 0;

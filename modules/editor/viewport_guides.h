@@ -5,17 +5,18 @@
 
 namespace gnomon {
 
-/// What the viewport needs rays for: which node is under the mouse, and where the penumbra of the
-/// selected light ends.
+/// The ray-cast features of the viewport: picking the node under the mouse, and the penumbra edges
+/// of the selected light.
 class ViewportGuides {
 public:
-	/// Once a frame. p_drawn_count: ViewportRenderer's; when it has changed, so may have the scene.
+	/// Call it once a frame. p_drawn_count: ViewportRenderer's count; if it has changed, the scene
+	/// may have changed too.
 	void update(EditorContext &r_context, uint32_t p_drawn_count);
 
 private:
 	SceneRays rays;
 	uint32_t followed_count = 0;
-	const Node3D *guided_node = nullptr; // the selected one then; compared only
+	const Node3D *guided_node = nullptr; // the node selected then; compared, never dereferenced
 };
 
 } // namespace gnomon

@@ -8,18 +8,18 @@
 
 namespace gnomon {
 
-/// Where points of the world are in the viewport's image, in the window's pixels.
+/// Projects world points into the viewport's image, in window pixels.
 class ViewportProjection {
 public:
 	ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size);
 
-	/// None for what is behind the camera.
+	/// Returns nothing for a point behind the camera.
 	std::optional<ImVec2> project(const glm::dvec3 &p_world) const;
 	bool is_inside(const ImVec2 &p_point) const;
-	/// Metres at that point across the view for each pixel.
+	/// World size of a pixel at that point, metres per pixel perpendicular to the view axis.
 	double compute_metres_per_px(const glm::dvec3 &p_world) const;
 	glm::dvec3 get_eye() const { return glm::dvec3(world_from_camera[3]); }
-	/// From the eye through a pixel; at unit depth.
+	/// World direction from the camera through a pixel, scaled to unit depth.
 	glm::dvec3 compute_direction(const ImVec2 &p_point) const;
 
 private:

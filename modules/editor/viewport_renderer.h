@@ -7,22 +7,23 @@
 
 namespace gnomon {
 
-/// Draws the scene for the viewport, when something has changed: coarser while it moves on a device
-/// that is a CPU, sharp once it rests. A second time with another technique where two are compared.
+/// Renders the scene for the viewport when something has changed: at reduced resolution while it
+/// moves on a CPU device, at full resolution once it rests. Renders a second image if two
+/// techniques are compared.
 class ViewportRenderer {
 public:
 	ViewportRenderer(RenderingDevice &p_device, Renderer &p_renderer) :
 			device(p_device), renderer(p_renderer) {}
 
-	/// Draws if need be. An Error is shown in the status bar, and the last image stays.
+	/// Renders if needed. An Error is shown in the status bar, and the last image stays.
 	void update(EditorContext &r_context);
-	/// What techniques cached of earlier frames is not valid any more: shaders are others.
+	/// Discards the techniques' caches, because the shaders have changed.
 	void forget_cached();
 	/// Empty before the first image.
 	TextureRID get_image() const { return image.get(); }
-	/// Of the compared technique; empty while none is.
+	/// Image of the compared technique; empty if there is none.
 	TextureRID get_compared_image() const { return compared_image.get(); }
-	/// All that were drawn so far, and the sharp ones of them.
+	/// Number of all images drawn so far, and of the full-resolution ones.
 	uint32_t get_drawn_count() const { return drawn_count; }
 	uint32_t get_count() const { return sharp_count; }
 	bool is_sharp() const { return sharp_count > 0 && !is_coarse; }
@@ -37,13 +38,13 @@ private:
 
 	RenderingDevice &device;
 	Renderer &renderer;
-	/// Keeps what the compared technique caches; only while there is one.
+	/// Holds the compared technique's caches; exists only during a comparison.
 	std::unique_ptr<Renderer> compared_renderer;
 	OwnedTexture image;
 	OwnedTexture compared_image;
 	std::string drawn_light; // the light in question then
 	bool is_coarse = false;
-	uint32_t divisor = 2; // of the size, while it is coarse
+	uint32_t divisor = 2; // of the size, while the resolution is reduced
 	uint32_t drawn_count = 0;
 	uint32_t sharp_count = 0;
 	Clock::time_point last_change;

@@ -15,61 +15,62 @@ namespace gnomon {
 
 inline constexpr const char *PROGRAM_VERSION = "0.1.0";
 
-/// Of `--time`: frames that are drawn first, and frames that are measured.
+/// Frame counts of `--time`: unmeasured warm-up frames, and measured frames.
 inline constexpr uint32_t WARM_UP_COUNT = 5;
 inline constexpr uint32_t MEASURED_COUNT = 20;
 
-// See CommandInfo::add.
+// Add the subcommands; used as CommandInfo::add.
 void add_run_command(CLI::App &r_app, CommonOptions &r_common);
 void add_visibility_command(CLI::App &r_app, CommonOptions &r_common);
-// `techniques`, `filters`, `modules` and `info`.
+// Registers `techniques`, `filters`, `modules` and `info`.
 void register_list_commands();
 void unregister_list_commands();
 
-/// A whole number of digits alone; false for any other text.
+/// Parses a whole number that consists of digits only; false for any other text.
 bool parse_whole(std::string_view p_text, uint32_t &r_value);
-/// "640x480" to a size of 1..16384 each; else a UsageError.
+/// Parses "640x480" as a size of 1..16384 each; anything else is a UsageError.
 glm::uvec2 parse_size(const std::string &p_text);
-/// The size that the command line names, else [defaults] size of the scene's project, else 512x512.
+/// Returns the size of the command line, else [defaults] size of the scene's project, else 512x512.
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
-/// From [defaults] of the project that a scene belongs to, or that the path is; nothing where that
-/// has no value.
+/// Reads [defaults] of the project at the path, or of the project that contains the scene; nothing
+/// if the key is absent.
 std::optional<std::string> find_default(
 		const std::filesystem::path &p_scene_path, const std::string &p_key);
-/// As above: antialiasing, 1..4, else 2.
+/// Returns the antialiasing, 1..4, in the same way, else 2.
 uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
-/// The scene of a .gltf or .glb file, or the start scene of a project's folder or project.cfg. The
-/// project's disabled modules are switched off. It is staged as the command line states, for an
-/// image of that size.
+/// Loads a .gltf or .glb file, or the start scene of a project's folder or project.cfg. Switches
+/// off the project's disabled modules. Stages the scene as the command line requests, for an image
+/// of that size.
 std::unique_ptr<Scene> load_scene(
 		const std::filesystem::path &p_path, const CommonOptions &p_common, glm::uvec2 p_size_px);
-/// `--animation` and `--at`, for a command that draws scenes.
+/// Adds `--animation` and `--at`, for a command that draws scenes.
 void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
-/// Poses the scene as those state: at rest where neither is given.
+/// Poses the scene as those options request; at rest if neither is given.
 void pose_as_requested(Scene &r_scene, const CommonOptions &p_common);
-/// `--stage`, for a command that draws scenes.
+/// Adds `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
-/// The camera of that name, or the first. None: an Error that states how to add one.
+/// Returns the camera of that name, or the first. If there is none: an Error that tells how to add
+/// one.
 Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name);
-/// The light of that name, or the first that casts shadows.
+/// Returns the light of that name, or the first that casts shadows.
 Light3D &choose_light(const Scene &p_scene, const std::string &p_name);
 /// Applies "prop=value" (to p_light) or "light.Name.prop=value". Unknown lights and properties and
 /// values out of range are an Error.
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting);
-/// Creates the device that the command line requests, with what else the caller needs of it.
+/// Creates the device that the command line requests, with the caller's additional options.
 std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options = {});
-/// The processor's name as the system knows it.
+/// Returns the processor's name as the system reports it.
 std::string find_cpu_name();
-/// Version and hash of this program, so that results of another build can be distinguished.
+/// Returns version and hash of this program, so that results of different builds can be told apart.
 std::string describe_program();
-/// An Error now rather than after minutes of work: the file's folder must exist and be writable.
+/// Fails early instead of after minutes of work: the file's folder must exist and be writable.
 void check_writable(const std::filesystem::path &p_path);
 
-// Each adds or removes what main can do with that module: commands and parts of `run`.
+// Add or remove what main can do with the named module: commands and parts of `run`.
 void initialize_desktop_part();
 void uninitialize_desktop_part();
 void initialize_masks_part();
@@ -77,7 +78,7 @@ void uninitialize_masks_part();
 void initialize_error_report_part();
 void uninitialize_error_report_part();
 
-// Generated by SCsub: call those of them that this build has.
+// Generated by SCsub: call those functions above whose modules this build has.
 void initialize_optional_parts();
 void uninitialize_optional_parts();
 

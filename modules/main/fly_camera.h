@@ -6,15 +6,15 @@
 
 namespace gnomon {
 
-/// A camera that is flown: it starts where a node's camera is, and stays upright.
+/// A free-flying camera: it starts at a camera node and stays upright.
 class FlyCamera {
 public:
-	/// p_speed_m: metres a second at normal speed.
+	/// p_speed_m: metres per second at normal speed.
 	FlyCamera(const Camera3D &p_start, double p_speed_m);
 
 	/// p_direction: x right, y up, z back, each in -1..1.
 	void move(const glm::dvec3 &p_direction, double p_seconds, bool p_is_fast);
-	/// Radians; pitch stays short of straight up and down.
+	/// Turns by angles in radians; pitch stays short of straight up and down.
 	void turn(double p_yaw_rad, double p_pitch_rad);
 	/// Writes the position into a camera whose parent is the root.
 	void apply(Camera3D &r_camera) const;

@@ -13,10 +13,10 @@ namespace gnomon {
 struct RunOptions {
 	std::string scene;
 	bool is_headless = false;
-	uint32_t frame_count = 0; // 0 = one headless, until it is closed in a window
+	uint32_t frame_count = 0; // 0 = one frame headless, or until the window is closed
 	std::string capture;
-	std::optional<std::string> size;	  // none = the project's
-	std::optional<uint32_t> antialiasing; // none = the project's; 1..4
+	std::optional<std::string> size;	  // nothing = the project's
+	std::optional<uint32_t> antialiasing; // nothing = the project's; 1..4
 	std::string camera;
 	std::string technique;
 	std::string debug_view;
@@ -25,7 +25,7 @@ struct RunOptions {
 	AnimationPlayback playback;
 	bool prints_plan = false;
 	std::string dot;
-	std::string time; // headless: where to write what a frame takes
+	std::string time; // headless: path for the JSON of frame times
 	bool is_still = false;
 	bool skips_nothing = false;
 };

@@ -8,12 +8,12 @@
 
 namespace gnomon {
 
-/// Answers the error report's questions with the renderer. Each answer has a renderer of its own,
-/// so that none inherits what another one cached.
+/// Renders the masks for the error report. Each answer uses a new renderer, so that none benefits
+/// from another's caches.
 class RenderedMasks : public MaskSource {
 public:
-	/// p_median_error: a measurement may end before its frames or 3 s once the standard error of
-	/// its median is that share of it; 0 = never.
+	/// p_median_error: a measurement may end before its frames or 3 s once the relative standard
+	/// error of its median is that small; 0 = never.
 	RenderedMasks(RenderingDevice &p_device, double p_median_error, uint32_t p_frame_count = 20) :
 			device(p_device), median_error(p_median_error), frame_count(p_frame_count) {}
 
@@ -26,8 +26,8 @@ public:
 	DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override;
 
-	/// The techniques of those ids; empty: all but the reference and examples. An unknown id is a
-	/// UsageError.
+	/// Returns the techniques with those ids; empty: all but the reference and examples. An unknown
+	/// id is a UsageError.
 	static std::vector<TechniqueSource> find_techniques(const std::vector<std::string> &p_ids);
 
 private:

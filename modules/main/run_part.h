@@ -9,16 +9,16 @@
 
 namespace gnomon {
 
-/// What `gnomon run` can do only with a module that a build may lack; null where that module gives
-/// nothing of the kind.
+/// Features of `gnomon run` that an optional module provides; a member is null if the module does
+/// not provide it.
 struct RunPart {
 	using SnapshotMaker = std::function<std::shared_ptr<const SceneSnapshot>()>;
 
-	std::string id; // the module
+	std::string id; // id of the module
 	/// Shows the scene until its window is closed. See game_window.h.
 	RenderResult (*run_in_window)(Scene &r_scene, glm::uvec2 &r_size_px,
 			const RunOptions &p_options, const CommonOptions &p_common) = nullptr;
-	/// The mask in an EXR.
+	/// Loads the reference mask from an EXR.
 	std::shared_ptr<const ReferenceMask> (*load_reference)(const std::string &p_path) = nullptr;
 	/// See measure.h.
 	std::string (*measure_time)(Renderer &r_renderer, RenderRequest p_request,
@@ -27,7 +27,7 @@ struct RunPart {
 };
 class RunPartRegistry : public ExtensionRegistry<RunPart> {};
 
-// The ids.
+// Ids of the parts.
 inline constexpr const char *DESKTOP_PART = "desktop";
 inline constexpr const char *MASKS_PART = "masks";
 

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// `gnomon compare`, see CommandInfo::add.
+/// Adds the subcommand `gnomon compare` to the parser; used as CommandInfo::add.
 void add_compare_command(CLI::App &r_app, CommonOptions &r_common);
 
 } // namespace gnomon

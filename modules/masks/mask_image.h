@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// What a technique answers for one light: one value per camera pixel, rows from the top.
+/// The visibility mask of one light: one value per camera pixel, top row first.
 struct MaskImage {
 	glm::uvec2 size_px = glm::uvec2(0u);
 	std::vector<float> visibility; // linear, 0 hidden .. 1 lit; 0 where there is no receiver
@@ -23,17 +23,17 @@ struct MaskImage {
 };
 
 /// Writes an OpenEXR file of two float32 channels, "Y" = visibility and "receiver", ZIP compressed;
-/// whole or not at all. An empty image, one above MAX_IMAGE_SIZE_PX and an unwritable path are an
-/// Error.
+/// the file is written atomically. An empty image, one above MAX_IMAGE_SIZE_PX or an unwritable
+/// path is an Error.
 void save_mask_exr(const std::filesystem::path &p_path, const MaskImage &p_image);
 
-/// Reads what save_mask_exr writes. Other channels are ignored and half floats widened. A file that
-/// is missing, damaged or cut short, lacks a channel (named in the text), stores one at a lower
-/// resolution or is larger than MAX_IMAGE_SIZE_PX: an Error naming the file. Values are not checked
-/// here.
+/// Reads a file that save_mask_exr wrote. Other channels are ignored and half floats widened. A
+/// file that is missing, damaged or truncated, lacks a channel (named in the message), has a
+/// subsampled channel or is larger than MAX_IMAGE_SIZE_PX is an Error naming the file. Values are
+/// not checked here.
 MaskImage load_mask_exr(const std::filesystem::path &p_path);
 
-/// The same for bytes in memory; p_name is used for the file in messages.
+/// Encode to, and decode from, bytes in memory; p_name stands for the file in messages.
 std::vector<uint8_t> encode_mask_exr(const MaskImage &p_image, const std::string &p_name);
 MaskImage decode_mask_exr(std::span<const uint8_t> p_bytes, const std::string &p_name);
 

@@ -14,19 +14,19 @@
 
 namespace gnomon {
 
-/// 8-bit grey, 0 black .. 1 white, linear as stored (255 v rounded, clamped); no receiver is black.
-/// A value that is not finite is an Error; so is an empty image or an unwritable path.
+/// Saves 8-bit grey, 0 black .. 1 white, linear (255 v rounded, clamped); pixels without a receiver
+/// are black. A value that is not finite, an empty image or an unwritable path is an Error.
 void save_mask_png(const std::filesystem::path &p_path, const MaskImage &p_image);
 
-/// Result minus reference in the colours of shared/heat_map_shared.h, as the renderer's error view.
-/// Errors as in compute_mask_metrics.
+/// Saves result minus reference in the colours of shared/heat_map_shared.h, like the renderer's
+/// error view. Errors as in compute_mask_metrics.
 void save_error_png(const std::filesystem::path &p_path, const MaskImage &p_reference,
 		const MaskImage &p_result);
 
-/// The colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
+/// Returns the colours of errors from -HEAT_MAP_RANGE to HEAT_MAP_RANGE in equal steps, RGB.
 std::vector<glm::u8vec3> compute_heat_map_colors(uint32_t p_count);
 
-/// The pixels that the two functions above write: grey, and RGB.
+/// Compute the pixels that the two functions above write: grey, and RGB.
 std::vector<uint8_t> compute_mask_pixels(const MaskImage &p_image);
 std::vector<uint8_t> compute_error_pixels(const MaskImage &p_reference, const MaskImage &p_result);
 

@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// A tree over boxes, to find those in a region without looking at all of them. Built once; many
-/// threads may read it at the same time.
+/// A bounding volume hierarchy over boxes. Immutable once built; many threads may read it
+/// concurrently.
 class Bvh {
 public:
 	struct Node {

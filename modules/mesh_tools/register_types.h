@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: pure functions that techniques call.
+// Nothing to register: the module has only pure functions that techniques call.

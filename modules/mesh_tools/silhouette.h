@@ -9,14 +9,14 @@
 
 namespace gnomon {
 
-/// An edge between what faces the light and what does not.
+/// An edge between a face that faces the light and one that does not.
 struct SilhouetteEdge {
 	uint32_t edge_index = 0; // into MeshTopology::edges
-	/// Welded vertices, in the direction in which the surface winds where it faces the
-	/// light.
+	/// Welded vertices, in the winding direction of the face that faces the light.
 	uint32_t from = 0;
 	uint32_t to = 0;
-	/// How often a shadow volume counts here: 1, or 2 for an interior edge of a double-sided part.
+	/// Multiplicity of the edge in a shadow volume: 1, or 2 for an interior edge of a double-sided
+	/// part.
 	uint32_t weight = 0;
 };
 
@@ -25,19 +25,20 @@ struct Silhouette {
 	std::vector<SilhouetteEdge> edges; // in the order of MeshTopology::edges
 };
 
-/// One entry per face. p_light_node: xyz/w is a point of node space; w = 0: the direction xyz
-/// towards a light at infinity. A light in the face's plane, and any face without area, gives 0.
+/// Returns one entry per face. p_light_node: xyz/w is a point of node space; w = 0: the direction
+/// xyz towards a light at infinity. A light in the face's plane, and any face without area, gives
+/// 0.
 std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 /// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
-/// else -1): 0, +-1 or +-2, for a closed part to be halved. The sign shows whether the silhouette
-/// runs a -> b or b -> a.
+/// else -1): 0, +-1 or +-2; closed parts halve it. The sign tells whether the silhouette runs a ->
+/// b or b -> a.
 int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing);
 
-/// All edges with a weight. At every vertex as many (by weight) arrive as leave: closed loops.
-/// Parts that are not closed are double-sided: each of their faces counts as light-facing. The
-/// result is a matter of node space: a transform that mirrors the mesh turns from -> to around in
-/// the world. A light that is not finite has no silhouette and faces nothing.
+/// Returns all edges with a nonzero weight. At every vertex the incoming and outgoing weights are
+/// equal, so that they form closed loops. Parts that are not closed are double-sided: each of their
+/// faces counts as light-facing. The directions apply to node space: a mirroring transform swaps
+/// from and to in the world. A light that is not finite has no silhouette and faces nothing.
 Silhouette build_silhouette(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 } // namespace gnomon

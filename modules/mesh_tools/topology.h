@@ -15,30 +15,31 @@ constexpr uint32_t NO_FACE = 0xffffffffu;
 /// Instead of a welded vertex: no triangle uses the position.
 constexpr uint32_t NO_VERTEX = 0xffffffffu;
 
-/// What the edges allow a shadow algorithm to assume. Decided by edges alone: two parts that touch
-/// in one vertex are still CLOSED, because every silhouette is then still a set of closed loops.
+/// What a shadow algorithm may assume about the edges. Only edges decide: two parts that touch in
+/// one vertex are still CLOSED, because every silhouette is still a set of closed loops.
 enum class MeshClass {
-	/// Every edge has two faces that run along it in opposite directions. So has an empty mesh.
+	/// Every edge has two faces that run along it in opposite directions. An empty mesh is closed
+	/// too.
 	CLOSED,
-	/// Some edges have one face, all others two of opposite direction.
+	/// Some edges have one face; all others have two of opposite direction.
 	OPEN,
 	/// An edge has more than two faces, or two that run along it in the same direction
 	/// (inconsistent winding). Boundary edges may be there as well.
 	NON_MANIFOLD,
 };
 
-/// An edge with one or two faces. An edge of more faces is stored several times, see
+/// An edge with one or two faces. An edge with more faces is stored several times, see
 /// build_topology.
 struct MeshEdge {
 	uint32_t a = 0; // welded vertices; a -> b as face0 winds
 	uint32_t b = 0;
 	uint32_t face0 = 0;
 	uint32_t face1 = NO_FACE;
-	/// Both faces run a -> b. Whoever needs one orientation negates face1's plane for this edge.
+	/// Both faces run a -> b. Code that needs one orientation negates face1's plane for this edge.
 	bool is_inconsistent = false;
-	/// The faces continue each other in one plane (to 1e-6 rad, in double), so that no viewpoint
-	/// off that plane sees a silhouette here. Never set for a boundary, a fold, a zero-area face,
-	/// or where a pose may bend the mesh.
+	/// Both faces lie in one plane (to 1e-6 rad, in double), so that no viewpoint off that plane
+	/// sees a silhouette here. Never set for a boundary, a fold, a zero-area face, or where a pose
+	/// may bend the mesh.
 	bool is_coplanar = false;
 };
 
@@ -49,22 +50,22 @@ struct FacePlane {
 	float offset_m = 0.0f;
 };
 
-/// Faces connected through edges, as build_topology pairs the faces of an edge. Parts that share an
-/// edge or duplicate each other can each be closed although the mesh is not.
+/// A connected component of faces, as build_topology pairs the faces of an edge. Parts that share
+/// an edge or duplicate each other can each be closed although the mesh is not.
 struct MeshPart {
 	/// Every edge has two faces that run along it in opposite directions.
 	bool is_closed = true;
 	uint32_t face_count = 0;
-	/// Volume inside; negative when the part is inside out. Means little unless closed.
+	/// Enclosed volume; negative if the part is inside out. Meaningful only if closed.
 	double signed_volume_m3 = 0;
 
-	/// Seen from outside, its front faces alone hide all that it hides.
+	/// Seen from outside, the part's front faces alone cover everything that it occludes.
 	bool is_solid() const { return is_closed && signed_volume_m3 >= 0; }
 };
 
-/// What was found in a mesh, for the validation at import and for the frame plan.
+/// Statistics and defects of a mesh, for the validation at import and for the frame plan.
 struct TopologyCounts {
-	uint32_t degenerate_triangle_count = 0; // a welded vertex twice; not in the topology
+	uint32_t degenerate_triangle_count = 0; // has a welded vertex twice; not in the topology
 	uint32_t zero_area_triangle_count = 0;	// three vertices on a line; retained, they close gaps
 	uint32_t duplicate_triangle_count =
 			0; // copies beyond the first, whatever their winding; retained
@@ -76,8 +77,8 @@ struct TopologyCounts {
 	uint32_t closed_part_count = 0;
 };
 
-/// Edges and neighbours of a mesh. "Face" and triangle index mean the retained triangles, in the
-/// mesh's order; lengths in metres, node space.
+/// Edges and adjacency of a mesh. Faces and face indices refer to the retained triangles, in the
+/// mesh's order; lengths are in metres of node space.
 struct MeshTopology {
 	std::vector<uint32_t> welded_from_position; // per mesh position; NO_VERTEX where unused
 	std::vector<glm::vec3> welded_positions_node;
@@ -98,34 +99,34 @@ struct MeshTopology {
 	TopologyCounts counts;
 	bool is_deformable = false; // planes, normals, volumes and what is flat are those at rest
 	MeshClass mesh_class = MeshClass::CLOSED;
-	/// Volume inside; negative when the mesh is inside out. Means little unless CLOSED.
+	/// Enclosed volume; negative if the mesh is inside out. Meaningful only if CLOSED.
 	double signed_volume_m3 = 0;
 
-	/// The vertex of a face that is neither of these two of its vertices.
+	/// Returns the third vertex of a face, given the two others.
 	uint32_t find_opposite(uint32_t p_face, uint32_t p_a, uint32_t p_b) const;
 	uint32_t get_face_count() const { return static_cast<uint32_t>(planes.size()); }
 	const MeshPart &get_part(uint32_t p_face) const { return parts[part_indices[p_face]]; }
-	/// Not all of the mesh is CLOSED.
+	/// Whether the mesh is not CLOSED.
 	bool is_double_sided() const { return mesh_class != MeshClass::CLOSED; }
-	/// The face's part is not closed. Its edges count for both sides, see build_silhouette.
+	/// Whether the face's part is not closed. Its edges count for both sides, see build_silhouette.
 	bool is_double_sided(uint32_t p_face) const { return !get_part(p_face).is_closed; }
 };
 
-/// Vertices are welded where their positions are equal (bit for bit, but -0 equals 0), and, of a
-/// mesh with a rig, their joints, weights and morph targets. An edge of
-/// more than two faces is split: faces of opposite winding that enclose a wedge of the inside are
-/// paired first, what is left by angle about the edge, an odd one becomes a boundary. The sum over
-/// faces that a silhouette weight is does not depend on this choice. Positions must be finite and
-/// indices valid, as make_mesh guarantees; a bad index is a programming error.
+/// Builds the topology. Vertices are welded if their positions are equal (bit for bit, but -0
+/// equals 0) and, for a mesh with a rig, their joints, weights and morph targets are too. An edge
+/// of more than two faces is split: first faces of opposite winding that enclose a wedge of the
+/// inside are paired, then the rest by angle about the edge; an unpaired face becomes a boundary.
+/// The sum over faces that a silhouette weight is does not depend on this choice. Positions must be
+/// finite and indices valid, as make_mesh guarantees; a bad index is a programming error.
 MeshTopology build_topology(const Mesh &p_mesh);
 
-/// As build_topology, cached as long as the mesh lives; of a mesh that poses deform, that of its
-/// mesh at rest. A mesh with id 0 (not from make_mesh) is rebuilt each time. Callable from any
-/// thread; one mesh is built only once.
+/// Returns a topology that is cached as long as the mesh lives; for a mesh that poses deform, that
+/// of its mesh at rest. A mesh with id 0 (not from make_mesh) is rebuilt each time. Callable from
+/// any thread; each mesh is built only once.
 std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mesh> &p_mesh);
-/// Frees what get_topology caches of meshes that are gone. From any thread.
+/// Frees the cached topologies of meshes that were freed. Callable from any thread.
 void drop_unused_topologies();
-/// How many get_topology caches.
+/// Returns the number of cached topologies.
 size_t get_cached_topology_count();
 
 } // namespace gnomon

@@ -6,12 +6,13 @@
 
 namespace gnomon {
 
-/// Distance from a point to the nearest point of a triangle; triangles without area are allowed.
+/// Returns the distance from a point to the nearest point of a triangle, which may have no area.
 double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_a,
 		const glm::dvec3 &p_b, const glm::dvec3 &p_c);
 
-/// True when a triangle of the mesh comes nearer to the point, in the world, than that. Looks at
-/// every triangle, at most of them only at their boxes: some milliseconds a million.
+/// Returns whether a triangle of the mesh is nearer to the point, in world space, than the
+/// distance. It visits every triangle, but usually tests only its box: some milliseconds per
+/// million.
 bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node,
 		const glm::dvec3 &p_point_world, double p_distance);
 

@@ -144,7 +144,7 @@ public:
 	void execute(Mode p_mode);
 
 	const std::vector<PassTiming> &get_timings() const { return timings; }
-	/// Wall time of execute() from the first to the last command; the sum over the passes.
+	/// Wall time of execute(), in milliseconds, from the first to the last command.
 	double get_wall_ms() const { return wall_ms; }
 	/// Names of the passes that were culled because nothing uses their output.
 	std::vector<std::string> get_culled_passes() const;

@@ -17,15 +17,15 @@ namespace gnomon {
 struct GodotBuffer {
 	BufferDesc desc;
 	godot::RID rid;				// none: READBACK, which lives on the CPU alone
-	std::vector<uint8_t> bytes; // of UPLOAD and READBACK: what is mapped
-	bool is_stale = false;		// `bytes` are newer than the buffer
+	std::vector<uint8_t> bytes; // for UPLOAD and READBACK: the mapped memory
+	bool is_stale = false;		// `bytes` has changes that the buffer lacks
 };
 
 struct GodotTexture {
 	TextureDesc desc;
 	godot::RID rid;
-	bool is_imported = false;			   // somebody else frees it
-	std::map<uint32_t, godot::RID> layers; // views of one layer of an array
+	bool is_imported = false;			   // Godot, or the host, owns and frees it
+	std::map<uint32_t, godot::RID> layers; // single-layer views of an array texture
 };
 
 struct GodotSampler {
@@ -41,29 +41,29 @@ struct GodotPipeline {
 	std::vector<uint32_t> boolean_constants;
 	uint32_t push_constant_bytes = 0;
 	glm::uvec3 local_size = glm::uvec3(1);
-	int64_t vertex_format = -1; // none
-	/// Of compute pipelines one, with key 0; of others one for each framebuffer format.
+	int64_t vertex_format = -1; // -1: no vertex attributes
+	/// Compute pipelines have one entry, with key 0; others have one per framebuffer format.
 	std::map<int64_t, godot::RID> by_framebuffer_format;
 };
 
-/// A device over Godot's RenderingDevice: MAIN, the one that draws Godot's frames, among whose
-/// commands ours are, or a LOCAL one. Godot inserts barriers and layout transitions and orders
-/// independent commands. It records each call immediately, so that abandoned commands still run,
-/// into resources that are no longer read.
+/// A device on top of Godot's RenderingDevice: MAIN, the one that draws Godot's frames and takes
+/// our commands in between, or a LOCAL one. Godot inserts barriers and layout transitions and may
+/// reorder independent commands. Each call is recorded immediately, so that abandoned commands
+/// still run, but write to resources that are no longer read.
 ///
-/// get_features reports what Godot's device lacks. Only on the render thread.
+/// get_features reports what Godot's device lacks. Use it only on the render thread.
 class GodotDevice final : public RenderingDevice, private CommandList {
 public:
 	enum class Kind { MAIN, LOCAL };
 	GodotDevice(godot::RenderingDevice p_device, Kind p_kind, const DeviceOptions &p_options = {});
 	~GodotDevice() override;
 
-	/// A texture of Godot, which stays its owner; to be freed here before it is freed there.
+	/// Imports a texture that Godot owns. It must be freed here before Godot frees it.
 	TextureRID import_texture(godot::RID p_texture, const TextureDesc &p_desc);
-	/// "texture 'albedo'", "buffer 'edges'".
+	/// Lists the live resources: "texture 'albedo'", "buffer 'edges'".
 	std::vector<std::string> list_live_resources();
 	uint32_t get_pipeline_count() const { return static_cast<uint32_t>(pipelines.size()); }
-	/// For Godot's own use: materials and the like.
+	/// Returns Godot's RID, for use with Godot itself, such as in materials.
 	godot::RID get_rid(TextureRID p_texture) const { return textures.get(p_texture).rid; }
 
 	const DeviceInfo &get_info() const override { return info; }
@@ -79,7 +79,7 @@ public:
 	SamplerRID create_sampler(const SamplerDesc &p_desc) override;
 	PipelineRID get_compute_pipeline(const ComputePipelineDesc &p_desc) override;
 	PipelineRID get_raster_pipeline(const RasterPipelineDesc &p_desc) override;
-	/// Not here: shaders are edited in the editor of Gnomon.
+	/// Not supported: shaders are edited in Gnomon's own editor.
 	void replace_shaders(const std::map<std::string, std::vector<uint32_t>> &) override;
 	void free(BufferRID p_buffer) override;
 	void free(TextureRID p_texture) override;
@@ -137,8 +137,8 @@ private:
 	void copy_texture(TextureRID p_source, TextureRID p_target) override;
 	void clear_color(TextureRID p_texture, glm::vec4 p_value) override;
 
-	/// Of what Godot makes of several resources: their ids, and numbers that are no ids (those are
-	/// above 2^32).
+	/// Key of a Godot object that is made from several resources: their ids, and numbers that are
+	/// not ids (those are above 2^32).
 	using Key = std::vector<uint64_t>;
 	struct Cached {
 		godot::RID rid;
@@ -158,14 +158,15 @@ private:
 	godot::RID get_framebuffer(std::span<const ColorTarget> p_colors, const DepthTarget *p_depth);
 	void begin_draw_list(godot::RID p_framebuffer, int64_t p_flags,
 			std::span<const glm::vec4> p_clear_colors, float p_clear_depth);
-	/// Of the bound pipeline and buffers; nothing where it has no attributes.
+	/// Binds the vertex array of the bound pipeline and buffers; does nothing if it has no
+	/// attributes.
 	void bind_vertex_array(uint32_t p_vertex_count);
 	void begin_compute_list();
 	void end_compute_list();
 	void flush_uploads();
-	/// Drops what was made of the resource: Godot frees it with that.
+	/// Forgets the objects that were made from the resource, which Godot frees with it.
 	void forget(godot::RID p_resource);
-	/// Frees what was not used for long.
+	/// Frees entries that were not used for long.
 	void prune(Cache &r_cache, bool (*p_is_valid)(const godot::RenderingDevice &, godot::RID));
 	void prune_spare_uploads();
 	void call_read_backs();
@@ -178,7 +179,7 @@ private:
 	DeviceFeatures features;
 	CommandCounts counts;
 	MemoryUse use;
-	std::vector<GpuSpan> spans; // without times: Godot measures whole frames
+	std::vector<GpuSpan> spans; // without times, because Godot only times whole frames
 
 	SlotTable<BufferRID, GodotBuffer> buffers{ "buffer" };
 	SlotTable<TextureRID, GodotTexture> textures{ "texture" };
@@ -192,21 +193,21 @@ private:
 	Cache vertex_arrays;
 	Cache index_arrays;
 	std::map<Key, int64_t> vertex_formats;
-	/// Unused UPLOAD buffers, for reuse: each frame's constants then have the ids of the
-	/// last.
+	/// Unused UPLOAD buffers, for reuse, so that each frame's constants have the same ids as those
+	/// of the frame before.
 	std::map<std::pair<uint64_t, BufferUsage>, std::vector<Cached>> spare_uploads;
 	std::vector<BufferRID> stale_uploads;
-	/// Of a local device: what was read, and the callbacks that are due.
+	/// For a local device: data that was read back, and the callbacks to call.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
-	/// Shared with the callbacks that Godot holds: false once the recorded commands are abandoned,
-	/// and once the device ends.
+	/// Shared with the callbacks that Godot stores: false once the recorded commands are abandoned,
+	/// or the device is destroyed.
 	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);
 	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true);
 
-	// While commands are recorded.
+	// Valid while commands are recorded.
 	uint64_t submission = 0;
 	bool is_recording = false;
-	bool is_submitted = false; // a local device's last submission was not waited for
+	bool is_submitted = false; // a local device's last submission has not been waited for
 	int64_t compute_list = -1;
 	int64_t draw_list = -1;
 	int64_t framebuffer_format = -1;

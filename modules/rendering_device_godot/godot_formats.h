@@ -4,12 +4,12 @@
 
 namespace gnomon {
 
-/// A value of godot::RenderingDevice::DataFormat.
+/// Returns a value of godot::RenderingDevice::DataFormat.
 int64_t to_godot_format(Format p_format);
-/// Of a vertex attribute: floats.
+/// Returns the data format of a float vertex attribute.
 int64_t to_godot_vertex_format(uint32_t p_component_count);
 int64_t to_godot_usage(const TextureDesc &p_desc);
-/// The bits that Godot hands on to the driver as they are.
+/// Converts a clear value to the bits that Godot passes to the driver unchanged.
 glm::vec4 to_godot_clear_value(Format p_format, const glm::vec4 &p_value);
 
 } // namespace gnomon

@@ -4,7 +4,7 @@
 
 namespace gnomon::godot {
 
-/// The functions of the engine that hosts the add-on, those that are used; by their names there.
+/// Functions of the GDExtension interface that this add-on uses, under their original names.
 struct Interface {
 	GDExtensionInterfaceVariantNewNil variant_new_nil;
 	GDExtensionInterfaceVariantNewCopy variant_new_copy;
@@ -52,11 +52,11 @@ struct Interface {
 	GDExtensionInterfaceCallableCustomCreate2 callable_custom_create2;
 	GDExtensionInterfaceRegisterMainLoopCallbacks register_main_loop_callbacks;
 
-	GDExtensionClassLibraryPtr extension; // ours, as the engine names it
+	GDExtensionClassLibraryPtr extension; // our library handle
 };
 
-/// Of the add-on's entry point; everything else here needs it. A function that is missing is an
-/// Error that names it.
+/// Loads the functions with the address getter of the add-on's entry point; everything else here
+/// needs them. A missing function is an Error that names it.
 void load_interface(
 		GDExtensionInterfaceGetProcAddress p_get_address, GDExtensionClassLibraryPtr p_library);
 const Interface &get_interface();

@@ -8,7 +8,7 @@
 
 namespace gnomon::godot {
 
-/// An object of Godot that somebody else owns; empty: none.
+/// A non-owning handle of a Godot object; empty: none.
 class ObjectHandle {
 public:
 	ObjectHandle() = default;
@@ -20,29 +20,29 @@ protected:
 	void *owner = nullptr;
 };
 
-/// Makes an object of a class of Godot; its error names the class.
+/// Creates an object of a Godot class; on failure an Error names the class.
 void *create_object(const char *p_class);
 void *find_singleton(const char *p_class);
-/// The object that has this id; null: it is gone. On the thread that may free it.
+/// Returns the object with this id; null: it was freed. Call it on the thread that may free it.
 void *get_instance(uint64_t p_id);
 uint64_t get_instance_id(void *p_object);
-/// Null: this Godot has no such class.
+/// Returns the tag of a class; null: this version of Godot has no such class.
 void *find_class_tag(const char *p_class);
 void *cast_object(void *p_object, void *p_class_tag);
-/// Empty where the object is none or of another class.
+/// Casts an object; the result is empty if it is null or of another class.
 template <typename T> T cast(const ObjectHandle &p_object) {
 	static void *const tag = find_class_tag(T::CLASS_NAME);
 	return T(cast_object(p_object.get_owner(), tag));
 }
-/// Counts the owners of an object that is a RefCounted of Godot.
+/// Increments the reference count of a RefCounted object.
 void add_owner(void *p_object);
-void drop_owner(void *p_object); // frees it with the last one
+void drop_owner(void *p_object); // decrements the reference count and frees the object at 0
 
-/// An object that is freed with its last owner.
+/// A reference-counted handle: the object is freed with its last owner.
 template <typename T> class Ref : public T {
 public:
 	Ref() = default;
-	/// Takes over one owner, as results of methods have it.
+	/// Adopts one reference, as the results of methods carry one.
 	explicit Ref(void *p_owner) : T(p_owner) {}
 	Ref(const Ref &p_other) : T(p_other.owner) {
 		if (this->owner) {
@@ -60,7 +60,7 @@ public:
 		}
 	}
 	static Ref create() { return Ref(create_object(T::CLASS_NAME)); }
-	/// One owner more of an object that somebody else owns too, or empty.
+	/// Adds a reference to an object that has other owners too; may be empty.
 	static Ref share(const ObjectHandle &p_object) {
 		const T found = cast<T>(p_object);
 		if (found) {
@@ -70,8 +70,8 @@ public:
 	}
 };
 
-/// A method of a class, found when it is first called. One that this Godot does not have is an
-/// Error that names it.
+/// A method of a Godot class, looked up at the first call. If this version of Godot lacks it, the
+/// call is an Error that names the method.
 class MethodBind {
 public:
 	MethodBind(const char *p_class, const char *p_method, int64_t p_hash);
@@ -108,7 +108,7 @@ public:
 	}
 
 private:
-	/// Points at a value that lives elsewhere.
+	/// Points at a value that is stored elsewhere.
 	struct Pointer {
 		const void *value;
 	};

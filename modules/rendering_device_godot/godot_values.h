@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-// Values of Godot as its methods take them. Vectors and colours are glm's.
+// Godot's Variant built-ins in the memory layout that ptrcalls expect: 64-bit, single precision.
+// Vectors and colours are glm types.
 
 namespace gnomon::godot {
 
@@ -29,7 +30,7 @@ struct AABB {
 	glm::vec3 position = glm::vec3(0.0f);
 	glm::vec3 size = glm::vec3(0.0f);
 };
-/// Godot keeps the rows of the basis.
+/// Godot stores the basis by rows.
 struct Transform3D {
 	glm::vec3 rows[3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 	glm::vec3 origin = glm::vec3(0.0f);
@@ -37,7 +38,7 @@ struct Transform3D {
 	bool operator==(const Transform3D &) const = default;
 };
 
-/// As in GDExtensionVariantType; VARIANT: one that holds any of them.
+/// Values of GDExtensionVariantType; VARIANT: a Variant that can store any of them.
 enum class BuiltInType : int {
 	VARIANT = 0,
 	BOOL = 1,
@@ -67,7 +68,7 @@ void construct_built_in(BuiltInType p_type, void *r_value);
 void copy_built_in(BuiltInType p_type, void *r_value, const void *p_source);
 void destroy_built_in(BuiltInType p_type, void *r_value);
 
-/// A value whose memory Godot manages.
+/// A value whose contents Godot allocates and frees.
 template <BuiltInType TYPE, size_t BYTES> class BuiltIn {
 public:
 	BuiltIn() { construct_built_in(TYPE, bytes); }
@@ -83,7 +84,7 @@ public:
 	void *get() const { return bytes; }
 
 protected:
-	/// The constructor of the derived class fills `bytes`.
+	/// Leaves `bytes` for the constructor of the derived class to fill.
 	enum class Empty { EMPTY };
 	explicit BuiltIn(Empty) {}
 
@@ -118,7 +119,7 @@ public:
 	void is_built_in() const {}
 };
 
-/// Any value.
+/// A Variant, which can store any type.
 class Variant : public BuiltIn<BuiltInType::VARIANT, 24> {
 public:
 	Variant() = default;
@@ -131,16 +132,16 @@ public:
 	Variant(const glm::vec3 &p_value);
 	Variant(const Transform3D &p_value);
 	Variant(const class PackedByteArray &p_value);
-	/// Of a RefCounted: another owner.
+	/// Makes a Variant of a RefCounted object and adds a reference to it.
 	static Variant of_object(void *p_object);
-	/// Of one that Godot hands over by its address.
+	/// Copies a Variant that Godot passes by address.
 	static Variant copy_of(const void *p_variant);
-	/// Of a value of that type, handed over so.
+	/// Makes a Variant from a value of that type, which Godot passes by address.
 	static Variant of_type(BuiltInType p_type, const void *p_value);
 	void is_built_in() const {}
 
 	BuiltInType get_type() const;
-	// Converted as Godot does: 0 or empty where it holds what has no such value.
+	// Convert as Godot does: the result is 0 or empty if the stored value does not convert.
 	bool to_bool() const;
 	int64_t to_int() const;
 	double to_float() const;
@@ -148,12 +149,13 @@ public:
 	glm::vec3 to_vector3() const;
 	Transform3D to_transform() const;
 	RID to_rid() const;
-	void *to_object() const; // null: none. Who keeps a RefCounted adds an owner.
-	/// Replaces a value of that type, which Godot hands over by its address.
+	/// Null: none; does not add a reference, so callers that keep a RefCounted must.
+	void *to_object() const;
+	/// Assigns to a value of that type, which Godot passes by address.
 	void store(BuiltInType p_type, void *r_value) const;
-	/// Of a Dictionary: empty where it has no such key.
+	/// Looks up a key of a Dictionary; the result is empty if the key is absent.
 	Variant get_keyed(const Variant &p_key) const;
-	/// Calls a method of the object or value that it holds. A refusal is an Error that names it.
+	/// Calls a method of the stored object or value. If Godot rejects the call, an Error names it.
 	Variant call(const char *p_method, std::span<const Variant> p_arguments) const;
 
 private:
@@ -166,7 +168,7 @@ private:
 class Array : public BuiltIn<BuiltInType::ARRAY, 8> {
 public:
 	Array() = default;
-	/// Empty where it holds another type.
+	/// Empty if the Variant stores another type.
 	explicit Array(const Variant &p_value);
 	void append(const Variant &p_value);
 	int64_t get_size() const;
@@ -180,12 +182,13 @@ public:
 	void is_built_in() const {}
 };
 
-// Of the packed array of a type that is at r_array or p_array.
+// Resize, read or assign the packed array of that type at r_array or p_array. resize_packed and
+// get_packed return its first element.
 void *resize_packed(BuiltInType p_type, void *r_array, size_t p_size); // its first element
 const void *get_packed(BuiltInType p_type, const void *p_array, size_t &r_size);
 void convert_to_packed(BuiltInType p_type, void *r_array, const Variant &p_value);
 
-/// Numbers or vectors without gaps.
+/// A packed array: contiguous numbers or vectors.
 template <typename T, BuiltInType TYPE> class PackedArray : public BuiltIn<TYPE, 16> {
 public:
 	PackedArray() = default;
@@ -195,7 +198,7 @@ public:
 					p_values.size_bytes());
 		}
 	}
-	/// Empty where it holds another type.
+	/// Empty if the Variant stores another type.
 	explicit PackedArray(const Variant &p_value) :
 			BuiltIn<TYPE, 16>(BuiltIn<TYPE, 16>::Empty::EMPTY) {
 		convert_to_packed(TYPE, this->bytes, p_value);
@@ -227,7 +230,7 @@ public:
 
 class Callable : public BuiltIn<BuiltInType::CALLABLE, 16> {
 public:
-	/// It must not throw.
+	/// The function must not throw.
 	using Function = std::function<void(std::span<const Variant>)>;
 	Callable() = default;
 	explicit Callable(Function p_function);

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: the add-on makes a device for the engine that hosts it.
+// Nothing to register: the add-on creates a device for the engine that hosts it.

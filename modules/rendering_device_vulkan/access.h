@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// The part of an access that must be made available to later ones: its writes.
+/// Returns the write accesses of an access: those that a barrier must make available.
 VkAccessFlags2 get_write_access(Access p_access);
 
 /// Execution and memory dependency of one Barrier; layouts only matter to textures.
@@ -19,7 +19,7 @@ struct Dependency {
 	bool is_needed = true; // false: the accesses need no barrier between them
 };
 Dependency compute_dependency(const Barrier &p_barrier);
-/// The layout of an access, for this format: an attachment with stencil has layouts of its own.
+/// Returns the image layout for this format: a depth-stencil attachment has layouts of its own.
 VkImageLayout get_layout(VkImageLayout p_layout, Format p_format);
 
 } // namespace gnomon

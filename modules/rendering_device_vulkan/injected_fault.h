@@ -9,16 +9,19 @@ namespace gnomon {
 
 enum class Fault { NONE, DEVICE_LOST, OUT_OF_MEMORY, HANG };
 
-/// Happens once, to the first submission for which all conditions hold that are set.
+/// A fault for tests, injected once: into the first submission that meets all conditions that are
+/// set.
 struct InjectedFault {
 	Fault fault = Fault::NONE;
-	std::string pass;			// contained in the name of one of its passes
-	std::filesystem::path file; // exists when it is submitted
+	std::string pass;			// substring of the name of one of its passes
+	std::filesystem::path file; // file that must exist at submission
 
-	/// The pass that meets the condition, else the last one; nothing where it is not due.
+	/// Returns the pass that meets the condition, or the last pass; nothing if the fault does not
+	/// apply.
 	std::optional<std::string> find_pass(const std::vector<std::string> &p_pass_names) const;
 };
-/// Of $GNOMON_INJECT_FAULT, empty: none. A value that is none is an Error with those that are.
+/// Parses $GNOMON_INJECT_FAULT; empty: no fault. An unknown value is an Error that lists the known
+/// ones.
 InjectedFault parse_injected_fault(const std::string &p_written);
 
 } // namespace gnomon

@@ -26,7 +26,7 @@ struct MemoryBlock {
 	explicit MemoryBlock(uint64_t p_size_bytes) : size_bytes(p_size_bytes), ranges(p_size_bytes) {}
 };
 
-/// A range of a block; empty when `block` is null.
+/// A range of a block; empty if `block` is null.
 struct Allocation {
 	MemoryBlock *block = nullptr;
 	uint64_t offset_bytes = 0;
@@ -39,24 +39,24 @@ struct MemoryRequest {
 	Tiling tiling = Tiling::LINEAR;
 };
 
-/// Sub-allocates device memory out of blocks of 64 MiB per memory type and tiling; larger requests
-/// get a block of their own. Empty blocks return to the driver but for one spare of each sort.
+/// Sub-allocates device memory from blocks of 64 MiB per memory type and tiling; larger requests
+/// get their own block. Empty blocks are freed, except one spare of each kind.
 class MemoryAllocator {
 public:
 	static constexpr uint64_t BLOCK_BYTES = uint64_t(64) << 20;
 
-	/// p_budget_bytes 0: what the device reports, at most 90 % of each heap.
+	/// p_budget_bytes = 0: what the device reports, but at most 90 % of each heap.
 	void initialize(VkPhysicalDevice p_physical_device, VkDevice p_device,
 			bool p_has_budget_extension, uint64_t p_budget_bytes);
 	/// All allocations must have been freed.
 	void destroy();
 
-	/// An empty allocation when it would exceed the budget or the driver has no more.
+	/// Returns an empty allocation if it would exceed the budget or the driver is out of memory.
 	Allocation allocate(const MemoryRequest &p_request);
 	void free(Allocation &r_allocation);
 
-	/// The best type for the kind among those allowed. Vulkan guarantees that there is one for
-	/// the bits that buffers and images require.
+	/// Returns the best memory type for the kind among the allowed ones. Vulkan guarantees that one
+	/// exists for the bits that buffers and images require.
 	uint32_t find_memory_type(uint32_t p_type_bits, MemoryKind p_kind) const;
 	MemoryUse get_use() const { return use; }
 	uint64_t compute_budget_bytes(uint32_t p_memory_type);

@@ -21,7 +21,7 @@ public:
 private:
 	VulkanDevice &device;
 	const std::vector<SpecializationConstant> &constants;
-	// Constants that a shader lacks are ignored by Vulkan, so that all stages get the same.
+	// Vulkan ignores constants that a shader lacks, so that all stages get the same.
 	std::vector<VkSpecializationMapEntry> entries;
 	std::vector<uint32_t> values;
 	VkSpecializationInfo specialization = {};

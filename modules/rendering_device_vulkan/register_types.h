@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: a device is made by whoever needs one, never by loading the module.
+// Nothing to register: callers create the device; loading the module does not.

@@ -13,7 +13,8 @@ struct BufferResource;
 struct PipelineResource;
 struct TextureResource;
 
-/// Records into the command buffer of one submission. Assigning a new one forgets the state.
+/// Records into the command buffer of one submission. Assigning a new command list resets the
+/// state.
 class VulkanCommandList final : public CommandList {
 public:
 	// gpu_spans.cpp
@@ -62,7 +63,7 @@ public:
 	void copy_texture_to_buffer(
 			const TextureResource &p_source, const BufferResource &p_target, uint32_t p_layer);
 
-	// State of the recording between begin_commands and submit_commands.
+	// State while recording, between begin_commands and submit_commands.
 	VulkanDevice *device = nullptr;
 	VkCommandBuffer commands = VK_NULL_HANDLE;
 	bool is_recording = false;

@@ -25,7 +25,7 @@ struct BufferResource {
 	Allocation memory;
 };
 
-/// Shaders read the depth of a texture with a stencil; as an attachment it has both.
+/// SHADER views of a depth-stencil texture have the depth aspect alone; ATTACHMENT views have both.
 enum class ViewUse { ATTACHMENT, SHADER };
 struct TextureView {
 	ViewUse use = ViewUse::ATTACHMENT;
@@ -37,11 +37,11 @@ struct TextureView {
 struct TextureResource {
 	TextureDesc desc;
 	VkImage image = VK_NULL_HANDLE;
-	Allocation memory; // empty when placed, or the swapchain's
+	Allocation memory; // empty for placed textures and those of a swapchain
 	MemoryRID placed_in;
 	bool is_swapchain = false;
-	/// After the commands recorded so far. Lets an attachment be read-only without declaring it
-	/// twice.
+	/// Layout after the commands recorded so far. An attachment can thereby be read-only without
+	/// being declared twice.
 	VkImageLayout recorded_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 	std::vector<TextureView> views; // made when first needed
 };
@@ -57,7 +57,7 @@ struct MemoryResource {
 		uint64_t size_bytes = 0;
 	} desc;
 	Allocation memory;
-	uint32_t texture_count = 0; // placed here and not freed
+	uint32_t texture_count = 0; // textures placed here and not yet freed
 };
 
 struct PipelineResource {
@@ -71,44 +71,45 @@ struct PipelineResource {
 	uint32_t push_constant_bytes = 0; // rounded up to 16
 	VkShaderStageFlags push_constant_stages = 0;
 	glm::uvec3 local_size = glm::uvec3(1);
-	// Of raster pipelines, compared with the targets at each draw.
+	// For raster pipelines: compared with the render targets at each draw.
 	std::vector<Format> color_formats;
 	std::optional<Format> depth_format;
 	bool writes_depth = false; // or stencil
 	uint32_t vertex_buffer_count = 0;
-	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc; // what it was made of
+	/// The description that it was created from.
+	std::variant<ComputePipelineDesc, RasterPipelineDesc> desc;
 };
 
-/// Freed, but perhaps still used by the submission of this number.
+/// A freed resource that the submission of this number may still use.
 struct DeferredFree {
 	uint64_t submission_number = 0;
 	std::variant<BufferResource, TextureResource, SamplerResource, MemoryResource> resource;
 };
 
-/// Bytes on their way into a new resource; recorded in front of the next submission.
+/// Data for a new resource; its copy is recorded before the next submission's commands.
 struct PendingUpload {
 	BufferResource staging;
 	uint64_t size_bytes = 0;
-	BufferRID buffer; // one of the two
+	BufferRID buffer; // either this or the texture
 	uint64_t buffer_offset_bytes = 0;
 	TextureRID texture;
 	uint32_t layer_count = 1;
 };
 
-/// For reports of leaks and of memory that ran out.
+/// Used in reports of leaks and of exhausted memory.
 struct LiveResource {
 	std::string name; // "texture 'albedo'"
 	uint64_t size_bytes = 0;
 };
 
-/// Bytes on their way to the CPU.
+/// A copy to the CPU that has been recorded but not finished.
 struct PendingReadBack {
 	uint64_t submission_number = 0;
 	BufferResource staging;
 	RenderingDevice::ReadBackCallback callback;
 };
 
-/// What one of the two submissions in flight owns.
+/// Resources of one of the two submissions in flight.
 struct SubmissionSlot {
 	uint64_t number = 0; // 0: nothing submitted yet
 	VkCommandPool pool = VK_NULL_HANDLE;
@@ -119,14 +120,14 @@ struct SubmissionSlot {
 	std::vector<VkQueryPool> query_pools;
 	std::vector<std::string> span_names;
 	bool has_unread_spans = false;
-	BufferResource breadcrumbs; // word i: the submission in which span i began last
+	BufferResource breadcrumbs; // word i: the last submission that began span i
 };
 
-/// The Vulkan device. Its parts see each other; nothing outside this module sees it.
+/// The Vulkan device. Its source files share this class; it is hidden outside this module.
 class VulkanDevice final : public RenderingDevice {
 public:
 	~VulkanDevice() override;
-	/// Once, before everything else; where it fails, the destructor ends what there is.
+	/// Must be called once, before everything else; if it fails, the destructor cleans up.
 	void initialize(const DeviceOptions &p_options);
 
 	// device_creation.cpp
@@ -180,7 +181,7 @@ public:
 		.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
 		.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT
 	};
-	static constexpr uint32_t MAX_BREADCRUMBS = 1024; // later spans of a submission leave none
+	static constexpr uint32_t MAX_BREADCRUMBS = 1024; // later spans of a submission have none
 
 	DeviceOptions options;
 	std::unique_ptr<VulkanInstance> instance;
@@ -217,9 +218,9 @@ public:
 	VulkanSwapchain *swapchain = nullptr;
 
 	InjectedFault injected_fault;
-	VkSemaphore never = VK_NULL_HANDLE; // that an injected hang waits for
+	VkSemaphore never = VK_NULL_HANDLE; // never signalled; an injected hang waits for it
 	double wait_limit_s = 0;			// 0: none
-	bool is_hung = false;  // lost because it made no progress; may still use everything
+	bool is_hung = false;  // lost because of a timeout; the GPU may still use everything
 	std::string lost_text; // empty while the device works
 
 	PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;
@@ -240,7 +241,7 @@ public:
 	std::string find_last_span_begun() const;
 	[[noreturn]] void fail_out_of_memory(
 			const std::string &p_resource, const MemoryRequest &p_request);
-	/// Sorted by name, without the images of the swapchain.
+	/// Lists live resources by name, without the images of the swapchain.
 	std::vector<LiveResource> find_live_resources();
 	template <typename Handle>
 	void set_name(VkObjectType p_type, Handle p_handle, const std::string &p_name) {
@@ -268,7 +269,7 @@ public:
 	void add_buffer_upload(BufferRID p_buffer, std::span<const uint8_t> p_bytes);
 	void add_texture_upload(TextureRID p_texture, std::span<const uint8_t> p_bytes);
 	BufferResource make_staging(const std::string &p_name, std::span<const uint8_t> p_bytes);
-	/// Into the slot's command buffer for uploads.
+	/// Records into the slot's command buffer for uploads.
 	VkCommandBufferSubmitInfo record_uploads(const SubmissionSlot &p_slot);
 	void flush_uploads_when_many();
 	template <typename Handle> void drop_uploads(Handle p_target);
@@ -277,9 +278,10 @@ public:
 	/// The buffer to copy into.
 	BufferResource &add_read_back(
 			const std::string &p_resource, uint64_t p_size_bytes, ReadBackCallback &&p_callback);
-	/// Calls back for the submissions that have ended. Not while commands are being recorded.
+	/// Calls the callbacks of finished submissions. Must not be called while commands are being
+	/// recorded.
 	void call_read_backs();
-	/// Forgets those of later submissions, which never come to be.
+	/// Discards the read-backs of later submissions, which will not be submitted.
 	void drop_read_backs(uint64_t p_after_submission_number);
 
 	// submission.cpp
@@ -292,7 +294,7 @@ public:
 	void collect();
 	template <typename Resource> void defer_free(Resource &&p_resource);
 	void submit();
-	/// Throws what a test wants this submission to fail with; true: it is to hang.
+	/// Throws the failure that a test injects into this submission; returns true if it should hang.
 	bool meet_fault(const SubmissionSlot &p_slot);
 
 	// device_waits.cpp
@@ -301,7 +303,7 @@ public:
 	VkResult wait_at_most(uint64_t p_submission_number, double p_seconds);
 	size_t count_begun_spans(const SubmissionSlot &p_slot) const;
 	[[noreturn]] void fail_as_hung(uint64_t p_finished_number);
-	/// Waits until the device does nothing any more. False: it hangs, and nothing may be destroyed.
+	/// Waits until the device is idle. Returns false if it hangs; then nothing may be destroyed.
 	bool has_ended();
 
 	// gpu_spans.cpp

@@ -9,7 +9,7 @@ VkFormat get_vulkan_format(Format p_format);
 VkImageAspectFlags get_aspect(Format p_format);
 VkImageUsageFlags get_vulkan_usage(TextureUsage p_usage);
 VkBufferUsageFlags get_vulkan_usage(BufferUsage p_usage);
-/// Of an attribute: floats and uints by component count, other formats as they are.
+/// Returns an attribute's format: floats and uints by component count, other formats unchanged.
 VkFormat get_attribute_format(const VertexAttribute &p_attribute);
 
 } // namespace gnomon

@@ -11,7 +11,8 @@ namespace gnomon {
 /// "VK_ERROR_DEVICE_LOST", or the number of a result that has no name here.
 std::string get_result_name(VkResult p_result);
 
-/// All that a function of Vulkan lists, of the arguments in front of count and array.
+/// Lists everything that a Vulkan enumeration function returns, given its arguments before count
+/// and array.
 template <typename Item, typename Function, typename... Arguments>
 std::vector<Item> list_all(Function p_function, Arguments... p_arguments) {
 	uint32_t count = 0;
@@ -24,23 +25,23 @@ std::vector<Item> list_all(Function p_function, Arguments... p_arguments) {
 bool has_extension(
 		const std::vector<VkExtensionProperties> &p_extensions, const std::string &p_name);
 
-/// A messenger that counts what the layers report: warnings and errors of validation, not advice
-/// on speed and not what the loader reports about the drivers it finds.
+/// Makes the info of a messenger that counts validation warnings and errors, but neither
+/// performance advice nor what the loader reports about the drivers it finds.
 VkDebugUtilsMessengerCreateInfoEXT make_messenger_info();
-/// From now on r_messages gets them instead, or nothing (null): for tests. Returns what got them.
+/// Redirects messages to r_messages, or to nothing (null): for tests. Returns the previous target.
 std::vector<std::string> *collect_validation_messages(std::vector<std::string> *r_messages);
 
 /// The VkInstance with its validation messenger; destroyed with this object.
 class VulkanInstance {
 public:
-	/// No loader or no driver, a missing layer or extension: an Error that names what to install.
+	/// A missing loader, driver, layer or extension is an Error that names what to install.
 	explicit VulkanInstance(const DeviceOptions &p_options);
 	~VulkanInstance();
 	VulkanInstance(const VulkanInstance &) = delete;
 	VulkanInstance &operator=(const VulkanInstance &) = delete;
 
 	VkInstance get() const { return instance; }
-	/// It is not destroyed, since a device that cannot be ended belongs to it.
+	/// Leaks the instance, because a device that cannot be destroyed belongs to it.
 	void abandon() { is_abandoned = true; }
 	bool has_debug_utils() const { return is_debug_utils_enabled; }
 
@@ -57,10 +58,10 @@ struct PhysicalDevice {
 	uint32_t queue_family = 0; // graphics and compute
 	DeviceInfo info;
 };
-/// In the order in which --device counts them.
+/// Lists the devices in the order of --device indices.
 std::vector<PhysicalDevice> find_physical_devices(VkInstance p_instance, bool p_needs_surface);
-/// The one that DeviceOptions::device names, or the best usable one. No such device: an Error that
-/// lists those there are, with the reason for each that is not usable.
+/// Returns the device that DeviceOptions::device names, or the best usable one. If there is none:
+/// an Error that lists the devices, with the reason for each unusable one.
 const PhysicalDevice &choose_device(
 		const std::vector<PhysicalDevice> &p_devices, const std::string &p_requested);
 bool has_device_extension(VkPhysicalDevice p_device, const char *p_name);

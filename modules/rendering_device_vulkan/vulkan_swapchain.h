@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// Images of a window, and what a submission has to do for the one that is acquired.
+/// The images of a window, and the semaphores of the acquired one.
 class VulkanSwapchain final : public Swapchain {
 public:
 	VulkanSwapchain(VulkanDevice &r_device, const CreateSurface &p_create_surface);
@@ -18,24 +18,24 @@ public:
 	VkSwapchainKHR swapchain = VK_NULL_HANDLE;
 	VkSurfaceFormatKHR format = {};
 	glm::uvec2 size_px = glm::uvec2(0);
-	glm::uvec2 requested_size_px = glm::uvec2(0); // the window's when the images were made
+	glm::uvec2 requested_size_px = glm::uvec2(0); // the window's size when the images were created
 	bool is_out_of_date = false;
 	struct Image {
 		TextureRID texture;
 		VkSemaphore rendered = VK_NULL_HANDLE; // presenting waits for it
 	};
 	std::vector<Image> images;
-	std::optional<uint32_t> acquired_index; // until it is presented
-	bool is_acquisition_awaited = false;	// some submission since then waits for the semaphore
+	std::optional<uint32_t> acquired_index; // set until the image is presented
+	bool is_acquisition_awaited = false;	// a submission since then waits for the semaphore
 	// One more than submissions in flight: an image may be acquired before begin_commands has
 	// waited for the older one.
 	static constexpr size_t ACQUISITION_COUNT = VulkanDevice::SLOT_COUNT + 1;
 	VkSemaphore acquisitions[ACQUISITION_COUNT] = {};
-	size_t acquisition_index = 0; // of the image acquired last
+	size_t acquisition_index = 0; // of the last acquired image
 
 	void create_semaphore(VkSemaphore &r_semaphore, const std::string &p_name);
 	void choose_format();
-	/// False while the window has no area.
+	/// Returns false while the window has no area.
 	bool recreate(glm::uvec2 p_window_size_px);
 	void destroy_images();
 	Format get_format() const {
@@ -43,8 +43,8 @@ public:
 														 : Format::BGRA8_UNORM;
 	}
 
-	/// What a submission has to do for the image, seen from the barriers recorded so far: wait for
-	/// it when it is touched for the first time, signal and present when it has Access::PRESENT.
+	/// What a submission must do for the image, according to the barriers recorded so far: wait for
+	/// it if it is used for the first time; signal and present if it has Access::PRESENT.
 	bool must_wait() const;
 	bool must_present() const;
 	VkSemaphore get_acquisition() const { return acquisitions[acquisition_index]; }

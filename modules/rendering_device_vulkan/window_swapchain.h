@@ -1,6 +1,6 @@
 #pragma once
 
-// What the owner of a window needs of this backend.
+// The interface of this backend for the owner of a window.
 
 #include "modules/rendering_device/rendering_device.h"
 #include "modules/rendering_device/swapchain.h"
@@ -11,11 +11,12 @@
 
 namespace gnomon {
 
-/// The window system's own call, so that this module needs no window library.
+/// Creates the surface with the window system's own call, so that this module needs no window
+/// library.
 using CreateSurface = std::function<VkSurfaceKHR(VkInstance)>;
 
-/// For a device that was created with needs_surface and the window's instance extensions, one at a
-/// time. A window that the device cannot show is an Error.
+/// Creates the swapchain for a device that was created with needs_surface and the window's instance
+/// extensions, one at a time. A window that the device cannot present to is an Error.
 std::unique_ptr<Swapchain> create_window_swapchain(
 		RenderingDevice &r_device, const CreateSurface &p_create_surface);
 

@@ -3,15 +3,15 @@
 #include "modules/editor/editor_context.h"
 #include "modules/editor/viewport_projection.h"
 
-// What is drawn over the viewport's image, with Dear ImGui, in the viewport's window.
+// Overlays of the viewport's image, drawn with Dear ImGui in the viewport's window.
 
 namespace gnomon {
 
-/// A mark where each light and camera is; a click selects it.
+/// Draws a mark at each light and camera; a click selects it.
 void draw_node_marks(EditorContext &r_context, const ViewportProjection &p_projection);
-/// The rings, discs and cones of the selected node, and the handles that change them.
+/// Draws the rings, discs and cones of the selected node, and their handles.
 void draw_gizmos(EditorContext &r_context, const ViewportProjection &p_projection);
-/// Where the penumbra of the selected light ends.
+/// Draws the penumbra edges of the selected light.
 void draw_penumbra_lines(const EditorContext &p_context, const ViewportProjection &p_projection);
 
 } // namespace gnomon
