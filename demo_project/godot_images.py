@@ -11,7 +11,7 @@ LUMINANCE = (0.2126, 0.7152, 0.0722)
 
 
 def load_rows(path, row_length):
-    """(values, number of rows)"""
+    """Return (values, number of rows)."""
     values = array.array("f")
     with open(path, "rb") as file:
         values.frombytes(file.read())
@@ -23,7 +23,7 @@ def load_rows(path, row_length):
 
 
 def get_luminance(rgb):
-    """Of each pixel of an RGB image."""
+    """Return the luminance of each pixel of an RGB image."""
     red, green, blue = LUMINANCE
     return array.array("f", (red * r + green * g + blue * b for r, g, b in zip(rgb[0::3], rgb[1::3], rgb[2::3])))
 

@@ -27,12 +27,12 @@ def prepare(project=PROJECT):
 
 
 def start_godot(arguments, variables={}):
-    """(exit code, what it printed), under a virtual display unless $GODOT_DISPLAY names another. 124: it did not end."""
+    """Return (exit code, output), under a virtual display unless $GODOT_DISPLAY names another. 124: it timed out."""
     return _start([os.environ["GODOT"]] + arguments, variables)
 
 
 def start_game(path, arguments):
-    """Of a program that Godot exported; see start_godot."""
+    """Start a program that Godot exported; see start_godot."""
     runner = os.environ.get("GODOT_RUN")
     return _start(([runner] if runner else []) + [path] + DEVICE_OPTIONS + arguments, {})
 
@@ -56,7 +56,7 @@ def _start(command, variables):
 
 
 def run_godot(arguments):
-    """What it printed. A Godot that fails or does not end is an error."""
+    """Return what Godot printed. A Godot that fails or does not end is an error."""
     code, output = start_godot(arguments)
     if code != 0:
         raise SystemExit("ERROR: %s ended with %d\n%s" % (" ".join(arguments), code, output))
@@ -64,7 +64,7 @@ def run_godot(arguments):
 
 
 def get_version():
-    """Of Godot: "4.6.3.stable.debian"."""
+    """Return Godot's version: "4.6.3.stable.debian"."""
     return run_godot(["--version"]).strip().splitlines()[-1]
 
 

@@ -47,7 +47,7 @@ def trace_reference(scene, light, stem, size_px, samples, camera=""):
 
 
 def compute_rmse(reference, values, pixels):
-    """Of the pixels where the values have a receiver too."""
+    """Return the RMSE of the pixels where the values have a receiver too."""
     pixels = [pixel for pixel in pixels if values[pixel] >= 0.0]
     if not pixels:
         raise SystemExit("ERROR: no pixel is in the penumbra: this is not the study scene.")
@@ -117,12 +117,12 @@ def add_room_light(light, dark, off, image, options):
 
 
 def divide_luminance(rgb, off):
-    """What share of the unshadowed image's luminance an image has in each pixel; 1 where that is black."""
+    """Return each pixel's luminance as a fraction of the unshadowed image's; 1 where that is black."""
     return array.array("f", (a / b if b > 0.0 else 1.0 for a, b in zip(godot_images.get_luminance(rgb), off)))
 
 
 def measure_room(options):
-    """The reference is the sum of the images with one light each, times the share of it that each pixel sees."""
+    """The reference is the sum of the images with one light each, each times the visible fraction of that light."""
     with open(os.path.join(WORK, "room.json"), encoding="utf-8") as file:
         room = json.load(file)
     dark = load_room_image("dark", options)

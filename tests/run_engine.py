@@ -31,13 +31,13 @@ def count_tests(program, options):
 
 
 def split(count, parts):
-    """First and last test of each part, from 1; parts without tests are skipped."""
+    """Return the first and last test of each slice, from 1; empty slices are skipped."""
     bounds = [count * part // parts for part in range(parts + 1)]
     return [(low + 1, high) for low, high in zip(bounds, bounds[1:]) if high > low]
 
 
 def run_slice(arguments, first, last):
-    """(exit code, output)"""
+    """Return (exit code, output)."""
     command = [arguments.program, *ORDER, "--first=%d" % first, "--last=%d" % last, *arguments.options]
     with tempfile.TemporaryFile("w+", errors="replace") as log:
         code = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False).returncode

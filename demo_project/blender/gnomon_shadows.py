@@ -122,7 +122,7 @@ def find_exported_objects(scene):
 
 
 def find_lights(objects):
-    """Light -> the objects that have it; Blender lets several share one."""
+    """Map each light to the objects that have it; Blender lets several share one."""
     lights = {}
     for item in objects:
         if item.type == "LIGHT":

@@ -71,7 +71,7 @@ def add_flag(document, foot, height_m, stem):
 
 
 def sample(steps_per_cycle, get_value):
-    """(times, values) of a loop; the last value is the first."""
+    """Return (times, values) of a loop; the last value equals the first."""
     count = steps_per_cycle * figure_walk.CYCLE_COUNT
     values = [get_value(index / steps_per_cycle) for index in range(count)]
     return [index * figure_walk.CYCLE_S / steps_per_cycle for index in range(count + 1)], values + values[:1]

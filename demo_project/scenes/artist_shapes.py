@@ -114,7 +114,7 @@ def add_fin(mesh, triangle, height):
 
 
 def make_rope_points(start, end, sag, segment_count):
-    """From start to end, hanging through by sag in the middle (a parabola)."""
+    """Return points from start to end that sag in the centre (a parabola)."""
     points = []
     for i in range(segment_count + 1):
         t = i / segment_count

@@ -87,7 +87,7 @@ PREPARED_PARTS = tuple(prepare_part(part) for part in PARTS)
 
 
 def get_part_distance(part, x, y, z):
-    """About the distance from a part's surface, negative inside."""
+    """Return the approximate distance to a part's surface in metres, negative inside."""
     _joint, (ax, ay, az), (bx, by, bz), inverse_square, radius, growth, (sx, sy, sz), _blend = part
     x, y, z = x - ax, y - ay, z - az
     t = (x * bx + y * by + z * bz) * inverse_square
@@ -97,7 +97,7 @@ def get_part_distance(part, x, y, z):
 
 
 def get_body_distance(point):
-    """About the distance from the body's surface, negative inside."""
+    """Return the approximate distance to the body's surface in metres, negative inside."""
     x, y, z = abs(point[0]), point[1], point[2]
     result = 10.0
     for part in PREPARED_PARTS:
@@ -112,7 +112,7 @@ def get_body_distance(point):
 
 
 def make_planes():
-    """Of the grid: finer across the limbs than along them."""
+    """Return the planes of the grid: finer across the limbs than along them."""
     half = [0.027 * index for index in range(16)]
     heights = [-0.02, 0.008, 0.034, 0.064, 0.1]
     for last, step in ((0.4, 0.06), (0.5, 0.045), (0.6, 0.06), (0.7, 0.03), (0.92, 0.046), (1.15, 0.054), (1.57, 0.034)):
@@ -123,7 +123,7 @@ def make_planes():
 
 
 def find_influences(point):
-    """Joint -> share, of all joints whose parts are near a point; the shares' sum is 1."""
+    """Map each joint whose parts are near a point to its weight; the weights sum to 1."""
     x, y, z = point
     distances = {}
     for part in PREPARED_PARTS:
@@ -179,14 +179,14 @@ def select_weights(influence, joints):
 
 @functools.lru_cache(maxsize=1)
 def find_body():
-    """(points, triangles); seconds, so once a process."""
+    """Return (points, triangles); it takes seconds, so it is cached per process."""
     points, quads = find_surface(get_body_distance, make_planes())
     points = relax_points(get_body_distance, points, quads, RELAX_ROUNDS)
     return points, split_quads(points, quads)
 
 
 def get_color(x, height):
-    """Of the clothes, sRGB, at a position on the texture in metres."""
+    """Return the colour of the clothes, sRGB, at a position on the texture in metres."""
     hand, wrist = LEFT_AND_MIDDLE["Hand L"][1], 0.005
     if abs(x) > 0.2:
         return SKIN if hand[1] - height + 0.35 * (abs(x) - hand[0]) > wrist else SHIRT

@@ -49,13 +49,13 @@ SKELETON = build_skeleton()
 
 
 def get_rest_offset(joint):
-    """From the parent."""
+    """Return the joint's offset from its parent at rest."""
     parent, position = SKELETON[joint]
     return position if parent is None else subtract(position, SKELETON[parent][1])
 
 
 def compose_turns(*axes_and_angles):
-    """About the first axis last."""
+    """Compose the rotations; the one about the first axis is applied last."""
     result = (0.0, 0.0, 0.0, 1.0)
     for axis, angle in axes_and_angles:
         result = multiply_quaternions(result, quaternion_about(axis, angle))
@@ -82,13 +82,13 @@ def get_heading(phase):
 
 
 def get_root(phase):
-    """(translation, rotation)."""
+    """Return (translation, rotation) of the root."""
     rotation = quaternion_about(Y, get_heading(phase))
     return rotate(rotation, (-RADIUS_M, 0.0, 0.0)), rotation
 
 
 def get_hips(phase):
-    """(translation, its derivative by the phase), below the root."""
+    """Return (translation, its derivative by the phase) of the hips relative to the root."""
     angle_rad = 2.0 * math.pi * phase
     rest = get_rest_offset("Hips")
     offset = (HIPS_SWAY_M * math.cos(angle_rad), HIPS_BOB_M * math.cos(2.0 * angle_rad) - HIPS_DROP_M, 0.0)
@@ -97,7 +97,7 @@ def get_hips(phase):
 
 
 def get_plant(side, step):
-    """(position on the ground, heading) of a foot's stance."""
+    """Return (position on the ground, heading) of a foot's stance."""
     sign, offset = SIDES[side]
     translation, rotation = get_root(step + offset)
     position = add(translation, rotate(rotation, (sign * FOOT_SIDE_M, 0.0, -FOOT_BEHIND_M)))
@@ -105,7 +105,7 @@ def get_plant(side, step):
 
 
 def get_foot(side, phase):
-    """(position of the ankle, heading, how far the toes are up)."""
+    """Return (position of the ankle, heading, how far the toes are raised)."""
     sign, offset = SIDES[side]
     step = math.floor(phase - offset + 0.5 * STANCE)
     since = phase - offset - step
@@ -136,7 +136,7 @@ def find_bone_rotation(rest, direction, hinge):
 
 
 def find_leg(hip, ankle, thigh, shin, forward):
-    """(rotation of the thigh, rotation of the shin) by which a leg reaches from hip to ankle, its knee forward."""
+    """Return (rotation of the thigh, rotation of the shin) that let a leg reach from hip to ankle, knee forward."""
     upper, lower = math.sqrt(dot(thigh, thigh)), math.sqrt(dot(shin, shin))
     reach = subtract(ankle, hip)
     length = min(math.sqrt(dot(reach, reach)), LONGEST_LEG * (upper + lower))

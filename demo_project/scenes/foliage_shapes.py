@@ -11,7 +11,7 @@ CHAIN_WIRE = 0.075  # half a wire's width, in tiles
 
 
 def make_card(half_x, half_y, repeats=(1.0, 1.0)):
-    """In the plane z = 0, its image upright."""
+    """Return a card in the plane z = 0 whose image is upright."""
     mesh = Mesh(is_closed=False)
     for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
         uv = (0.5 * (x + 1) * repeats[0], 0.5 * (1 - y) * repeats[1])
@@ -21,7 +21,7 @@ def make_card(half_x, half_y, repeats=(1.0, 1.0)):
 
 
 def get_leaf_depth(shape, x, y):
-    """How deep a point is in a leaf, in widths of the image: below 0 outside. x, y: -0.5 .. 0.5."""
+    """Return the depth of a point inside a leaf, in image widths; negative outside. x, y: -0.5 .. 0.5."""
     if shape == "oval":  # a lens: where two discs meet
         radius, offset = 0.52, 0.28
         return radius - max(math.hypot(x - offset, y), math.hypot(x + offset, y))
@@ -30,7 +30,7 @@ def get_leaf_depth(shape, x, y):
 
 
 def get_chain_depth(u, v):
-    """How deep a point is in a wire of chain link, in tiles; both wires of a tile go from corner to corner."""
+    """Return a point's depth inside a chain-link wire, in tiles; both wires of a tile run from corner to corner."""
     distance = min(abs((along + 0.5) % 1.0 - 0.5) for along in (u + v, u - v)) / math.sqrt(2.0)
     return CHAIN_WIRE - distance
 
@@ -94,7 +94,7 @@ def add_turned_card(mesh, card, center, normal, up_angle_rad):
 
 
 def make_leaves(generator, count, half_size_m, center, radius_m):
-    """Cards in a ball, denser towards its shell, that face up and outwards."""
+    """Return cards in a sphere, denser towards its surface, that face up and outwards."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     card = make_card(half_size_m, half_size_m)
     for _leaf in range(count):

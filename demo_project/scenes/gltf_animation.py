@@ -41,7 +41,7 @@ def add_skin(document, name, joints, skeleton, inverse_binds):
 
 
 def add_animation(document, name, channels):
-    """Channels of the same times share their accessor."""
+    """Add an animation; channels with the same times share their accessor."""
     times, written = {}, {"name": name, "channels": [], "samplers": []}
     for channel in channels:
         channel.check(name)

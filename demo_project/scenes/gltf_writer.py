@@ -94,7 +94,7 @@ def multiply_quaternions(a, b):
 
 
 def invert_quaternion(a):
-    """Of a turn, so a is of unit length."""
+    """Invert a rotation; a must have unit length."""
     return (-a[0], -a[1], -a[2], a[3])
 
 
@@ -271,7 +271,7 @@ class Document:
         return len(self.root["materials"]) - 1
 
     def add_texture(self, file_name, png):
-        """Of a file next to the scene; repeated and interpolated."""
+        """Add the texture of a file next to the scene, with repeat wrapping and linear filtering."""
         self.images[file_name] = png
         for members, value in (("samplers", {}), ("images", {"uri": file_name})):
             self.root.setdefault(members, []).append(value)
@@ -363,7 +363,7 @@ class Document:
         self.add_node(name, eye, rotation, extensions=extension)
 
     def build_files(self, stem, binary_stem=None):
-        """File name -> bytes of the .gltf and the .bin, which scenes of the same meshes may share."""
+        """Map the names of the .gltf and the .bin to their bytes; scenes with the same meshes may share the .bin."""
         binary = (binary_stem or stem) + ".bin"
         self.root["buffers"] = [{"uri": binary, "byteLength": len(self.binary)}]
         text = json.dumps(self.root, indent="\t", allow_nan=False) + "\n"

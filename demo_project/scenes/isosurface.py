@@ -12,7 +12,7 @@ CORNERS = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
 
 
 def compute_gradient(field, point):
-    """Of unit length where the field is a distance."""
+    """Return the gradient, which has unit length where the field is a distance."""
     result = []
     for axis in range(3):
         ahead, behind = list(point), list(point)
@@ -53,7 +53,7 @@ def find_cell_point(samples, planes, cell):
 
 
 def find_surface(field, planes):
-    """(points, quads) of a field that is negative inside; its surface must be inside the outermost planes."""
+    """Return (points, quads) of a field that is negative inside; its surface must be inside the outermost planes."""
     counts = [len(plane) for plane in planes]
     samples = {}
     for i, x in enumerate(planes[0]):

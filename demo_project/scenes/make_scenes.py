@@ -83,7 +83,7 @@ def add_spot_light(document, eye=LIGHT_EYE, target=LIGHT_TARGET, tangent=LIGHT_T
 
 
 def make_document(camera_target=CAMERA_TARGET, vertical_fov_deg=CAMERA_FOV_DEG, **light):
-    """What all study scenes have: camera, spot light."""
+    """Return what all study scenes share: a camera and a spot light."""
     document = Document(SCENE_SIZE_M)
     document.add_camera("Camera", CAMERA_EYE, camera_target, math.radians(vertical_fov_deg))
     add_spot_light(document, **light)
@@ -227,7 +227,7 @@ def make_teapot_scene(scatter):
 
 
 def make_stained_glass_scene():
-    """Panes and a ball that colour the light, one behind another, on an opaque ground and a translucent block."""
+    """Panes and a sphere that colour the light, one behind another, on an opaque ground and a translucent block."""
     document = make_document()
     add_ground(document)
     wax = document.add_material("Wax", (0.85, 0.80, 0.68), roughness=0.5, extras={"scatter": 0.8, "scatter_distance": 0.25})

@@ -155,7 +155,7 @@ def make_teapot(size, step_count):
 
 
 def make_cylinder(radius, half_height, side_count):
-    """About +Y, flat caps, smooth side."""
+    """Return a cylinder about +Y with flat caps and a smooth side."""
     mesh = Mesh()
     rim = [
         (math.cos(2.0 * math.pi * i / side_count), math.sin(2.0 * math.pi * i / side_count))
@@ -180,7 +180,7 @@ def make_cylinder(radius, half_height, side_count):
 
 
 def make_clutter(count, half, center, ball_radius, seed):
-    """Boxes at seeded random positions in a ball, each turned at random (uniform over all turns)."""
+    """Boxes at seeded random positions in a sphere, each with a uniformly random rotation."""
     generator = random.Random(seed)
     box = make_box(half)
     mesh = Mesh()

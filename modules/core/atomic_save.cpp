@@ -31,18 +31,18 @@ void end_step() {
 	}
 }
 
-/// False: another process writes the file, or the file system knows no locks.
+/// Returns false if another process is writing the file, or if the file system has no locks.
 bool try_lock(int p_file) {
 	return ::flock(p_file, LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Waits for a process that takes the file for left over, for as long as it takes to remove it.
+/// Waits while another process, which takes the file for a leftover, removes it.
 void lock(int p_file) {
 	while (::flock(p_file, LOCK_EX) != 0 && errno == EINTR) {
 	}
 }
 
-/// A file next to the target that is written, then renamed. Vanishes unless it was.
+/// A file next to the target that is written and then renamed; it is removed unless it was renamed.
 class UnfinishedFile {
 public:
 	explicit UnfinishedFile(const fs::path &p_target) : target(p_target) {
@@ -58,7 +58,7 @@ public:
 				fail("Cannot write ", target, ": ", std::strerror(errno),
 						". The folder must exist and be writable.");
 			}
-			// Before the lock was taken, another process may have thought it left over.
+			// Before the lock was taken, another process may have removed the file as a leftover.
 			struct stat status = {};
 			lock(file);
 			if (::fstat(file, &status) == 0 && status.st_nlink > 0) {
@@ -110,7 +110,7 @@ public:
 	}
 
 private:
-	/// Leftovers are of earlier processes: looking once for each folder is enough.
+	/// Leftovers come from earlier processes, so checking each folder once is enough.
 	static void remove_once(const fs::path &p_folder) {
 		static std::mutex mutex;
 		static std::set<fs::path> seen;

@@ -21,7 +21,8 @@ namespace {
 const char CACHE_MAGIC[8] = { 'G', 'N', 'O', 'M', 'O', 'N', 'C', '1' };
 const size_t CACHE_HEADER_BYTES = sizeof(CACHE_MAGIC) + 2 * sizeof(uint64_t);
 
-/// What names a user's folder: two variables, a folder below the home, one below the temporary.
+/// How a user's folder is found: two environment variables, a path below the home folder, and one
+/// below the temporary folder.
 struct UserFolder {
 	const char *own_variable;
 	const char *shared_variable;
@@ -34,7 +35,7 @@ const char *get_variable(const char *p_name) {
 	return value != nullptr && *value != 0 ? value : nullptr;
 }
 
-/// Created when absent; a failure shows when something is written there.
+/// The folder is created if absent; a failure shows when something is written to it.
 fs::path find_user_folder(const UserFolder &p_folder) {
 	fs::path folder;
 	if (const char *own = get_variable(p_folder.own_variable)) {

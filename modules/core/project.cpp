@@ -31,7 +31,7 @@ std::string unquote(const std::string &p_text) {
 	return is_quoted ? p_text.substr(1, p_text.size() - 2) : p_text;
 }
 
-/// ["a", "b"]; the caller has checked the brackets.
+/// Parses ["a", "b"]; the caller has checked the brackets.
 std::vector<std::string> parse_list(const std::string &p_text) {
 	std::vector<std::string> items;
 	std::stringstream stream(p_text.substr(1, p_text.size() - 2));
@@ -43,7 +43,7 @@ std::vector<std::string> parse_list(const std::string &p_text) {
 	return items;
 }
 
-/// A key=value, with the lines that it takes.
+/// A key=value and the lines that it spans.
 struct Entry {
 	std::string section;
 	std::string key;
@@ -53,7 +53,7 @@ struct Entry {
 	bool is_list() const { return !value.empty() && value.front() == '['; }
 };
 
-/// What reading and writing see of a file: the same, so that neither harms what the other wrote.
+/// The layout of a file. Reading and writing share it, so that neither misinterprets the other.
 struct Layout {
 	std::vector<std::string> lines;
 	std::vector<Entry> entries;
@@ -65,7 +65,7 @@ bool is_heading(const std::string &p_line) {
 			p_line.find('=') == std::string::npos;
 }
 
-/// A list goes on until a line ends with ].
+/// A list continues until a line ends with ].
 void read_list(Layout &r_layout, Entry &r_entry, const fs::path &p_path) {
 	while (r_entry.value.back() != ']') {
 		const bool is_over = r_entry.end_line == r_layout.lines.size();

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-/// Whole numbers beyond it have neighbours that a double, which numbers are read as, cannot
-/// represent.
+/// Largest magnitude of whole numbers: numbers are parsed as double, which cannot represent all
+/// whole numbers beyond it.
 constexpr double MAX_WHOLE = 9007199254740991.0; // 2^53 - 1
 
 std::vector<std::string> split(const std::string &p_text) {
@@ -45,7 +45,7 @@ std::optional<double> get_number(const PropertyValue &p_value) {
 	return std::nullopt;
 }
 
-/// Of the declared range; the special value aside.
+/// Whether a number is in the declared range, apart from the special value.
 bool is_in_range(const PropertyInfo &p_info, double p_number) {
 	const PropertyRange range = get_range(p_info);
 	const bool has_range = !p_info.hint.empty();
@@ -91,7 +91,7 @@ void PropertyList::prepare(PropertyInfo &r_info) {
 	if (r_info.type == PropertyType::ENUM && r_info.default_value.index() != 3) {
 		r_info.default_value = split(r_info.hint).at(0);
 	}
-	// So that { ..., 3, ... } declares a FLOAT as well: the literal's type is not the property's.
+	// Converts the literal's type, so that { ..., 3, ... } also declares a FLOAT.
 	const std::string refusal = check_property(r_info, r_info.default_value);
 	GNOMON_ASSERT(refusal.empty(), "default of property ", r_info.name, " ", refusal);
 	r_info.default_value = convert_property(r_info, r_info.default_value);

@@ -24,7 +24,8 @@ void BackgroundReference::start(
 	progress = 0.0f;
 	round_sample_count = std::min(FIRST_SAMPLE_COUNT, p_sample_count);
 	thread = std::thread([this, make = std::move(p_make), p_sample_count] {
-		// Of this thread and those it makes. A refusal only makes it less polite.
+		// Applies to this thread and to those it creates. If it fails, the thread just keeps its
+		// priority.
 		setpriority(PRIO_PROCESS, 0, NICENESS);
 		try {
 			run(make, p_sample_count);

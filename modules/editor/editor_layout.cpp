@@ -18,7 +18,7 @@ void set_next_window(ImVec2 p_position, ImVec2 p_size) {
 	ImGui::SetNextWindowSize(p_size);
 }
 
-/// A line that can be dragged; changes a share of the window.
+/// Draws a line that can be dragged to change a fraction of the window.
 void draw_splitter(const char *p_id, ImVec2 p_position, ImVec2 p_size, bool p_is_vertical,
 		float p_window, float p_sign, float &r_share) {
 	set_next_window(p_position, p_size);

@@ -9,10 +9,10 @@ namespace gnomon {
 
 namespace {
 
-// Shares of a ray's length, so that what it starts or ends at does not count as met.
+// Fractions of a ray's length, so that its start and end points do not count as hits.
 const double AT_EDGE = 1e-3;
 const double AT_RECEIVER = 5e-3;
-/// A line that is longer than this many times its edge's own image is on two receivers.
+/// A line longer than this many times its edge's image spans two receivers.
 const double LONGEST_LINE = 3.0;
 
 /// A silhouette edge in the world.
@@ -54,15 +54,15 @@ std::vector<CasterEdge> collect_edges(const SceneRays &p_rays, const LightSnapsh
 	return edges;
 }
 
-/// Follows the rays of one light past the ends of edges.
+/// Traces the rays of one light past the ends of edges.
 class PenumbraTracer {
 public:
 	PenumbraTracer(SceneRays &r_rays, const SceneSnapshot &p_scene, const LightSnapshot &p_light) :
 			rays(r_rays), scene(p_scene), light(p_light),
 			is_directional(p_light.type == LightType::DIRECTIONAL) {}
 
-	/// Of a ray from the rim, p_width_m outwards (r) or inwards (-t) of the centre's, past an end
-	/// of the edge.
+	/// Finds the end of a ray from the rim, p_width_m outwards (r) or inwards (-t) of the centre's,
+	/// past an end of the edge.
 	std::optional<glm::dvec3> find_end(
 			const CasterEdge &p_edge, const glm::dvec3 &p_end, double p_width_m) {
 		const glm::dvec3 way = get_way(p_end);
@@ -96,7 +96,7 @@ public:
 	}
 
 private:
-	/// From the light's centre; of a sun, a unit vector.
+	/// Returns the way from the light's centre; for a directional light, a unit vector.
 	glm::dvec3 get_way(const glm::dvec3 &p_position) const {
 		return is_directional ? light.get_direction_world() : p_position - light.position_world;
 	}

@@ -124,7 +124,7 @@ std::shared_ptr<const Animation> AnimationReader::read(size_t p_index, const std
 		animation->duration_s =
 				std::max(animation->duration_s, double(channel.sampler.times_s.back()));
 		if (moved.insert(channel.node).second) {
-			// A matrix that is animated all the same is taken apart by pose_scene.
+			// If a node with a matrix is animated nevertheless, pose_scene decomposes the matrix.
 			animation->nodes.push_back(
 					{ channel.node, read_parts(model.nodes[static_cast<size_t>(channel.node)]) });
 		}

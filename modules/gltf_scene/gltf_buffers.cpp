@@ -23,7 +23,7 @@ std::optional<int> parse_hex_digit(char p_digit) {
 	return std::nullopt;
 }
 
-/// Undoes %20 and the like; nothing when an escape is wrong.
+/// Decodes %20 and the like; returns nothing if an escape is invalid.
 std::optional<std::string> decode_percent(std::string_view p_uri) {
 	std::string decoded;
 	for (size_t index = 0; index < p_uri.size(); ++index) {

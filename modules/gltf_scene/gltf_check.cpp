@@ -35,7 +35,8 @@ bool is_known_extension(std::string_view p_name) {
 			p_name == GLTF_TEXTURE_TRANSFORM || p_name == "KHR_mesh_quantization";
 }
 
-/// Of a light, camera or material: reported, and the default is used.
+/// Checks a number of a light, camera or material: an invalid one is reported, and the default is
+/// used.
 void check_number(const GltfObject &p_object, std::string_view p_key, double p_default,
 		double p_minimum, double p_maximum, std::string_view p_unit = "") {
 	if (p_object.find(p_key)) {
@@ -56,7 +57,7 @@ void check_bool(const GltfObject &p_object, std::string_view p_key) {
 	}
 }
 
-/// A reference of a texture: a wrong one is reported and removed.
+/// Checks a reference of a texture: an invalid one is reported and removed.
 void check_reference(const GltfObject &p_object, std::string_view p_key, size_t p_count,
 		std::string_view p_otherwise) {
 	const std::optional<uint64_t> index = p_object.find_whole_number(p_key);
@@ -70,7 +71,7 @@ void check_reference(const GltfObject &p_object, std::string_view p_key, size_t 
 	}
 }
 
-/// One of a few whole numbers: another value is reported and removed.
+/// Checks for one of a few whole numbers: any other value is reported and removed.
 void check_choice(const GltfObject &p_object, std::string_view p_key,
 		std::initializer_list<uint64_t> p_choices, const char *p_default) {
 	const std::optional<uint64_t> number = p_object.find_whole_number(p_key);
@@ -86,7 +87,7 @@ void check_choice(const GltfObject &p_object, std::string_view p_key,
 	}
 }
 
-/// Two numbers of KHR_texture_transform: other values are reported and removed.
+/// Checks two numbers of KHR_texture_transform: any other value is reported and removed.
 void check_pair(const GltfObject &p_object, std::string_view p_key, const char *p_default) {
 	const Json *value = p_object.find(p_key);
 	const auto is_good = [](const Json &p_number) {

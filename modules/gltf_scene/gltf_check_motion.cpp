@@ -16,7 +16,7 @@ bool is_path(const std::string &p_path) {
 			p_path == "weights";
 }
 
-/// What tinygltf accepts and the reader skips.
+/// Replaces a channel by one that tinygltf accepts and the reader skips.
 void disable_channel(const GltfObject &p_channel) {
 	p_channel.set("sampler", 0);
 	p_channel.set("target", { { "node", 0 }, { "path", "" } });

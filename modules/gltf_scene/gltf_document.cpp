@@ -14,7 +14,8 @@ namespace {
 const char STUB_URI[] = "data:application/octet-stream;base64,AAAA";
 const int STUB_BYTES = 3;
 
-/// Whole numbers that do not fit into tinygltf's values become fractions: it would cut them.
+/// Converts whole numbers that tinygltf's integers cannot represent to doubles, because tinygltf
+/// would truncate them.
 void widen_integers(Json &r_json) {
 	if (r_json.is_structured()) {
 		for (Json &element : r_json) {
@@ -25,7 +26,7 @@ void widen_integers(Json &r_json) {
 	}
 }
 
-/// The same for the extras and extensions of all elements.
+/// Does the same for the extras and extensions of all elements.
 void widen_extras(Json &r_json) {
 	if (!r_json.is_structured()) {
 		return;
@@ -39,7 +40,7 @@ void widen_extras(Json &r_json) {
 	}
 }
 
-/// What tinygltf gets of a document.
+/// Makes the document that is passed to tinygltf.
 void make_parser_input(Json &r_json) {
 	for (Json &buffer : r_json["buffers"]) {
 		buffer["uri"] = STUB_URI;
@@ -60,7 +61,7 @@ void make_parser_input(Json &r_json) {
 	widen_extras(r_json);
 }
 
-/// No file is read by tinygltf.
+/// Callbacks with which tinygltf reads no file.
 tinygltf::FsCallbacks make_callbacks() {
 	tinygltf::FsCallbacks callbacks = {};
 	callbacks.FileExists = [](const std::string &, void *) { return false; };
@@ -73,8 +74,8 @@ tinygltf::FsCallbacks make_callbacks() {
 	return callbacks;
 }
 
-/// What tinygltf writes though it is not allowed: null for an object without members, 0 for a far
-/// plane that is infinite.
+/// Removes what tinygltf writes against the specification: null for an object without members, 0
+/// for an infinite far plane.
 void tidy(Json &r_json) {
 	if (r_json.is_array()) {
 		for (Json &element : r_json) {
@@ -113,7 +114,7 @@ bool is_list_of_objects(const Json &p_json) {
 	return p_json.is_array() && !p_json.empty() && p_json[0].is_object();
 }
 
-/// p_read with the changes from p_before to p_after, which tinygltf wrote.
+/// Applies the changes from p_before to p_after, both written by tinygltf, to p_read.
 Json merge(const Json &p_read, const Json &p_before, Json p_after) {
 	if (p_before == p_after) {
 		return p_read;

@@ -87,7 +87,7 @@ std::string describe_json(const Json &p_value) {
 		return "an object";
 	}
 	if (p_value.is_string() && p_value.get_ref<const std::string &>().size() > MAX_VALUE_LENGTH) {
-		// Cut first: a value that many nodes share is described again and again.
+		// Truncated first: a value that many nodes share is described repeatedly.
 		return describe_json(p_value.get_ref<const std::string &>().substr(0, MAX_VALUE_LENGTH));
 	}
 	std::string words = p_value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -261,7 +261,7 @@ bool GltfObject::read_color(
 	if (!value) {
 		return false;
 	}
-	// baseColorFactor has alpha as its fourth.
+	// baseColorFactor has alpha as its fourth number.
 	bool is_good = value->is_array() && (value->size() == 3 || value->size() == 4);
 	float color[3] = {};
 	for (size_t index = 0; is_good && index < 3; ++index) {

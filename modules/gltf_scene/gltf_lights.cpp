@@ -28,10 +28,10 @@ const PropertyAlias ALIASES[] = {
 	{ "light_size", "shadow_soft_size", 1.0 },				   // Blender: radius of the light
 	{ "light_angular_distance", "angle", DEGREES_PER_RADIAN }, // Blender: full apparent diameter
 };
-/// What a node's extras hold for meshes, and a light does not take for a technique's property.
+/// Names in a node's extras that belong to meshes and are not a technique's properties.
 const std::string_view NODE_NAMES[] = { "casts_shadow", "shadow_planar_receiver" };
 
-/// Bools, numbers and texts as they are; other values are no properties.
+/// Converts bools, numbers and texts; other values are not properties.
 std::optional<PropertyValue> to_property(const Json &p_value) {
 	if (p_value.is_boolean()) {
 		return p_value.get<bool>();
@@ -74,7 +74,7 @@ void take_property(const GltfObject &p_extras, std::string_view p_key, const Pro
 	r_properties[p_info.name] = convert_property(p_info, *value);
 }
 
-/// The first object that has the property, under its own name or another, decides.
+/// Reads a property from the first object that has it, under its own name or an alias.
 void read_declared_property(const PropertyInfo &p_info, const std::vector<GltfObject> &p_extras,
 		PropertyValues &r_properties) {
 	for (const GltfObject &extras : p_extras) {
@@ -210,7 +210,7 @@ void erase_property(Value &r_extras, const std::string &p_name) {
 void set_property(Value &r_extras, const std::string &p_name, const PropertyValue &p_value) {
 	Value::Object &members = require_extras(r_extras);
 	members[p_name] = to_value(property_to_json<Json>(p_value));
-	// Programs that know only the other name must not read the old value.
+	// Also updates the aliases, so that programs that know only those do not read the old value.
 	for (const PropertyAlias &alias : ALIASES) {
 		const double *number = std::get_if<double>(&p_value);
 		const auto other = members.find(std::string(alias.alias));

@@ -51,7 +51,7 @@ void read_surface(
 	r_material.alpha_mode = p_written.alphaMode == "MASK" ? AlphaMode::MASK
 			: p_written.alphaMode == "BLEND"			  ? AlphaMode::BLEND
 														  : AlphaMode::OPAQUE;
-	// What is blended casts where it hides more than half.
+	// Blended surfaces cast a shadow where they hide more than half.
 	r_material.alpha_cutoff = r_material.alpha_mode == AlphaMode::MASK
 			? static_cast<float>(p_written.alphaCutoff)
 			: 0.5f;
@@ -75,7 +75,7 @@ void read_transmission(const tinygltf::Material &p_written, Material &r_material
 	}
 }
 
-/// In metres, where the extras do not state it.
+/// Returns the distance in metres if the extras do not state it.
 float derive_scatter_distance(const Material &p_material) {
 	return p_material.scatter > 0 ? p_material.attenuation_distance_m : 0.0f;
 }
@@ -95,7 +95,7 @@ void read_extras(const GltfObject &p_extras, Material &r_material) {
 	}
 }
 
-/// Writes a number where it differs from what the file has. A default is not rewritten.
+/// Writes a number if it differs from that of the file. A default is not written.
 void write_number(float p_value, float p_before, const char *p_key, Value::Object &r_object) {
 	if (p_value != p_before) {
 		r_object[p_key] = to_value(p_value);
@@ -196,7 +196,7 @@ void write_material(const Material &p_material, const Material *p_before, tinygl
 	}
 	write_surface(p_material, before, p_before == nullptr, r_model, r_written);
 	write_transmission(p_material, before, r_model, r_written);
-	// Absent, it would be derived: also from what has just changed.
+	// If absent, it would be derived again, possibly from a value that has just changed.
 	const bool has_distance = r_written.extras.Has("scatter_distance");
 	const bool must_write_distance = has_distance
 			? p_material.scatter_distance_m != before.scatter_distance_m

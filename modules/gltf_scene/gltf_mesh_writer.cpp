@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-/// Index of the new element.
+/// Appends an element and returns its index.
 template <typename T> int append_element(std::vector<T> &r_list, T p_element) {
 	r_list.push_back(std::move(p_element));
 	return static_cast<int>(r_list.size() - 1);
@@ -128,7 +128,7 @@ size_t GltfMeshWriter::put_material(const Material &p_material) {
 	return index;
 }
 
-/// The document's mesh of these surfaces, whatever their materials.
+/// Finds the document's mesh with these surfaces, whatever their materials.
 std::optional<size_t> GltfMeshWriter::find_loaded_mesh(
 		const std::vector<MeshInstance3D::Surface> &p_surfaces) const {
 	if (document == nullptr || p_surfaces.empty()) {

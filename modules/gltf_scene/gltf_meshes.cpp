@@ -36,8 +36,8 @@ std::vector<uint32_t> make_triangles(std::vector<uint32_t> p_indices, int p_mode
 /// A table of all vertices is faster than sorting, unless few are used.
 const size_t TABLE_VERTICES_PER_INDEX = 16;
 
-/// The vertices that triangles use, in their order, and the triangles with the numbers that these
-/// have then. Many primitives may share one large array: the work follows the indices alone.
+/// Returns the vertices that triangles use, in order, and renumbers the triangles' indices to
+/// match. Many primitives may share one large array, so the cost depends on the indices alone.
 std::vector<uint32_t> find_used_vertices(size_t p_vertex_count, std::vector<uint32_t> &r_indices) {
 	std::vector<uint32_t> used;
 	if (r_indices.size() * TABLE_VERTICES_PER_INDEX < p_vertex_count) {

@@ -1,4 +1,4 @@
-// What hangs on a node: its mesh, light and camera.
+// Writes what is attached to a node: its mesh, light and camera.
 #include "modules/core/error.h"
 #include "modules/gltf_scene/gltf_lights.h"
 #include "modules/gltf_scene/gltf_node_writer.h"
@@ -53,8 +53,8 @@ void GltfNodeWriter::write_mesh(const Entry &p_entry, const MeshInstance3D &p_in
 	}
 }
 
-/// The skin and the weights of a node that had no mesh in the file. p_mesh: its mesh there, which
-/// has joints and targets where it is one of the document's.
+/// Writes the skin and the weights of a node that had no mesh in the file. p_mesh: its mesh in the
+/// file, which has joints and targets if it is one of the document's.
 void GltfNodeWriter::write_motion(const tinygltf::Mesh &p_mesh, const MeshInstance3D &p_instance,
 		tinygltf::Node &r_node) const {
 	bool has_joints = false;
@@ -99,8 +99,8 @@ std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
 }
 
-/// Puts a changed definition at the index of the old one, or behind the others where another node
-/// has put a different one there. Returns its index.
+/// Replaces a definition by a changed one at the same index, or appends it if another node has
+/// replaced the old one differently. Returns its index.
 template <typename T>
 size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_written,
 		std::optional<size_t> p_index, T p_definition) {
@@ -118,7 +118,7 @@ size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_writ
 	return r_list.size() - 1;
 }
 
-/// The area light of a node, as its own copy: other nodes may share the definition.
+/// Returns a node's area light as a copy of its own, because other nodes may share the definition.
 tinygltf::Value *GltfNodeWriter::own_area_light(tinygltf::Node &r_node) {
 	using tinygltf::Value;
 	const auto reference = r_node.extensions.find(GLTF_AREA);

@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-/// All but what was added for the view alone, unless something hangs on it that is saved.
+/// Whether a node is saved: all are, except staged ones without saved descendants.
 bool is_saved(const Node3D &p_node) {
 	return !p_node.is_staged ||
 			std::any_of(p_node.children.begin(), p_node.children.end(),
@@ -59,7 +59,8 @@ bool GltfNodeWriter::is_part(const Node3D &p_node, const Entry *p_parent) const 
 					document->cameras.contains(p_parent->index));
 }
 
-/// Finds or makes the node's entry in the file. Nothing for a part, which shares its parent's.
+/// Finds or creates the node's entry in the file. Returns nothing for a part, which shares its
+/// parent's.
 std::optional<size_t> GltfNodeWriter::assign(const Node3D &p_node, const Entry *p_parent) {
 	Entry &entry = *entries.emplace_back(std::make_unique<Entry>());
 	entry.node = &p_node;
@@ -132,7 +133,7 @@ void GltfNodeWriter::write_name(
 	}
 }
 
-/// A mesh, light or camera that was loaded with a node and is gone, while the node is not.
+/// Removes a mesh, light or camera that was loaded with a node and deleted, while the node remains.
 void GltfNodeWriter::drop_lost_parts() {
 	for (const size_t index : taken) {
 		tinygltf::Node &node = model.nodes[index];
@@ -151,8 +152,8 @@ void GltfNodeWriter::drop_lost_parts() {
 	}
 }
 
-/// Nodes that were removed stay in the file, unused, as indices must not change; but they may not
-/// keep children that live on elsewhere.
+/// Deleted nodes stay in the file, unused, because indices must not change; but they must not keep
+/// children that still exist elsewhere.
 void GltfNodeWriter::drop_lost_children() {
 	for (size_t index = 0; index < document->nodes.size(); ++index) {
 		if (!taken.contains(index) && document->nodes[index].is_loaded) {

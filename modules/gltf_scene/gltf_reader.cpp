@@ -80,7 +80,7 @@ private:
 void GltfReader::read(Scene &r_scene) {
 	const GltfTree tree = build_gltf_tree(model, messages);
 	document.nodes.resize(tree.parents.size());
-	// A stack of our own visits children in order: those of a node are pushed last first.
+	// An explicit stack visits children in order: those of a node are pushed last first.
 	std::vector<std::pair<size_t, Node3D *>> pending;
 	const auto push = [&](const std::vector<size_t> &p_indices, Node3D *p_parent) {
 		for (size_t index = p_indices.size(); index-- > 0;) {
@@ -141,7 +141,7 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 Node3D *GltfReader::read_node(size_t p_index, const GltfTree &p_tree, Node3D &r_parent) {
 	const tinygltf::Node &node = model.nodes[p_index];
 	// A node of the file may be a mesh, a light and a camera at once. The first of them becomes the
-	// node, the others its children.
+	// node, and the others become its children.
 	std::vector<std::unique_ptr<Node3D>> parts;
 	std::vector<std::string> part_names;
 	if (node.mesh >= 0) {
@@ -204,7 +204,7 @@ std::unique_ptr<Node3D> GltfReader::read_mesh_node(size_t p_index, const GltfTre
 	return instance;
 }
 
-/// The skin, and the weights of morph targets.
+/// Reads the skin, and the weights of morph targets.
 void GltfReader::read_motion(const tinygltf::Node &p_node, const std::string &p_path,
 		const GltfTree &p_tree, MeshInstance3D &r_instance) {
 	const std::vector<double> &mesh_weights =
@@ -301,7 +301,7 @@ std::unique_ptr<Camera3D> GltfReader::read_camera_node(size_t p_index, std::stri
 	return node;
 }
 
-/// Notes what the node is now, so that saving knows what has changed.
+/// Records the node's state, so that saving knows what has changed.
 void GltfReader::remember(size_t p_index, const Node3D &p_node) {
 	GltfNodeState &state = document.nodes[p_index];
 	if (!state.is_loaded) {

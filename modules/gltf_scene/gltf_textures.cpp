@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-/// Of all images of a file: 2 GiB, a third more with their levels of detail.
+/// Limit on the texels of all images of a file: 2 GiB, a third more with mip levels.
 const uint64_t MAX_ALL_TEXELS = uint64_t(1) << 29;
 
 TextureWrap to_wrap(int p_mode) {
@@ -20,8 +20,8 @@ TextureWrap to_wrap(int p_mode) {
 															  : TextureWrap::REPEAT;
 }
 
-/// KHR_texture_transform: scaled, then turned, then moved. Turned counter-clockwise as it is seen,
-/// with y down.
+/// Reads KHR_texture_transform: scale, then rotation, then offset. The rotation is
+/// counter-clockwise as seen on screen, with y down.
 glm::mat3x2 read_transform(const tinygltf::Value &p_transform) {
 	const auto get_pair = [&](const char *p_key, double p_default) {
 		if (!p_transform.Has(p_key)) {

@@ -11,7 +11,7 @@ namespace gnomon {
 
 namespace {
 
-// Relative; the rounding of a quaternion there and back.
+// Relative tolerance, for the rounding of a quaternion's conversion to a matrix and back.
 const double RECOMPOSED_TOLERANCE = 1e-13;
 
 void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMessages &p_messages,
@@ -29,7 +29,7 @@ void read_children(const tinygltf::Model &p_model, size_t p_index, const GltfMes
 	}
 }
 
-/// Nothing when the axes are not at right angles, or one has no length.
+/// Returns nothing if the axes are not orthogonal, or if one has length 0.
 std::optional<NodeTransform> decompose(const glm::dmat4 &p_matrix) {
 	const NodeTransform parts = decompose_transform(p_matrix);
 	const glm::dmat3 axes = glm::mat3_cast(parts.rotation);
@@ -65,7 +65,8 @@ GltfTree build_gltf_tree(const tinygltf::Model &p_model, const GltfMessages &p_m
 			tree.roots.push_back(index);
 		}
 	}
-	// Level by level from the roots. With one parent each, what is never reached hangs on a cycle.
+	// Visits level by level from the roots. As each node has one parent, unreached nodes are on or
+	// below a cycle.
 	std::vector<bool> is_reached(count, false);
 	std::vector<size_t> level = tree.roots;
 	for (size_t depth = 1; !level.empty(); ++depth) {

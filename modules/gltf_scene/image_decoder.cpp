@@ -18,7 +18,7 @@ const uint8_t JPEG_SIGNATURE[] = { 0xff, 0xd8, 0xff };
 const char NEXT_STEP[] = "Export the image again.";
 const png_byte ANIMATION_CHUNK[] = "acTL"; // APNG 1.0; before the first frame
 
-/// Of kinds that extensions of glTF allow, and of animations.
+/// Formats that glTF extensions allow, and animated ones.
 struct ImageKind {
 	std::string_view name;
 	size_t offset_bytes; // of the signature
@@ -45,8 +45,8 @@ void check_size(uint64_t p_width_px, uint64_t p_height_px) {
 	}
 }
 
-/// What libpng's callbacks need. It leaves a failed call by longjmp, which must not skip a
-/// destructor: all that owns memory lives outside of the functions that call libpng.
+/// State for libpng's callbacks. libpng leaves a failed call by longjmp, which must not skip a
+/// destructor: everything that owns memory is outside the functions that call libpng.
 struct PngReader {
 	std::span<const uint8_t> rest;
 	char problem[128] = "";
@@ -66,7 +66,7 @@ struct PngReader {
 	PngReader(const PngReader &) = delete;
 	PngReader &operator=(const PngReader &) = delete;
 
-	/// False: see problem.
+	/// Returns false on failure; see `problem`.
 	bool read_header() {
 		if (setjmp(png_jmpbuf(png))) {
 			return false;

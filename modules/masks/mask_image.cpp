@@ -57,7 +57,8 @@ private:
 
 /// A slice whose first pixel is the data window's corner.
 Imf::Slice make_slice(float *p_values, const Imath::V2i &p_corner, uint32_t p_width) {
-	// As numbers: for a window far from (0, 0) the base is no address inside the array.
+	// Addresses as integers: for a window far from (0, 0) the base is no valid address in the
+	// array.
 	const intptr_t row = static_cast<intptr_t>(p_width);
 	const intptr_t offset = p_corner.x + p_corner.y * row;
 	const uintptr_t origin =

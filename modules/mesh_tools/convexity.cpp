@@ -10,7 +10,7 @@ glm::dvec3 get_corner(const MeshTopology &p_topology, uint32_t p_vertex) {
 	return p_topology.welded_positions_node[p_vertex];
 }
 
-/// Does face1 rise in front of face0?
+/// Returns whether face1 rises in front of face0.
 bool is_hollow(const MeshTopology &p_topology, const MeshEdge &p_edge) {
 	const glm::dvec3 a = get_corner(p_topology, p_edge.a);
 	const glm::dvec3 b = get_corner(p_topology, p_edge.b);

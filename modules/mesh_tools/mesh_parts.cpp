@@ -64,7 +64,8 @@ void find_mesh_parts(MeshTopology &r_topology) {
 			const uint32_t vertex = r_topology.triangles[3 * size_t(face) + p_corner];
 			return glm::dvec3(r_topology.welded_positions_node[vertex]);
 		};
-		// About a point of the part: far from the origin the terms would cancel digits away.
+		// Relative to a point of the part, because far from the origin the terms would cancel
+		// digits.
 		glm::dvec3 &origin = origins[r_topology.part_indices[face]];
 		if (part.face_count++ == 0) {
 			origin = get_corner(0);

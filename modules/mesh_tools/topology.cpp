@@ -24,7 +24,7 @@ constexpr uint32_t NO_HALF_EDGE = 0xffffffffu;
 constexpr double ZERO_AREA_SINE = 8 * DBL_EPSILON;
 /// Corners of a flat quad that was rotated in float miss its plane by about this angle.
 constexpr double COPLANAR_SINE = 1e-6;
-/// A sum of normals this short against its parts has a direction made of rounding alone.
+/// A sum of normals this short, relative to its terms, has a direction made of rounding errors.
 constexpr double ZERO_NORMAL_RATIO = 1e-6;
 
 /// Half edge h runs along face h / 3 from its corner h % 3 to the next corner.
@@ -56,7 +56,7 @@ void weld(const Mesh &p_mesh, MeshTopology &r_topology) {
 				position_count);
 	}
 	r_topology.welded_from_position.assign(position_count, NO_VERTEX);
-	// By bits, so that a position that is not a number equals itself; and by what moves it.
+	// Compared by bits, so that NaN equals itself, and by the hash of what moves the vertex.
 	using Bits = std::array<uint32_t, 5>;
 	const MeshRig *rig = p_mesh.attributes.rig.get();
 	const auto hash = [](const Bits &p_bits) { return compute_value_hash(p_bits, 1); };
@@ -103,14 +103,15 @@ glm::dvec3 compute_cross(const glm::dvec3 &p_0, const glm::dvec3 &p_1, const glm
 	return has_area ? cross : glm::dvec3(0.0);
 }
 
-/// Of a triangle of a mesh.
+/// Computes it for a triangle of a mesh.
 glm::dvec3 compute_cross(const Mesh &p_mesh, uint32_t p_triangle) {
 	const uint32_t *corner = &p_mesh.indices[3 * size_t(p_triangle)];
 	return compute_cross(p_mesh.positions_node[corner[0]], p_mesh.positions_node[corner[1]],
 			p_mesh.positions_node[corner[2]]);
 }
 
-/// Planes, vertex normals and volume. Returns the unit normals in double; zero without area.
+/// Computes planes, vertex normals and volume. Returns the unit normals in double; zero without
+/// area.
 std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topology) {
 	const size_t face_count = r_topology.source_triangles.size();
 	const size_t vertex_count = r_topology.welded_positions_node.size();
@@ -120,7 +121,7 @@ std::vector<glm::dvec3> compute_normals(const Mesh &p_mesh, MeshTopology &r_topo
 	std::vector<bool> is_used(vertex_count, false); // by a face, not only by a degenerate triangle
 	r_topology.planes.resize(face_count);
 	const std::shared_ptr<const Mesh> source = p_mesh.source.mesh.lock();
-	// About a point of the mesh: far from the origin the terms would cancel digits away.
+	// Relative to a point of the mesh, because far from the origin the terms would cancel digits.
 	const glm::dvec3 centre =
 			vertex_count > 0 ? glm::dvec3(r_topology.welded_positions_node[0]) : glm::dvec3(0.0);
 	for (size_t face = 0; face < face_count; ++face) {
@@ -188,8 +189,8 @@ std::vector<SortedHalfEdge> sort_half_edges(
 	return sorted;
 }
 
-/// Copies among the faces of one edge. Each triangle is looked at on one edge only, the one without
-/// its highest vertex, so that no copy is counted twice.
+/// Counts copies among the faces of one edge. Each triangle is checked on one edge only, the one
+/// without its highest vertex, so that no copy is counted twice.
 uint32_t count_duplicates(
 		const HalfEdges &p_halves, const SortedHalfEdge *p_group, uint32_t p_count) {
 	if (p_count < 2) {
@@ -212,7 +213,7 @@ bool are_coplanar(const glm::dvec3 &p_normal_0, const glm::dvec3 &p_normal_1) {
 			glm::length(glm::cross(p_normal_0, p_normal_1)) <= COPLANAR_SINE;
 }
 
-/// Edges from pairs of half edges; also notes each half edge's partner.
+/// Builds edges from pairs of half edges; also records each half edge's partner.
 class EdgeBuilder {
 public:
 	EdgeBuilder(const Mesh &p_mesh, MeshTopology &r_topology,
@@ -270,7 +271,7 @@ private:
 		topology.edges.push_back(edge);
 	}
 
-	/// False: a pose may bend the mesh at the edge, however flat it is at rest.
+	/// Returns false if a pose may bend the mesh at the edge, however flat it is at rest.
 	bool stay_in_plane(const MeshEdge &p_edge) const {
 		if (!topology.is_deformable) {
 			return true;

@@ -16,7 +16,7 @@ struct CacheEntry {
 std::mutex cache_mutex;
 std::map<uint64_t, std::shared_ptr<CacheEntry>> cache; // by mesh id, which is never used twice
 
-/// With the lock held.
+/// The lock must be held.
 void erase_expired() {
 	std::erase_if(cache, [](const auto &p_item) { return p_item.second->mesh.expired(); });
 }
@@ -37,7 +37,7 @@ std::shared_ptr<const MeshTopology> get_topology(const std::shared_ptr<const Mes
 		if (!slot) {
 			slot = std::make_shared<CacheEntry>();
 			slot->mesh = p_mesh;
-			// A new mesh is the rare moment to drop those that are gone.
+			// A new mesh is a rare event, and so a good moment to drop the entries of freed meshes.
 			erase_expired();
 		}
 		entry = slot;

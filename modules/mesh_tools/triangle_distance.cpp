@@ -30,7 +30,7 @@ double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_
 	if (area == 0.0) {
 		return to_rim;
 	}
-	// Above the face where it is on the inner side of all three edges.
+	// The point is above the face if it is on the inner side of all three edges.
 	const bool is_above = glm::dot(glm::cross(p_b - p_a, p_point - p_a), normal) >= 0 &&
 			glm::dot(glm::cross(p_c - p_b, p_point - p_b), normal) >= 0 &&
 			glm::dot(glm::cross(p_a - p_c, p_point - p_c), normal) >= 0;
@@ -43,8 +43,8 @@ bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node
 		return glm::dvec3(p_world_from_node *
 				glm::dvec4(glm::dvec3(p_mesh.positions_node[p_mesh.indices[p_index]]), 1.0));
 	};
-	// The box about the ball, in the mesh's own space, where most triangles are ruled out as they
-	// are there. A flattened mesh has no such space.
+	// The box of the bounding sphere in the mesh's own space, where most triangles are rejected
+	// without a transform. A flattened mesh has no such space.
 	Bounds near_node;
 	near_node.add(p_point_world - p_distance);
 	near_node.add(p_point_world + p_distance);

@@ -15,7 +15,7 @@ public:
 	explicit GBufferPipelines(RenderingDevice &p_device) :
 			device(p_device), has_faces(p_device.get_features().geometry_shader) {}
 
-	/// Without vertex colours and textures.
+	/// For surfaces without vertex colours and textures.
 	PipelineRID get_plain(bool p_is_mirrored, bool p_is_double_sided) {
 		PipelineRID &r_pipeline = plain[p_is_mirrored][p_is_double_sided];
 		if (!r_pipeline) {
@@ -39,7 +39,7 @@ public:
 	}
 
 private:
-	/// p_variant: of both shaders.
+	/// p_variant: variant of both shaders.
 	RasterPipelineDesc make_desc(
 			bool p_is_mirrored, bool p_is_double_sided, const std::string &p_variant) const {
 		RasterPipelineDesc desc;
@@ -77,7 +77,7 @@ shader::InstancePush make_push(const SceneSnapshot &p_scene, const InstanceSnaps
 	const Material &material = *p_instance.material;
 	shader::InstancePush push = {};
 	push.camera_relative_from_node = p_scene.get_camera_relative_from_node(p_instance);
-	// Below 0: Phong's, see brdf_inc.glsl.
+	// A negative value selects Phong's model, see brdf_inc.glsl.
 	const float roughness = material.shading_model == ShadingModel::PHONG
 			? -1.0f - material.roughness
 			: material.roughness;

@@ -21,7 +21,7 @@ float linear_to_srgb(float p_value) {
 								 : 1.055f * std::pow(p_value, 1.0f / 2.4f) - 0.055f;
 }
 
-/// The texels of the level before that one of an axis covers, and how much of each.
+/// The texels of the previous level that one texel covers along an axis, with their weights.
 struct Taps {
 	uint32_t first = 0;
 	uint32_t count = 0;
@@ -109,7 +109,7 @@ shader::MaterialConstants make_constants(const Material &p_material) {
 	return constants;
 }
 
-/// Tangents that a mesh lacks, of its first or second coordinates.
+/// Generated tangents of a mesh that has none, for its first or second coordinates.
 template <int SET> struct MadeTangents { OwnedBuffer buffer; };
 
 } // namespace

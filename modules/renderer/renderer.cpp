@@ -35,7 +35,7 @@ void check_request(const RenderRequest &p_request, const RenderingDevice &p_devi
 	}
 }
 
-/// By which the image is drawn larger.
+/// Returns the factor by which the image is drawn larger.
 uint32_t get_drawn_factor(const RenderRequest &p_request) {
 	return p_request.mask_light.empty() && p_request.debug_view.empty() ? p_request.antialiasing
 																		: 1;

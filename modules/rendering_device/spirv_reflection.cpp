@@ -176,7 +176,7 @@ private:
 		return found->second;
 	}
 
-	/// Of an integer constant, with specialization.
+	/// Returns the value of an integer constant, with specialization applied.
 	uint32_t get_constant(uint32_t p_id) const {
 		if (const auto spec_id = find_decoration(p_id, spv::DecorationSpecId)) {
 			for (const SpecializationConstant &constant : constants) {

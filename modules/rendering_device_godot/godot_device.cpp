@@ -72,7 +72,7 @@ GodotDevice::~GodotDevice() {
 	for (const std::string &name : list_live_resources()) {
 		log_error("Leaked ", name, ". Free it before the device ends.");
 	}
-	// What is made of others goes with them.
+	// Godot frees dependent objects together with what they depend on.
 	for (const GodotPipeline &pipeline : pipelines) {
 		for (const auto &[format, rid] : pipeline.by_framebuffer_format) {
 			rd.free_rid(rid);
@@ -416,7 +416,7 @@ void GodotDevice::submit_commands(SubmitMode p_mode) {
 		rd.submit();
 		is_submitted = true;
 	}
-	// What Godot owns of them may have gone since.
+	// Godot may have freed some of these objects since.
 	prune(uniform_sets,
 			[](const RD &p_rd, godot::RID p_rid) { return p_rd.uniform_set_is_valid(p_rid); });
 	prune(framebuffers,

@@ -27,7 +27,7 @@ GDExtensionVariantType to_godot(BuiltInType p_type) {
 	return static_cast<GDExtensionVariantType>(p_type);
 }
 
-/// Index 0 makes an empty value, index 1 a copy: so of all types.
+/// Constructor 0 makes an empty value and constructor 1 a copy, for all types.
 void construct(BuiltInType p_type, int p_index, void *r_value, const void *p_source) {
 	const GDExtensionConstTypePtr arguments[] = { p_source };
 	interface.variant_get_ptr_constructor(to_godot(p_type), p_index)(r_value, arguments);
@@ -56,7 +56,7 @@ void convert_to_godot_type(BuiltInType p_type, void *r_value, const void *p_vari
 			r_value, const_cast<void *>(p_variant));
 }
 
-/// Of types without memory of their own.
+/// For types that do not allocate memory.
 template <typename T> T convert(BuiltInType p_type, const void *p_variant) {
 	T value = {};
 	convert_to_godot_type(p_type, &value, p_variant);
@@ -330,7 +330,7 @@ void PackedStringArray::append(const String &p_text) {
 
 namespace {
 
-/// What differs between packed arrays.
+/// The functions that differ between packed arrays.
 struct PackedType {
 	BuiltInMethod get_size;
 	BuiltInMethod resize;

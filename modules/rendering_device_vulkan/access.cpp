@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-/// What one Access means in Vulkan.
+/// The stages, accesses and layout of one Access in Vulkan.
 struct AccessScope {
 	VkPipelineStageFlags2 stages = 0;
 	VkAccessFlags2 access = 0;

@@ -19,7 +19,7 @@ struct Limit {
 Allocation VulkanDevice::allocate(const std::string &p_resource, const MemoryRequest &p_request) {
 	Allocation allocation = allocator.allocate(p_request);
 	if (!allocation.block && !deferred_frees.empty()) {
-		// What was freed may only wait for the GPU.
+		// Freed memory may only be waiting for the GPU.
 		wait_for(submitted_number);
 		collect();
 		allocation = allocator.allocate(p_request);

@@ -8,7 +8,8 @@ namespace gnomon {
 
 namespace {
 
-// Of one pool; a submission that needs more gets further pools, which are reused for later ones.
+// Sets per descriptor pool; a submission that needs more gets further pools, which are reused
+// later.
 constexpr uint32_t SETS_PER_POOL = 256;
 constexpr VkDescriptorPoolSize POOL_SIZES[] = {
 	{ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * SETS_PER_POOL },

@@ -30,8 +30,8 @@ struct FeatureChain {
 	FeatureChain &operator=(const FeatureChain &) = delete;
 };
 
-/// What Gnomon uses of what the device has; nothing else is enabled, so that the layers notice when
-/// a shader relies on more. p_features: what it reports.
+/// Chooses the features that Gnomon uses and the device has; no others are enabled, so that the
+/// validation layers notice if a shader relies on more. p_features: what the device reports.
 void choose_features(
 		const FeatureChain &p_present, const DeviceFeatures &p_features, FeatureChain &r_enabled) {
 	const VkPhysicalDeviceFeatures &present = p_present.v10.features;

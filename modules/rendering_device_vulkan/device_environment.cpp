@@ -1,4 +1,4 @@
-// What environment variables state about a device.
+// Reads the environment variables of a device.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"
@@ -16,7 +16,7 @@ constexpr double GPU_WAIT_S = 60;  // drivers reset a device that hangs after 2 
 constexpr double CPU_WAIT_S = 600; // software draws the same pass a hundred times slower
 constexpr double MAX_BUDGET_MIB = 1 << 24;
 
-/// Nothing where the variable is absent or empty.
+/// Returns nothing if the variable is absent or empty.
 std::optional<double> read_number(
 		const char *p_name, double p_greatest, const char *p_unit, const char *p_zero) {
 	const char *value = std::getenv(p_name);

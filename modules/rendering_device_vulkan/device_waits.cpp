@@ -1,4 +1,4 @@
-// Waiting for the device: never for ever, and what remains of a device that does not answer.
+// Waits for the device with a timeout, and keeps what a device that does not respond still uses.
 
 #include "modules/core/error.h"
 #include "modules/core/log.h"

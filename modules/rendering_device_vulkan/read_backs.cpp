@@ -1,4 +1,4 @@
-// Copies for the CPU that nothing waits for.
+// Copies to the CPU that no call waits for.
 
 #include "modules/core/error.h"
 #include "modules/rendering_device_vulkan/vulkan_device.h"

@@ -111,7 +111,7 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 			"vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
 	VkExtent2D extent = capabilities.currentExtent;
 	if (extent.width == std::numeric_limits<uint32_t>::max()) {
-		// The window system takes the size from the images.
+		// The window system takes its size from the images.
 		extent.width = std::clamp(p_window_size_px.x, capabilities.minImageExtent.width,
 				capabilities.maxImageExtent.width);
 		extent.height = std::clamp(p_window_size_px.y, capabilities.minImageExtent.height,

@@ -12,8 +12,8 @@ namespace {
 const int32_t UNITS = CONTOUR_UNITS_PER_TEXEL;
 const double ALPHA_SUM_OF_ONE = 4 * 255.0;
 
-/// The positions along one axis where alpha is looked up: the tile's border and the texels'
-/// centres, and one beyond either end where nothing is there, which closes what reaches the border.
+/// The positions along one axis where alpha is sampled: the tile's border and the texel centres,
+/// and one empty node beyond either end, which closes contours that reach the border.
 class NodeAxis {
 public:
 	NodeAxis(uint32_t p_texel_count, TextureWrap p_wrap) :
@@ -45,7 +45,7 @@ public:
 			image(*p_test.image), threshold(p_test.cutoff * ALPHA_SUM_OF_ONE),
 			columns(image.size_px.x, p_test.wrap_u), rows(image.size_px.y, p_test.wrap_v) {}
 
-	/// Nothing: more than so many segments.
+	/// Returns nothing if there are more segments than allowed.
 	std::optional<std::vector<PolygonLoop>> find(size_t p_most_segments);
 
 private:
@@ -54,7 +54,7 @@ private:
 		glm::ivec2 point = glm::ivec2(0); // where it begins
 	};
 
-	/// Below 0 beyond the border.
+	/// Returns a value below 0 beyond the border.
 	int get_alpha(int64_t p_x, int64_t p_y) const;
 	bool is_inside(int p_alpha) const { return p_alpha >= 0 && p_alpha >= threshold; }
 	void read_row(int64_t p_y, std::vector<int> &r_row) const;

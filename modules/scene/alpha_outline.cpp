@@ -13,7 +13,7 @@ namespace gnomon {
 namespace {
 
 const int32_t UNITS = AlphaOutline::UNITS_PER_TEXEL;
-// For masks that have more edges than their budget.
+// Tolerances for masks that have more edges than their budget.
 const double COARSE_TOLERANCES_PX[] = { 0.5, 1.0 };
 
 size_t count_points(const std::vector<PolygonLoop> &p_loops) {
@@ -24,7 +24,7 @@ size_t count_points(const std::vector<PolygonLoop> &p_loops) {
 	return count;
 }
 
-/// False: the loops have more edges than that, or cannot be filled.
+/// Returns false if the loops have more edges than that, or cannot be triangulated.
 bool fill(std::vector<PolygonLoop> p_loops, uint32_t p_edge_budget, AlphaOutline &r_outline) {
 	const size_t count = count_points(p_loops);
 	if (count > p_edge_budget) {
@@ -40,7 +40,8 @@ bool fill(std::vector<PolygonLoop> p_loops, uint32_t p_edge_budget, AlphaOutline
 
 const uint32_t ONE_HOLE_EDGES = 8; // of a tile with a hole
 
-/// Of each block of texels a square or a square hole that has as much area as the mask has there.
+/// Replaces each block of texels by a square, or a square hole, of the same area as the mask has
+/// there.
 class HalfTone {
 public:
 	HalfTone(const AlphaTest &p_test, uint32_t p_block_size_px) :
@@ -48,11 +49,11 @@ public:
 			count((p_test.image->size_px + block - 1u) / block) {}
 
 	bool is_one_block() const { return count == glm::uvec2(1); }
-	/// Nothing: more than so many edges.
+	/// Returns nothing if there are more edges than allowed.
 	std::optional<std::vector<PolygonLoop>> find(size_t p_most_edges) const;
 
 private:
-	/// Of a block's area, that is there.
+	/// Returns the fraction, 0..1, of a block's area that the mask covers.
 	double compute_share(const glm::uvec2 &p_block) const;
 	PolygonLoop make_square(const glm::uvec2 &p_block, double p_share) const;
 	glm::ivec2 get_corner(const glm::ivec2 &p_block) const {
@@ -109,7 +110,7 @@ std::optional<std::vector<PolygonLoop>> HalfTone::find(size_t p_most_edges) cons
 			}
 		}
 	}
-	// Blocks that are there, with or without a hole, have a border in common.
+	// Adjacent blocks that are covered, with or without a hole, are joined.
 	const auto blocks = make_image(test.image->name, count, std::move(texels));
 	AlphaTest is_there;
 	is_there.image = blocks.get();
@@ -135,7 +136,7 @@ AlphaOutline make_alpha_outline(
 	GNOMON_ASSERT(p_edge_budget >= 4, p_edge_budget, " edges are no square");
 	AlphaOutline outline;
 	outline.size = glm::ivec2(p_test.image->size_px) * UNITS;
-	// What is simplified may have many more edges before.
+	// An outline may have many more edges before it is simplified.
 	const size_t most = size_t(64) * p_edge_budget;
 	const auto loops =
 			p_test.is_nearest ? find_alpha_squares(p_test, most) : find_alpha_contour(p_test, most);

@@ -17,12 +17,13 @@ namespace {
 const double RADII_PER_TOLERANCE = 80;
 const double RADII_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;
-// Where a tile repeats on a triangle, what its outline lacks repeats too, and does not average out.
+// Where the texture repeats within a triangle, the outline's error repeats too and does not average
+// out.
 const double REPEATED_TEXELS = 2;
 
-/// The longest that a texel is on a triangle: the greatest singular value of the change of position
-/// with the texel; times REPEATED_TEXELS where the triangle shows more texels than there are. 0
-/// where all of it shows one line of texels.
+/// Returns the largest extent of a texel on a triangle: the largest singular value of the
+/// derivative of the position by the texel; times REPEATED_TEXELS if the triangle covers more
+/// texels than the texture has. 0 if the whole triangle shows one line of texels.
 double compute_texel_size(const Mesh &p_mesh, const Texture &p_texture, uint32_t p_triangle) {
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[p_texture.uv_set];
 	const glm::dmat3x2 transform(p_texture.transform);

@@ -19,7 +19,8 @@ namespace {
 const double CUTOFF_OF_NOTHING = 2; // no texel has so much alpha
 const double CUTOFF_STEPS = 32;		// an outline of 2048 x 2048 texels takes a tenth of a second
 
-/// Barycentric coordinates of a point of a triangle; of one without area, along its longest side.
+/// Barycentric coordinates of a point on a triangle; for a triangle without area, along its longest
+/// side.
 glm::vec3 compute_shares(const glm::dvec3 &p_point, const glm::dvec3 &p_a, const glm::dvec3 &p_b,
 		const glm::dvec3 &p_c) {
 	const glm::dvec3 ab = p_b - p_a;
@@ -45,7 +46,7 @@ class MeshCutter {
 public:
 	MeshCutter(const Mesh &p_mesh, const Material &p_material, const OutlineBudget &p_budget,
 			double p_tolerance_px);
-	/// Null: nothing is there. The triangles' source is the mesh.
+	/// Returns null if nothing is left. The triangles' source is the mesh.
 	std::shared_ptr<const Mesh> cut(const std::shared_ptr<const Mesh> &p_mesh);
 	bool is_whole() const { return whole.size() * 3 == mesh.indices.size(); }
 	uint32_t get_block_size_px() const { return block_size_px; }
@@ -72,8 +73,8 @@ private:
 	uint32_t block_size_px = 0;
 	std::map<double, OutlinedTexture> textures; // by cutoff
 	std::vector<uint32_t> whole;				// triangles
-	/// Points of cut triangles on the mesh's edges, with their shares along them: unsorted, and
-	/// both triangles' at an edge.
+	/// Points of cut triangles on the mesh's edges, with their positions along them, 0..1:
+	/// unsorted, and from both triangles at an edge.
 	using SidePoints = std::vector<std::pair<double, glm::vec3>>;
 	std::map<std::pair<PositionBits, PositionBits>, SidePoints> side_points;
 
@@ -98,8 +99,8 @@ MeshCutter::MeshCutter(const Mesh &p_mesh, const Material &p_material,
 	}
 }
 
-/// Of the texture's alpha: at least that is there. In steps where vertex colours decide, as each
-/// has an outline of its own.
+/// Returns the threshold for the texture's alpha. Where vertex colours affect it, it is rounded to
+/// steps, because each threshold needs an outline of its own.
 double MeshCutter::compute_cutoff(const uint32_t *p_corners) const {
 	double vertex_alpha = 1;
 	if (!mesh.attributes.colors.empty()) {
@@ -205,7 +206,7 @@ void MeshCutter::add_pieces(
 	}
 }
 
-/// By their shares, each once: the same share has the same position.
+/// Sorts by position along the side and removes duplicates: equal parameters give equal positions.
 void MeshCutter::sort_side_points() {
 	for (auto &[key, points] : side_points) {
 		std::sort(points.begin(), points.end(), [](const auto &p_left, const auto &p_right) {
@@ -291,8 +292,8 @@ std::shared_ptr<const Mesh> MeshCutter::cut(const std::shared_ptr<const Mesh> &p
 			MeshSource{ p_mesh, std::move(sources), std::move(points) });
 }
 
-/// Where each point is in one of the triangles that have it: those at a side have the same position
-/// in both, up to rounding, and are one point.
+/// Finds each point's barycentric coordinates in one of the triangles that contain it: points on a
+/// side have the same position in both triangles, up to rounding, and are one point.
 std::vector<TrianglePoint> MeshCutter::find_points() const {
 	std::vector<TrianglePoint> points(positions.size());
 	for (size_t corner = 0; corner < indices.size(); ++corner) {
@@ -305,7 +306,7 @@ std::vector<TrianglePoint> MeshCutter::find_points() const {
 	return points;
 }
 
-/// All of a material that decides how a mesh is cut.
+/// Everything about a material that decides how a mesh is cut.
 auto make_key(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	std::array<float, 6> transform;
@@ -317,7 +318,7 @@ auto make_key(const Mesh &p_mesh, const Material &p_material) {
 			texture.is_magnified_nearest, texture.uv_set, transform);
 }
 
-/// Of what decides which parts of a mesh are there.
+/// Hashes what decides which parts of a mesh are kept.
 uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[texture.uv_set];
@@ -333,7 +334,7 @@ struct CacheEntry {
 	std::weak_ptr<const Material> material; // of the one that requested it first
 	CutMesh cut;
 
-	/// Whether a later snapshot may request it again.
+	/// Whether a later snapshot can request it again.
 	bool is_used() const {
 		return !source.expired() && (!material.expired() || cut.mesh.use_count() > 1);
 	}
@@ -360,7 +361,7 @@ CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 	if (!p_material || !p_material->is_cut_out()) {
 		return { p_mesh };
 	}
-	// Held while a mesh is cut: two threads would do the same work.
+	// Held while a mesh is cut, because two threads would otherwise do the same work.
 	const std::lock_guard<std::mutex> lock(cache_mutex);
 	CacheEntry &entry = cache[make_key(*p_mesh, *p_material)];
 	if (entry.source.expired()) {

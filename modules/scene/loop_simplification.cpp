@@ -8,8 +8,8 @@ namespace gnomon {
 
 namespace {
 
-/// A line that is longer, in points, grows by doubling: each trial looks at all its points, and a
-/// straight border of a large image has thousands.
+/// Lines of more points grow by doubling: each trial checks all points of the line, and a straight
+/// border of a large image has thousands.
 const uint32_t MOST_SINGLE_STEPS = 64;
 
 double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ivec2 &p_b) {
@@ -20,16 +20,17 @@ double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const 
 	return glm::length(offset - along * share);
 }
 
-/// One loop, of which some points are left.
+/// One loop, and which of its points are kept.
 struct Chain {
 	const PolygonLoop *loop;
 	std::vector<uint8_t> is_left; // per point
 
 	const glm::ivec2 &get(uint32_t p_point) const { return (*loop)[p_point % loop->size()]; }
-	/// Of those between two, the farthest from the line; p_end is above p_begin and may be beyond
-	/// the loop's end.
+	/// Returns the point between two others that is farthest from the line through them; p_end is
+	/// above p_begin and may be beyond the loop's end.
 	uint32_t find_farthest(uint32_t p_begin, uint32_t p_end, double &r_distance) const;
-	/// Of the longest line from a point that has all between within the tolerance.
+	/// Returns the end of the longest line from a point that has all points between within the
+	/// tolerance.
 	uint32_t find_line_end(uint32_t p_begin, uint32_t p_end, double p_tolerance) const;
 	void keep(uint32_t p_point) { is_left[p_point % loop->size()] = 1; }
 	void simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance);
@@ -67,8 +68,8 @@ uint32_t Chain::find_line_end(uint32_t p_begin, uint32_t p_end, double p_toleran
 	return end;
 }
 
-/// Each line as long as it may be, one after another: about a quarter fewer lines than halving at
-/// the farthest point (Douglas and Peucker 1973) leaves.
+/// Greedily makes each line as long as possible, which gives about a quarter fewer lines than
+/// splitting at the farthest point (Douglas and Peucker 1973).
 void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
 	for (uint32_t begin = p_begin; begin < p_end;) {
 		begin = find_line_end(begin, p_end, p_tolerance);
@@ -76,7 +77,7 @@ void Chain::simplify(uint32_t p_begin, uint32_t p_end, double p_tolerance) {
 	}
 }
 
-/// On one of the rectangle's sides, and its neighbours are not both there too.
+/// Whether the point is on one of the rectangle's sides and its two neighbours are not both on it.
 bool is_fixed(const Chain &p_chain, uint32_t p_point, const glm::ivec2 &p_size) {
 	const uint32_t count = static_cast<uint32_t>(p_chain.loop->size());
 	const glm::ivec2 &before = p_chain.get(p_point + count - 1);
@@ -105,7 +106,7 @@ Chain simplify_loop(const PolygonLoop &p_loop, double p_tolerance, const glm::iv
 	if (fixed.size() < 2) {
 		const uint32_t first = fixed.empty() ? 0 : fixed[0];
 		double distance = 0;
-		// Of a chain that ends where it begins: the farthest from there.
+		// A closed chain is split at the point farthest from its start.
 		fixed = { first, chain.find_farthest(first, first + count, distance) % count };
 		std::sort(fixed.begin(), fixed.end());
 	}
@@ -166,7 +167,7 @@ bool is_between(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const glm::ive
 			glm::min(p_a.y, p_b.y) <= p_point.y && p_point.y <= glm::max(p_a.y, p_b.y);
 }
 
-/// Segments that follow each other may have their end in common, and nothing else.
+/// Consecutive segments may share an endpoint, and nothing else.
 bool do_meet(const Segment &p_one, const Segment &p_other) {
 	if (glm::max(p_one.a.y, p_one.b.y) < glm::min(p_other.a.y, p_other.b.y) ||
 			glm::max(p_other.a.y, p_other.b.y) < glm::min(p_one.a.y, p_one.b.y)) {
@@ -193,7 +194,7 @@ bool do_meet(const Segment &p_one, const Segment &p_other) {
 			(d == 0 && is_between(p_one.b, p_other.a, p_other.b));
 }
 
-/// Calls with each pair of segments that meet, until a call returns false.
+/// Calls the visitor for each pair of segments that meet, until it returns false.
 template <typename Visitor>
 void visit_meetings(const std::vector<Segment> &p_segments, const Visitor &p_visit) {
 	for (size_t i = 0; i < p_segments.size(); ++i) {
@@ -206,7 +207,7 @@ void visit_meetings(const std::vector<Segment> &p_segments, const Visitor &p_vis
 	}
 }
 
-/// Takes points back where segments meet. False: none do.
+/// Restores points where segments meet. Returns false if none do.
 bool part(std::vector<Chain> &r_chains) {
 	bool has_parted = false;
 	const auto take_back = [&](const Segment &p_segment) {
@@ -241,7 +242,7 @@ glm::ivec2 move_point(const glm::ivec2 &p_point, const glm::dvec2 &p_shift, doub
 			: glm::clamp(p_point + glm::ivec2(glm::round(shift)), glm::ivec2(1), p_size - 1);
 }
 
-/// Of a line on the right: outwards.
+/// Returns the normal to the right of a line, which points outwards.
 glm::dvec2 find_normal(const glm::ivec2 &p_from, const glm::ivec2 &p_to) {
 	const glm::dvec2 along(p_to - p_from);
 	return glm::dvec2(along.y, -along.x) / std::max(glm::length(along), 1.0);

@@ -23,8 +23,8 @@ bool has_material(const Node3D &p_node) {
 	return !to<MeshInstance3D>(p_node).surfaces.empty();
 }
 
-/// Changes all of the node's own materials. They may be those of other nodes, which keep them: the
-/// node gets copies, and surfaces that shared one share its copy.
+/// Changes all of the node's own materials. Other nodes may share them and keep the originals: the
+/// node gets copies, and surfaces that shared a material share its copy.
 template <typename Change> void change_materials(Node3D &r_node, const Change &p_change) {
 	std::vector<MeshInstance3D::Surface> &surfaces = to<MeshInstance3D>(r_node).surfaces;
 	const std::vector<MeshInstance3D::Surface> before = surfaces;

@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-// Poses after which an unused mesh is dropped: of a material that is gone.
+// Number of poses after which an unused mesh is dropped, such as that of a freed material.
 const uint64_t LONGEST_UNUSED = 100;
 const double GREATEST_POSITION_M = 1e18; // its square is a float
 
@@ -32,7 +32,7 @@ void check_finite(std::span<const glm::dmat4> p_joints, std::span<const float> p
 	}
 }
 
-/// p_pieces: a mesh that was cut out of one whose vertices are p_positions now.
+/// p_pieces: a mesh that was cut out of the one whose posed vertices are p_positions.
 std::vector<glm::vec3> move_points(
 		const Mesh &p_pieces, const std::vector<glm::vec3> &p_positions) {
 	std::vector<glm::vec3> moved;

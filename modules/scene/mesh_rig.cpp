@@ -108,7 +108,8 @@ glm::dmat4 blend_joints(
 	return blended;
 }
 
-/// Takes normals, up to their length: the cofactors, which exist where the inverse does not.
+/// Returns the matrix that transforms normals, up to their length: the cofactors, which exist even
+/// where the inverse does not.
 glm::dmat3 compute_cofactors(const glm::dmat3 &p_matrix) {
 	return glm::dmat3(glm::cross(p_matrix[1], p_matrix[2]), glm::cross(p_matrix[2], p_matrix[0]),
 			glm::cross(p_matrix[0], p_matrix[1]));
@@ -219,7 +220,7 @@ Bounds bound_deformed_vertices(const Mesh &p_mesh, std::span<const glm::dmat4> p
 			bounds.add(transform_bounds(widen(rig.joint_bounds[joint]), p_joints[joint]));
 		}
 	}
-	// What the joints blend is within; a sum other than 1 scales it.
+	// The blend of the joints is inside these bounds; a weight sum other than 1 scales it.
 	Bounds scaled;
 	for (const double sum : { rig.least_weight_sum, rig.greatest_weight_sum }) {
 		scaled.add(sum * bounds.minimum);

@@ -32,7 +32,7 @@ PropertyList list_stored_properties(const Node3D &p_node) {
 	return list;
 }
 
-/// Those of a node that is not changed.
+/// Returns the stored properties of a node that is not changed.
 const PropertyValues &get_stored(const Node3D &p_node) {
 	static const PropertyValues none;
 	const PropertyValues *stored = p_node.find_stored_properties();

@@ -8,7 +8,8 @@ namespace gnomon {
 
 namespace {
 
-/// The image's first (-1) or last (1) column or row instead of all, where a part requires it.
+/// Reduces the image to its first (-1) or last (1) column or row where a part of the plane requires
+/// it.
 std::shared_ptr<const Image> draw_out(const Image &p_image, int p_part_x, int p_part_y) {
 	const glm::uvec2 size(
 			p_part_x == 0 ? p_image.size_px.x : 1, p_part_y == 0 ? p_image.size_px.y : 1);
@@ -36,12 +37,12 @@ bool is_outside(const MeshTriangle &p_triangle, const std::array<glm::dvec2, COU
 	return false;
 }
 
-// What a triangle that is thin and long shows of a tile's outline is little, but each of its edges
-// is looked at: so many tiles of its length weigh as much as one that it covers.
+// A long, thin triangle covers little of a tile's outline, but each outline edge is tested: this
+// many tiles of its length cost as much as one tile that it covers.
 const double LONG_TILES_OF_ONE = 4;
 const double LEAST_EDGES = 4; // of a tile's outline
 const int64_t ROW_COUNT = 64;
-// To see that a triangle does not meet a tile of its box is cheap.
+// Rejecting a tile of the triangle's bounding box that it does not overlap is cheap.
 const double TESTS_OF_ONE_TILE = 4;
 
 } // namespace
@@ -61,8 +62,8 @@ void TileCover::add(const MeshTriangle &p_triangle) {
 
 bool TileCover::fits(double p_tile_size, double p_most_tiles) const {
 	const double FARTHEST_TILE = double(uint64_t(1) << 40);
-	// No texture repeats so often on one triangle: such coordinates are damaged, and each tile
-	// takes its time.
+	// No real texture repeats this often on one triangle: such coordinates are damaged, and each
+	// tile costs time.
 	const double MOST_TILES_OF_SIDE = double(uint64_t(1) << 13);
 	return box_area / (p_tile_size * p_tile_size) <= TESTS_OF_ONE_TILE * p_most_tiles &&
 			long_sides / p_tile_size <= p_most_tiles &&
@@ -127,7 +128,7 @@ void OutlinedTexture::Tile::fill_rows() {
 
 std::vector<uint32_t> OutlinedTexture::Tile::list_triangles(
 		double p_minimum, double p_maximum) const {
-	// One more on either side, whatever rounding did.
+	// One more row on either side, to allow for rounding.
 	const auto find_row = [](double p_position, int64_t p_more) {
 		const double row = std::floor(std::clamp(p_position, 0.0, 1.0) * ROW_COUNT);
 		return std::clamp<int64_t>(static_cast<int64_t>(row) + p_more, 0, ROW_COUNT - 1);
@@ -170,7 +171,7 @@ std::vector<OutlinedTexture::Triangle> OutlinedTexture::list_triangles(
 	const std::vector<Stretch> rows = list_stretches(test.wrap_v, minimum.y, maximum.y);
 	const auto find_coordinate = [](const Stretch &p_stretch, int32_t p_at, int32_t p_size) {
 		const double share = double(p_at) / p_size;
-		// Ends are exact, so that neighbours have them in common.
+		// Interval ends are exact, so that neighbours share them.
 		return p_stretch.is_mirrored ? p_stretch.end - share * (p_stretch.end - p_stretch.begin)
 									 : p_stretch.begin + share * (p_stretch.end - p_stretch.begin);
 	};

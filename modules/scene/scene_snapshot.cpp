@@ -46,8 +46,8 @@ glm::dvec3 find_longest_cross(const glm::dmat3 &p_matrix) {
 	return longest;
 }
 
-/// A transform that presses a node flat, as a scale of 0 does, leaves a flat mesh that casts
-/// shadows; but its faces have no sides any more. It gets the least thickness that has them.
+/// A transform that flattens a node, such as a scale of 0, leaves a flat mesh that casts shadows,
+/// but whose faces have no front or back. It gets the smallest thickness that restores them.
 void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	const double THICKNESS = 1e-6; // of the longest axis
 	const double ROUNDING = 1e-14;
@@ -71,7 +71,8 @@ void thicken_if_flat(glm::dmat4 &r_world_from_node) {
 	}
 }
 
-/// Of an instance that is cut out, the level of detail that suits a light; else what it casts.
+/// Returns the level of detail that suits the light if the instance is cut out; otherwise its
+/// caster mesh.
 std::shared_ptr<const Mesh> choose_caster_mesh(const InstanceSnapshot &p_instance,
 		const LightSnapshot &p_light, const Bounds &p_scene_bounds) {
 	if (!p_instance.caster_levels) {
@@ -120,7 +121,7 @@ glm::dmat3 compute_orientation(
 InstanceSnapshot make_instance(std::shared_ptr<const Mesh> p_mesh,
 		std::shared_ptr<const Material> p_material, const glm::dmat4 &p_world_from_node,
 		const std::string &p_node_name) {
-	// A mesh without a material is still seen: it gets the plain one.
+	// A mesh without a material is still visible: it gets the default material.
 	static const auto default_material = std::make_shared<const Material>();
 	InstanceSnapshot instance;
 	instance.mesh = std::move(p_mesh);

@@ -1,4 +1,4 @@
-// build_snapshot: what one frame needs of a scene's tree.
+// build_snapshot: reads from a scene's tree what one frame needs.
 
 #include "modules/core/error.h"
 #include "modules/scene/mesh_pose.h"
@@ -56,11 +56,11 @@ LightSnapshot build_light_snapshot(const Light3D &p_light, const glm::dmat4 &p_w
 	return snapshot;
 }
 
-/// Fills the snapshot from the tree, with the transform to the world carried along: letting every
-/// node compute its own would cost the square of the depth.
+/// Fills the snapshot from the tree and passes the world transform down: computing it per node
+/// would cost the square of the depth.
 class TreeReader {
 public:
-	/// p_is_posed: false = as it would be without its animations, for its size alone.
+	/// p_is_posed: false = the scene at rest, without its animations; only used for the scene size.
 	TreeReader(SceneSnapshot &r_snapshot, bool p_is_posed) :
 			snapshot(r_snapshot), is_posed(p_is_posed) {}
 

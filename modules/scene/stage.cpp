@@ -18,12 +18,13 @@ namespace {
 
 const double CAMERA_FOV_RAD = 0.64;
 const double CAMERA_MARGIN = 1.12; // 1: what is framed touches the sides of the image
-// Seen from the front, which looks along +z, a bit from the left and from above.
+// Direction to the camera: from the front, which faces +z, slightly from the left and from above.
 const glm::dvec3 TO_CAMERA(-0.5, 0.45, 1.0);
-// Over the camera's other shoulder, so that the shadow falls where it is seen.
+// Direction to the light: over the camera's other shoulder, so that the shadow falls where it is
+// visible.
 const glm::dvec3 TO_LIGHT(0.75, 1.6, 0.7);
-// In diagonals of the meshes' bounds.
-// The largest light of a report, 0.3, is right from 5 of its radii on; a corner is 0.5 nearer.
+// Distance of the light in diagonals of the meshes' bounds. The largest light of a report, radius
+// 0.3, is accurate from 5 radii on; a corner is 0.5 nearer.
 const double LIGHT_DISTANCE = 2.2;
 const double LIGHT_SIZE = 0.1;
 const double GROUND_HALF_WIDTH = 6.0;
@@ -45,7 +46,7 @@ glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0, 1, 0)));
 }
 
-/// Where a light's shadow of the point falls on a plane y = p_ground_y below both.
+/// Returns where a light's shadow of the point falls on the plane y = p_ground_y, below both.
 glm::dvec3 project_to_ground(
 		const glm::dvec3 &p_point, const glm::dvec3 &p_light, double p_ground_y) {
 	return glm::mix(p_light, p_point, (p_light.y - p_ground_y) / (p_light.y - p_point.y));
@@ -71,7 +72,7 @@ glm::dvec3 find_camera_position(const std::vector<glm::dvec3> &p_points, double 
 	return world_from_view * glm::dvec3(0.5 * (least + greatest), std::max(z.x, z.y));
 }
 
-/// A name that no node of the scene has.
+/// Returns a name that no node of the scene has.
 std::string choose_name(const Scene &p_scene, const std::string &p_requested) {
 	std::set<std::string> taken;
 	for (const Node3D *node : p_scene.find_nodes<Node3D>()) {

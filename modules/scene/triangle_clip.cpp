@@ -9,14 +9,15 @@ namespace gnomon {
 
 namespace {
 
-/// Of a triangle, its width against its corners' coordinates: several thousand roundings.
+/// Smallest width of a triangle relative to its corners' coordinates: several thousand rounding
+/// errors.
 const double THINNEST = 1e-12;
 
 double cross(const glm::dvec2 &p_a, const glm::dvec2 &p_b) {
 	return p_a.x * p_b.y - p_a.y * p_b.x;
 }
 
-/// Above 0: to the left of the line from a to b.
+/// Returns a value above 0 to the left of the line from a to b.
 double compute_side(const glm::dvec2 &p_a, const glm::dvec2 &p_b, const glm::dvec2 &p_point) {
 	return cross(p_b - p_a, p_point - p_a);
 }
@@ -58,7 +59,7 @@ double MeshTriangle::compute_inside(int p_side, const glm::dvec2 &p_uv) const {
 
 glm::vec3 MeshTriangle::compute_position(const glm::dvec2 &p_uv) const {
 	const glm::dvec2 offset = p_uv - uv[0];
-	// Inside, but for rounding.
+	// The point is inside, apart from rounding.
 	const double b = std::clamp(cross(offset, uv[2] - uv[0]) / area, 0.0, 1.0);
 	const double c = std::clamp(cross(uv[1] - uv[0], offset) / area, 0.0, 1.0 - b);
 	const glm::dvec3 origin(position[0]);
@@ -89,7 +90,7 @@ ClippedPiece::ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm:
 	}
 }
 
-/// Above 0 inside of a side; 0 on it, which the point then remembers.
+/// Returns a value above 0 inside of a side, and 0 on it, which the point then records.
 double ClippedPiece::locate(int p_side, Point &r_point) const {
 	if (r_point.side == p_side || r_point.corner == p_side || r_point.corner == (p_side + 1) % 3) {
 		return 0;
@@ -120,13 +121,14 @@ ClippedPiece::Point ClippedPiece::cross_line(int p_side, const Line &p_line) con
 	const glm::dvec2 along = side.uv[1] - side.uv[0];
 	const glm::dvec2 across = p_line.b - p_line.a;
 	point.side = p_side;
-	// Of the whole line: other sides may cut off what is beyond this one's ends.
+	// Measured along the whole line, because other sides may cut off what is beyond this one's
+	// ends.
 	point.share = cross(p_line.a - side.uv[0], across) / cross(along, across);
 	point.uv = side.uv[0] + along * point.share;
 	return point;
 }
 
-/// Sutherland and Hodgman 1974, against one side.
+/// Clips against one side (Sutherland and Hodgman 1974).
 void ClippedPiece::clip(int p_side) {
 	const size_t count = points.size();
 	std::vector<double> inside(count);
@@ -166,7 +168,7 @@ glm::vec3 ClippedPiece::get_position(const Point &p_point) const {
 							 : triangle.compute_position(p_point.uv);
 }
 
-/// Twice.
+/// Returns twice the signed area.
 double ClippedPiece::compute_area() const {
 	double area = 0;
 	for (size_t i = 1; i + 1 < points.size(); ++i) {

@@ -51,7 +51,7 @@ def change_type(light, kind):
 
 
 def write_variants(folder, scenes):
-    """(path, light) of each scene with all its lights of one type."""
+    """Return (path, light) of each scene with all its lights of one type."""
     for path in scenes:
         with open(path, encoding="utf-8") as file:
             root = json.load(file)

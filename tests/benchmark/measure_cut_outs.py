@@ -40,7 +40,7 @@ UNSEEN = {
 
 
 def list_lights(scene):
-    """(light, size's name, setting) of each row."""
+    """Return (light, size's name, setting) of each row."""
     if scene == "courtyard":
         return [("Sun", "2 degrees", "light_angular_distance=2"), ("Lamp", "0.1 m", "light_size=0.1")]
     rows = []

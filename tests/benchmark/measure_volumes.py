@@ -45,7 +45,7 @@ def render(scene, light, technique, settings, out, *more):
 
 
 def count_wrong(reference, mask):
-    """(receivers, those that differ)"""
+    """Return (receivers, those that differ)."""
     result = json.loads(run([GNOMON, "compare", reference, mask]))
     return result["pixels"], round(result["receiver"]["mae"] * result["pixels"])
 

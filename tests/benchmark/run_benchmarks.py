@@ -94,7 +94,7 @@ def measure_shadow_map():
 
 
 def measure_static():
-    """What the second frame of a scene at rest still draws from the light."""
+    """Measure what the second frame of a scene at rest still draws from the light."""
     rows = []
     for scene in TIMED_SCENES:
         with tempfile.TemporaryDirectory() as folder:

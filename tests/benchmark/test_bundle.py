@@ -19,7 +19,7 @@ MOST_MIB = 60
 
 
 def list_libraries(path):
-    """What a program or library needs, the loader included."""
+    """Return the libraries that a program or library needs, the loader included."""
     lines = subprocess.run(["ldd", path], capture_output=True, text=True, check=True).stdout.splitlines()
     words = [word for line in lines for word in line.split() if word.startswith("/")]
     return sorted(set(words))

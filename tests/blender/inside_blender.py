@@ -99,7 +99,7 @@ def save_instances(out, area_is_hidden=True):
 
 
 def export_by_hand(out):
-    """As the export dialogue does with both boxes ticked; no add-on, the properties are typed."""
+    """Export as the dialogue does with both boxes ticked; without the add-on, the properties are typed."""
     build_scene()
     change((("Key", "data.[\"light_size\"]", 0.5), ("Fill", "[\"light_size\"]", 0.4), ("Sun", "data.[\"angle\"]", 0.1)))
     bpy.ops.export_scene.gltf(
@@ -135,7 +135,7 @@ def compare_properties(out, path, bad_path):
 
 
 def read_file(out, path):
-    """What a file brings into Blender by the add-on's import."""
+    """Return what the add-on's import of a file brings into Blender."""
     import gnomon_shadows
 
     gnomon_shadows.register()

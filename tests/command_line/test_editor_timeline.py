@@ -14,7 +14,7 @@ class EditorTimelineTest(EditorCase):
         self.scene = os.path.join(self.project, "scenes", "courtyard.gltf")
 
     def press_save(self):
-        """What the editor writes."""
+        """Press save and return what the editor writes."""
         os.remove(self.scene)
         self.press("key", "ctrl+s")
         self.wait_for(lambda state: os.path.exists(self.scene))

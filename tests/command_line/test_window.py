@@ -23,7 +23,7 @@ class WindowTest(DisplayTest):
         return super().inputs() + ("window.png", "headless.png", "shown.png")
 
     def crop(self, name, part):
-        """A part of a screenshot, as raw bytes."""
+        """Return a rectangle of a screenshot as raw bytes."""
         command = ["convert", self.path(name), "-crop", part, "+repage", "-depth", "8", "rgb:-"]
         return subprocess.run(command, capture_output=True, check=True).stdout
 

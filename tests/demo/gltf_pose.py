@@ -118,7 +118,7 @@ class Poser:
         return max(times[-1] for _node, _path, times, _rows, _interpolation in self.channels)
 
     def compute_values(self, time):
-        """(node, path) -> what the animation sets it to."""
+        """Map (node, path) to the value that the animation sets."""
         return {
             (node, path): interpolate(times, rows, interpolation, path == "rotation", time)
             for node, path, times, rows, interpolation in self.channels

@@ -150,7 +150,7 @@ class Walk(Courtyard):
             matrices = self.walk.compute_matrices(self.walk.compute_values(CYCLE_S * index / 16))
 
             def get_along(name, matrices=matrices):
-                """How far ahead of the root a joint is."""
+                """Return how far ahead of the root a joint is."""
                 matrix = matrices[self.find_node(name)]
                 return sum((matrix[12 + axis] - matrices[root][12 + axis]) * matrices[root][8 + axis] for axis in range(3))
 

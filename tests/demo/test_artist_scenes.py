@@ -32,7 +32,7 @@ def build_meshes(seed):
 
 
 def count_faces_of_edges(mesh):
-    """How many edges, welded by position, have one face, two, three or more."""
+    """Count the edges, welded by position, that have one face, two, three or more."""
     counts = {}
     for triangle in mesh.triangles:
         corners = [mesh.positions[index] for index in triangle]

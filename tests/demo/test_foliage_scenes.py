@@ -15,7 +15,7 @@ import make_foliage_scenes  # noqa: E402
 
 
 def decode_png(png):
-    """(size, rows of red, green, blue, alpha) of what encode_png writes."""
+    """Return (size, rows of red, green, blue, alpha) of what encode_png writes."""
     chunks = {}
     at = 8
     while at < len(png):

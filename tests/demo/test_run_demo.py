@@ -20,7 +20,7 @@ printf '%s\\n' "$@" > "$(dirname "$0")/arguments"
 
 class RunDemo(unittest.TestCase):
     def run_script(self, *arguments, fails=False):
-        """(result, what the program got)"""
+        """Return (result, what the program got)."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "gnomon")
             with open(program, "w", encoding="utf-8") as file:

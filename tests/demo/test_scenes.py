@@ -31,7 +31,7 @@ def find_node(scene, name):
 
 
 def distance_from_axis(node, point):
-    """How far the point is from the ray along -Z of a camera's or light's node."""
+    """Return the distance of the point from the ray along -Z of a camera's or light's node."""
     ahead = gltf_writer.rotate(node["rotation"], (0.0, 0.0, -1.0))
     offset = gltf_writer.subtract(point, node["translation"])
     return math.sqrt(sum(value * value for value in gltf_writer.cross(offset, ahead)))

@@ -39,7 +39,7 @@ def find_links(path):
 
 
 def make_anchor(heading):
-    """As common renderers of Markdown make it."""
+    """Return a heading's anchor as common Markdown renderers make it."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
@@ -48,7 +48,7 @@ def find_anchors(path):
 
 
 def resolve_link(page, link):
-    """(absolute path, anchor)"""
+    """Return (absolute path, anchor)."""
     target, _, anchor = link.partition("#")
     return os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page, anchor
 

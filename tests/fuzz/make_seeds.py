@@ -27,7 +27,7 @@ MOST_INDICES = 6
 
 
 def read_scene(path):
-    """(JSON, bytes of each buffer)"""
+    """Return (JSON, bytes of each buffer)."""
     with open(path, "rb") as file:
         data = file.read()
     chunk = None
@@ -96,7 +96,7 @@ def build_glb(document, packed):
 
 
 def write_both(document, packed, name):
-    """As name.glb and name.gltf; the buffer is in either."""
+    """Write name.glb and name.gltf; both contain the buffer."""
     if packed:
         document["buffers"] = [{"byteLength": len(packed)}]
     with open(name + ".glb", "wb") as file:

@@ -25,7 +25,7 @@ GRACE_S = 120
 
 
 def run_target(target, seconds, limit_s):
-    """(has passed, what to print)"""
+    """Return (has passed, what to print)."""
     program = os.path.join(fuzz_targets.ROOT, "bin", "fuzz_" + target.name)
     if not os.path.isfile(program):
         return False, "FAILED: %s: bin/fuzz_%s is not built. Run: scons fuzz=yes" % (target.name, target.name)

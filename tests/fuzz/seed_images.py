@@ -11,7 +11,7 @@ def build_chunk(kind, data):
 
 
 def build_header(width, height):
-    """Of a PNG image with red, green, blue and alpha of 8 bits."""
+    """Return the header of a PNG image with 8-bit red, green, blue and alpha."""
     return build_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
 
 
@@ -76,7 +76,7 @@ def make_jpeg(component_count=3):
 
 
 def make_truncated_jpeg():
-    """It ends within its tables."""
+    """Return a JPEG that ends within its tables."""
     return make_jpeg()[:120]
 
 
@@ -90,6 +90,6 @@ def make_animated_gif():
 
 
 def make_animated_webp():
-    """Its header, and no frame."""
+    """Return the header of an animated WebP, without any frame."""
     body = b"WEBPVP8X" + struct.pack("<IIHBHB", 10, 0x02, 7, 0, 7, 0) + b"ANIM" + struct.pack("<IIH", 6, 0, 0)
     return b"RIFF" + struct.pack("<I", len(body)) + body

@@ -98,7 +98,7 @@ def measure(name, output):
 
 
 def export_game():
-    """What Godot logged."""
+    """Export the game and return what Godot logged."""
     with open(os.path.join(FOLDER, "project.godot"), "a", encoding="utf-8") as file:
         file.write('[application]\nrun/main_scene="res://game.tscn"\n')  # not before: the editor would open it
     os.makedirs(EXPORTED)

@@ -75,7 +75,7 @@ def write_project():
 
 
 def run():
-    """(exit code, output)"""
+    """Return (exit code, output)."""
     arguments = ["--test-case=*[GPU]*,*SpirvReflection*", "--test-case-exclude=" + ",".join(SKIPPED)]
     arguments += ["--subcase-exclude=geometry stage"] + sys.argv[1:]
     command = ["--path", FOLDER] + godot_project.DEVICE_OPTIONS

@@ -78,7 +78,7 @@ def save_images(name, found, expected):
 
 
 def check_case(light, caster, technique):
-    """What is wrong; empty when nothing is. light: or a scene, whose light caster then is."""
+    """Return what is wrong; empty if nothing is. light: or a scene, whose light caster is then used."""
     stem = os.path.join(OUT, "%s_%s" % (light, caster))
     name = "%s_%s" % (stem, technique)
     found, _height = godot_images.load_rows(name + ".f32", SIZE)

@@ -27,7 +27,7 @@ PROCESS_GROWTH = 1.1  # of the process's memory, which the allocator and the dri
 
 
 def find_growth(reports):
-    """What is more at the end than after the first frames."""
+    """Return the counts that are higher at the end than after the first frames."""
     settled = [report for report in reports if report[0] >= SETTLED]
     first, last = settled[0], settled[-1]
     grown = []
@@ -40,7 +40,7 @@ def find_growth(reports):
 
 
 def soak(scene, frames, options):
-    """What is wrong; empty when nothing is."""
+    """Return what is wrong; empty if nothing is."""
     output = godot_project.run("res://tests/%s.tscn" % scene, options, 96, addon_project.FOLDER)
     reports = [tuple(map(int, line.split()[1:])) for line in re.findall(r"^SOAK .*$", output, re.MULTILINE)]
     for report in reports:

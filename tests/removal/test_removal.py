@@ -89,7 +89,7 @@ def find_blind_tests(tree):
 
 
 def test_module(tree, module, ids, jobs):
-    """(passed, failed) of one module."""
+    """Return (passed, failed) of one module."""
     what = "without " + module
     with tempfile.TemporaryDirectory() as target:
         copy_tree(target)

@@ -31,7 +31,7 @@ MESHES = {
 
 
 class FoundMesh(Mesh):
-    """Written as it was found, with whatever is wrong with it."""
+    """A mesh that is written as found, with whatever is wrong with it."""
 
     def check(self, name):
         pass

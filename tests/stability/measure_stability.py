@@ -49,7 +49,7 @@ def show_break(series):
 
 
 def get_techniques(report):
-    """Those that were swept: mask filters are not."""
+    """Return the techniques that were swept; mask filters are not."""
     swept = {series["technique"] for plot in report["stability"] for series in plot["series"]}
     return [item["id"] for item in report["techniques"] if item["id"] in swept]
 
@@ -63,7 +63,7 @@ def name_sweep(plot):
 
 
 def build_sweeps(report):
-    """What is swept, from where to where."""
+    """Build the table of what is swept, from where to where."""
     rows = []
     for plot in get_plots(report, "spot"):
         labels = [point["label"] for point in plot["series"][0]["points"]]
@@ -112,7 +112,7 @@ def build_cases(report, sweep):
 
 
 def build_causes(report):
-    """How often each technique breaks, and what the path in double finds."""
+    """Build the table of how often each technique breaks, and what the path in double finds."""
     rows = []
     points = [
         (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))

@@ -26,7 +26,7 @@ def find_commands(text):
 
 
 def find_copy(commands):
-    """(module that the page copies, module that it makes, id of that)"""
+    """Return (module that the page copies, module that it makes, id of that)."""
     old_module, new_module, new_id = re.search(r"cp -r modules/(\w+) modules/(shadow_(\w+))", commands).groups()
     return old_module, new_module, new_id
 

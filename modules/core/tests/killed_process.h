@@ -12,13 +12,13 @@
 #include <filesystem>
 #include <thread>
 
-// Processes that are killed while they save, for the tests of all that writes files.
+// Processes that are killed while they save, for the tests of everything that writes files.
 
 namespace gnomon {
 
 const size_t MOST_SAVE_STEPS = 200; // a test that never ends is no test
 
-/// Runs the work in a process of its own. p_prepare is called in it first.
+/// Runs the work in a child process, after p_prepare.
 template <typename Prepare, typename Work>
 pid_t start_process(const Prepare &p_prepare, const Work &p_work) {
 	const pid_t child = ::fork();
@@ -35,7 +35,7 @@ pid_t start_process(const Prepare &p_prepare, const Work &p_work) {
 	return child;
 }
 
-/// True: the process was killed; false: it had ended well before.
+/// Returns true if the process was killed, false if it had exited normally before.
 inline bool wait_for_kill(pid_t p_child) {
 	int status = 0;
 	REQUIRE(::waitpid(p_child, &status, 0) == p_child);
@@ -69,7 +69,7 @@ size_t kill_at_each_save_step(const Work &p_work, const Check &p_check) {
 	return 0;
 }
 
-/// Kills the work, which never ends, after that time.
+/// Kills the work, which never ends by itself, after that time.
 template <typename Work> void kill_after(std::chrono::microseconds p_time, const Work &p_work) {
 	const pid_t child = start_process([] {}, p_work);
 	std::this_thread::sleep_for(p_time);
@@ -77,7 +77,7 @@ template <typename Work> void kill_after(std::chrono::microseconds p_time, const
 	CHECK(wait_for_kill(child));
 }
 
-/// How often tests kill at random times: GNOMON_KILL_COUNT, else that number.
+/// Returns how often tests kill at random times: GNOMON_KILL_COUNT, else p_default.
 inline int get_kill_count(int p_default) {
 	const char *value = std::getenv("GNOMON_KILL_COUNT");
 	return value != nullptr ? std::max(std::atoi(value), 1) : p_default;

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// A folder that vanishes with the test.
+/// A folder that is removed at the end of the test.
 struct TemporaryFolder {
 	std::filesystem::path path;
 	TemporaryFolder() {
@@ -20,9 +20,9 @@ struct TemporaryFolder {
 	TemporaryFolder &operator=(const TemporaryFolder &) = delete;
 };
 
-/// An empty folder that an environment variable names, so that no test depends on what another one
-/// left. Afterwards the variable is what it was before: never the user's own folder when the test
-/// script has chosen one.
+/// An empty folder in an environment variable, so that no test depends on what another one left.
+/// Afterwards the variable has its previous value, so that a folder chosen by the test script stays
+/// in use and never the user's own.
 struct TemporaryUserFolder : TemporaryFolder {
 	explicit TemporaryUserFolder(const char *p_variable) : variable(p_variable) {
 		if (const char *value = std::getenv(variable)) {

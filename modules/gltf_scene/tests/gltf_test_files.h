@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// A folder of files that vanishes with the test.
+/// A folder of files that is removed at the end of the test.
 struct GltfTestFolder : TemporaryFolder {
 	/// Writes and loads a file.
 	std::unique_ptr<Scene> load(const Json &p_json, const GltfLoadOptions &p_options = {}) const {
@@ -59,12 +59,13 @@ struct GltfTestLog {
 	}
 };
 
-/// With its keys in alphabetical order: elements that a save adds have them in the writer's.
+/// Sorts the keys alphabetically, because elements that a save adds have them in the writer's
+/// order.
 inline nlohmann::json sort(const Json &p_json) {
 	return nlohmann::json::parse(p_json.dump());
 }
 
-/// The message of the Error that loading ends with; empty when it does not.
+/// Returns the message of the Error that loading throws; empty if it succeeds.
 inline std::string get_load_error(
 		const GltfTestFolder &p_folder, const Json &p_json, const GltfLoadOptions &p_options = {}) {
 	try {
@@ -144,7 +145,8 @@ inline Json make_lamp() {
 	})");
 }
 
-/// What two scenes differ in first, or empty: the trees with all that a renderer would see.
+/// Describes the first difference between two scenes, or is empty: compares everything in the trees
+/// that a renderer uses.
 std::string find_difference(const Scene &p_first, const Scene &p_second);
 
 } // namespace gnomon

@@ -8,13 +8,13 @@
 
 namespace gnomon {
 
-/// Reads a tree as its users do, to compare what it holds with its boxes.
+/// Traverses a tree as its users do, to compare it with its boxes.
 class BvhQueries {
 public:
 	explicit BvhQueries(const std::vector<Bounds> &p_boxes) : boxes(p_boxes), tree(p_boxes) {}
 
-	/// The items whose box shares at least a point with p_box, in ascending order. None for an
-	/// empty box or one with NaN.
+	/// Returns the items whose box shares at least a point with p_box, in ascending order; none for
+	/// an empty box or one with NaN.
 	std::vector<uint32_t> find_in_box(const Bounds &p_box) const {
 		if (p_box.is_empty()) {
 			return {};
@@ -26,8 +26,8 @@ public:
 					p_bounds.minimum.z <= p_box.maximum.z && p_box.minimum.z <= p_bounds.maximum.z;
 		});
 	}
-	/// The items whose box is not wholly behind one of the planes, in ascending order. A point q is
-	/// in front of plane n when dot(n.xyz, q) + n.w >= 0.
+	/// Returns the items whose box is not wholly behind one of the planes, in ascending order. A
+	/// point q is in front of plane n if dot(n.xyz, q) + n.w >= 0.
 	std::vector<uint32_t> find_in_planes(const std::vector<glm::dvec4> &p_planes) const {
 		return find([&](const Bounds &p_bounds) {
 			return std::all_of(p_planes.begin(), p_planes.end(),

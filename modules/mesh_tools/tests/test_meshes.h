@@ -34,7 +34,7 @@ inline Mesh make_cube(const glm::vec3 &p_centre = glm::vec3(0.0f)) {
 					2, 1, 3, 7, 1, 7, 5 });
 }
 
-/// The same triangles, each with corners of its own: what a glTF with hard edges holds.
+/// Returns the same triangles, each with its own corners, as a glTF file with hard edges has them.
 inline Mesh unweld(const Mesh &p_mesh) {
 	Mesh mesh = make({}, {});
 	for (const uint32_t index : p_mesh.indices) {

@@ -4,7 +4,7 @@
 
 namespace gnomon {
 
-/// Why the light was skipped; empty when it was not.
+/// Returns why the light was skipped; empty if it was not.
 inline std::string find_reason(const RenderResult &p_result, const std::string &p_light) {
 	for (const FramePlanEntry &entry : p_result.plan.get_entries()) {
 		if (entry.light == p_light && entry.pass == "light" && !entry.runs) {

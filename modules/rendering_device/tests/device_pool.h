@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Ends a device, or hands it to the next test that borrows one.
+/// Destroys a device, or keeps it for the next test that borrows one.
 struct DeviceReturn {
 	bool is_shared = false;
 	void operator()(RenderingDevice *p_device) const;
@@ -23,7 +23,7 @@ enum class DeviceChoice { ANY, NEW };
 /// p_device: as DeviceOptions::device; it and denied features get a new device.
 TestDevice create_test_device(
 		DeviceChoice p_choice, const std::string &p_device = "", const FeatureList &p_denied = {});
-/// Ends the devices that wait for a test.
+/// Destroys the devices that are kept for further tests.
 void close_test_devices();
 
 } // namespace gnomon

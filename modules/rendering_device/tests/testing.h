@@ -1,16 +1,16 @@
 #pragma once
 
-// What tests may do to a device. The tests of the backend that the program is linked with define
-// it.
+// Operations on a device that only tests may use. The tests of the backend that is linked into the
+// program define them.
 
 #include "modules/rendering_device/rendering_device.h"
 
 namespace gnomon {
 
-/// The next submission that meets the event fails so, once. p_fault is what $GNOMON_INJECT_FAULT
-/// may be, see doc/testing.md: "hang", "device_lost@pass:resolve".
+/// Makes the next submission that meets the condition fail, once. p_fault: a value of
+/// $GNOMON_INJECT_FAULT, see doc/testing.md: "hang", "device_lost@pass:resolve".
 void inject_fault(RenderingDevice &r_device, const std::string &p_fault);
-/// Lets the submission go on that an injected "hang" holds.
+/// Resumes the submission that an injected "hang" blocks.
 void release_injected_hang(RenderingDevice &r_device);
 
 /// Names of the resources that are alive, "texture 'albedo'", sorted; for the leak tests.
@@ -26,7 +26,7 @@ public:
 	~ExpectedValidationMessages();
 	ExpectedValidationMessages(const ExpectedValidationMessages &) = delete;
 	ExpectedValidationMessages &operator=(const ExpectedValidationMessages &) = delete;
-	/// While no other thread uses the device.
+	/// Call it only while no other thread uses the device.
 	const std::vector<std::string> &get_messages() const { return messages; }
 
 private:
