@@ -114,7 +114,7 @@ def add_fin(mesh, triangle, height):
 
 
 def make_rope_points(start, end, sag, segment_count):
-    """Return points from start to end that sag in the centre (a parabola)."""
+    """Return points of a parabola from start to end that hangs down by sag, in metres, halfway."""
     points = []
     for i in range(segment_count + 1):
         t = i / segment_count

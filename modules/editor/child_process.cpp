@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// As one word for the shell, whatever is in it.
+/// Quotes any text as one word for the shell.
 std::string quote(const std::string &p_text) {
 	std::string quoted = "'";
 	for (const char letter : p_text) {
@@ -24,7 +24,7 @@ void start_program(const std::vector<std::string> &p_words) {
 	for (const std::string &word : p_words) {
 		command += quote(word) + " ";
 	}
-	// In the shell's background, so that it leaves no zombie process when it ends.
+	// Runs in the shell's background, so that it leaves no zombie process when it ends.
 	if (std::system((command + ">/dev/null 2>&1 &").c_str()) != 0) {
 		fail("No process can be started. Run it yourself: ", command);
 	}

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Null: none has that name.
+/// Returns null if no node has that name.
 Node3D *find_node(Node3D &r_root, const std::string &p_name) {
 	if (r_root.name == p_name) {
 		return &r_root;
@@ -38,7 +38,7 @@ std::string make_free_name(Node3D &r_root, const std::string &p_name) {
 	}
 }
 
-/// With all below it, each with a name of its own.
+/// Copies the node with its descendants, each under a name of its own.
 std::unique_ptr<Node3D> copy_tree(const Node3D &p_node, Node3D &r_root) {
 	std::unique_ptr<Node3D> copy = p_node.copy();
 	copy->file_index = -1;

@@ -19,7 +19,7 @@ const std::chrono::seconds FILE_CHECK_INTERVAL{ 1 };
 
 } // namespace
 
-/// Something that must be answered before all else.
+/// A question that must be answered before anything else.
 struct EditorSession::Question {
 	const char *title = "";
 	std::string text;
@@ -30,7 +30,8 @@ struct EditorSession::Question {
 	bool may_cancel = false; // Escape and a third button: as if there had been no question
 };
 
-/// Draws the question over everything. True once it is answered; the answer was done then.
+/// Draws the question over everything. Returns true once it is answered and the answer is carried
+/// out.
 bool EditorSession::draw_question(const Question &p_question) {
 	ImGui::OpenPopup(p_question.title);
 	if (!ImGui::BeginPopupModal(p_question.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -181,13 +182,14 @@ void EditorSession::run(EditorCommand p_command) {
 	}
 }
 
-/// That a save skips what was staged, which may have been changed; empty where nothing is.
+/// Describes that a save skips the staged nodes, which may have been changed; empty if there are
+/// none.
 std::string EditorSession::describe_staged() const {
 	const std::string names = document.list_staged();
 	return names.empty() ? "" : " Never saved while staged: " + names + ".";
 }
 
-/// With what the desktop shows such files.
+/// Opens the page with the desktop's default program.
 void EditorSession::read_page() {
 	const std::filesystem::path page = program.parent_path().parent_path() / context.requested_page;
 	if (!std::filesystem::exists(page)) {

@@ -29,7 +29,7 @@ template <typename T> void read(const Json &p_json, const char *p_name, T &r_val
 	}
 }
 
-/// In double: a number of a file may be beyond any other type.
+/// Parsed as double, because a number in a file may exceed any other type.
 template <typename T>
 void read(const Json &p_json, const char *p_name, T &r_value, T p_least, T p_greatest) {
 	double value = double(r_value);

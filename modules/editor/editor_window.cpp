@@ -103,7 +103,7 @@ public:
 	Editor(const Editor &) = delete;
 	Editor &operator=(const Editor &) = delete;
 
-	/// Until the window is closed. Returns what is to be opened next; empty: nothing.
+	/// Runs until the window is closed. Returns the scene to open next; empty: none.
 	std::filesystem::path run() {
 		try {
 			loop();
@@ -150,7 +150,7 @@ private:
 				context.viewport.is_moving = true;
 				context.viewport.needs_redraw = true;
 			}
-			// First what the user does, then the image: one frame shows what it has changed.
+			// User input is handled before the image is drawn, so that one frame shows its effect.
 			build_panels();
 			session.run_command();
 			const bool is_changed = seen_serial != document.get_history().get_serial();
@@ -198,7 +198,7 @@ private:
 		return device_options;
 	}
 
-	/// A handle for Dear ImGui, or null where there is no such texture yet.
+	/// Returns a handle for Dear ImGui, or null if there is no such texture yet.
 	template <typename Get> void *show(const Get &p_get) {
 		return p_get() ? ui.add_texture(p_get) : nullptr;
 	}
@@ -231,7 +231,7 @@ private:
 		graph.execute(RenderGraph::Mode::QUEUE);
 	}
 
-	/// What a test needs to press and to wait for.
+	/// Writes the widget positions and the progress that tests read.
 	void write_items() {
 		if (options.items.empty()) {
 			return;
@@ -243,7 +243,7 @@ private:
 		quiet_count = is_quiet ? quiet_count + 1 : 0;
 		const std::string written = context.describe_items({ ++frame, viewport_renderer.get_count(),
 				quiet_count >= QUIET_FRAME_COUNT, answers_ms });
-		// Whole or not at all, but without waiting for the disk as save_file_atomically does.
+		// Writes atomically, but does not wait for the disk as save_file_atomically does.
 		const std::filesystem::path made = options.items.string() + ".new";
 		std::ofstream stream(made);
 		stream << written;

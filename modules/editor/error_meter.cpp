@@ -11,12 +11,12 @@ namespace gnomon {
 
 namespace {
 
-// Frames that measure the cost; fewer of a technique that takes long.
+// Frames that measure the cost; fewer for a slow technique.
 const uint32_t COST_FRAME_COUNT = 20;
 const uint32_t LEAST_COST_FRAME_COUNT = 3;
 const double COST_MS = 1500;
 
-/// All that the cost of a mask depends on.
+/// Describes everything that the cost of a mask depends on.
 std::string describe_cost(const LightSnapshot &p_light, uint64_t p_reference_hash) {
 	const ShadowTechniqueInfo *technique = choose_technique(p_light, {}).info;
 	std::string description =
@@ -42,8 +42,8 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 		background_reference.stop();
 	}
 	state.is_tracing = background_reference.is_running();
-	// A mask, its cost and its reference take longer than a frame: while the scene is animated none
-	// would be of what is shown.
+	// A mask, its cost and its reference take longer than a frame: during an animation, none of
+	// them would match the frame that is shown.
 	if (!is_watched || is_playing || p_image_count == 0) {
 		measured_image = 0;
 		return;
@@ -65,7 +65,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 					std::exchange(requested_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
-		// Restarted, it has to become better first than what is known.
+		// After a restart, a round is used only if it is better than the known reference.
 		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
 			state.reference = std::make_shared<const ReferenceMask>(ReferenceMask{
@@ -170,7 +170,7 @@ void ErrorMeter::request_reference(EditorContext &r_context, RenderResult p_resu
 								  question = std::move(question)] { return make(question); };
 }
 
-/// A frame of the mask alone, pass by pass, as if the light had moved.
+/// Measures a frame of the mask alone, pass by pass, as if the light had moved.
 void ErrorMeter::measure_cost(EditorContext &r_context) {
 	RenderRequest timed = request;
 	timed.wants_mask = false;

@@ -72,7 +72,7 @@ public:
 			return std::nullopt;
 		}
 		outwards /= glm::dot(outwards, p_edge.inside - p_end) > 0.0 ? -length : length;
-		// Through the edge from the rim's other side.
+		// The ray passes through the edge from the opposite side of the rim.
 		const glm::dvec3 turned = is_directional
 				? way * scene.scene_size_m + p_width_m * outwards // R's tangent, times S
 				: way + p_width_m * outwards;
@@ -86,7 +86,7 @@ public:
 																	: std::nullopt;
 	}
 
-	/// How much longer than itself an edge's image on the receiver may be at most.
+	/// Whether an edge's image on the receiver is at most LONGEST_LINE times as long as the edge.
 	bool is_one_line(const CasterEdge &p_edge, const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 		const double grown = is_directional ? 1.0
 											: glm::length(get_way(p_from)) /

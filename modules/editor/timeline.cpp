@@ -7,7 +7,7 @@ namespace gnomon {
 
 namespace {
 
-/// Null: the scene has none of that name.
+/// Returns null if the scene has no animation of that name.
 std::shared_ptr<const Animation> find(const Scene &p_scene, const std::string &p_name) {
 	for (const std::shared_ptr<const Animation> &animation : p_scene.animations) {
 		if (animation->name == p_name) {

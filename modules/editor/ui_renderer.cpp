@@ -22,7 +22,7 @@ struct UiVertex {
 	glm::vec4 color; // sRGB-encoded, alpha not premultiplied
 };
 
-/// One draw call: a rectangle of the target, a texture, a part of the indices.
+/// One draw call: a rectangle of the target, a texture and a range of the indices.
 struct UiDraw {
 	glm::uvec2 offset_px = glm::uvec2(0);
 	glm::uvec2 size_px = glm::uvec2(0);

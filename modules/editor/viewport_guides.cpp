@@ -6,7 +6,8 @@ namespace gnomon {
 
 namespace {
 
-// Silhouette edges that are followed: a moving light must not wait for them.
+// Most silhouette edges that are traced while the light moves, so that it does not have to wait for
+// them.
 const size_t MOVING_EDGE_COUNT = 150;
 const size_t EDGE_COUNT = 1500;
 
@@ -16,7 +17,8 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 	ViewportState &viewport = r_context.viewport;
 	EditorDocument &document = r_context.document;
 	const bool is_changed = p_drawn_count != followed_count || viewport.is_guide_changed;
-	// Read when there is something to find: the vertices of what is posed are computed for it.
+	// Updated only when there is something to pick or trace, because it computes the posed
+	// vertices.
 	bool is_followed = false;
 	const auto follow = [&] {
 		if (!std::exchange(is_followed, true)) {

@@ -17,7 +17,7 @@ const uint32_t GREATEST_DIVISOR = 4;
 const double QUICK_MS = 25;
 const double SLOW_MS = 70;
 
-/// Of a view of the light in question, where there is that view.
+/// Makes the request for a debug view of the light in question, if that view exists.
 RenderRequest make_request(
 		const EditorContext &p_context, glm::uvec2 p_size_px, const std::string &p_debug_view) {
 	RenderRequest request;
@@ -97,7 +97,7 @@ void ViewportRenderer::draw(EditorContext &r_context, glm::uvec2 p_size_px) {
 	}
 }
 
-/// The same with another technique for the light in question.
+/// Draws the scene with the compared technique for the light in question.
 void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_request) {
 	std::string &technique = r_context.viewport.compared_technique;
 	if (!technique.empty() && ShadowRegistry::find(technique) == nullptr) {
@@ -123,7 +123,7 @@ void ViewportRenderer::draw_compared(EditorContext &r_context, RenderRequest p_r
 	draw_into(compared_image, std::move(p_request), *compared_renderer);
 }
 
-/// r_image is recreated where its size is another, and stays as it is on an Error.
+/// r_image is recreated if its size has changed, and is left unchanged on an Error.
 RenderResult ViewportRenderer::draw_into(
 		OwnedTexture &r_image, RenderRequest p_request, Renderer &r_renderer) {
 	OwnedTexture made;

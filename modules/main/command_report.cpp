@@ -78,7 +78,7 @@ bool add_answers(const Report &p_report, const ReportArguments &p_arguments,
 	return !comparison.has_regression() && comparison.compared_count > 0;
 }
 
-/// The report to compare with; an unreadable one is known now, not in an hour.
+/// Loads the report to compare with now, so that an unreadable one fails before the measurement.
 std::optional<Report> load_old_report(const ReportArguments &p_arguments) {
 	return p_arguments.against.empty() ? std::nullopt
 									   : std::optional(load_report(p_arguments.against));
@@ -123,7 +123,8 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 	}
 }
 
-/// While it lives, lets each warning through once, and counts the others: they follow at its end.
+/// While it exists, passes each warning through once and counts repetitions, which it logs at its
+/// end.
 class WarningCounter {
 public:
 	WarningCounter() {

@@ -23,7 +23,7 @@ double speed = 1;
 
 const double HEADLESS_FRAMES_PER_S = 60;
 
-/// What is played: the animation that the command line names, else the project's, else the first.
+/// Chooses the animation that the command line names, else the project's, else the first.
 AnimationPlayback choose_playback(const Scene &p_scene, const CommonOptions &p_common) {
 	AnimationPlayback playback;
 	const std::optional<std::string> of_project = find_default(options.scene, "animation");
@@ -73,7 +73,7 @@ void run_headless(Scene &r_scene, glm::uvec2 p_size_px, const CommonOptions &p_c
 	for (uint32_t index = 0; index < frame_count; ++index) {
 		request.wants_image = index + 1 == frame_count;
 		request.wants_graph = request.wants_image && !options.dot.empty();
-		// By frames, so that what is drawn does not depend on how fast the machine is.
+		// Advances by frames, so that the images do not depend on the speed of the machine.
 		options.playback.advance(r_scene, index == 0 ? 0.0 : 1.0 / HEADLESS_FRAMES_PER_S);
 		request.scene = build_snapshot(r_scene, camera);
 		result = renderer.render(request);

@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Whole scenes cross the view in a few seconds, whatever unit they are modelled in.
+// Chosen so that a whole scene crosses the view in a few seconds, whatever its units.
 constexpr double SPEED_PER_SCENE_SIZE = 0.4;
 constexpr double TURN_RAD_PER_PX = 0.004;
 constexpr double SIZE_STEP = 1.15;
@@ -30,7 +30,7 @@ std::string format_milliseconds(const char *p_name, double p_milliseconds) {
 	return line;
 }
 
-/// What the keys change.
+/// The state that the keys change.
 struct GameState {
 	Scene &scene;
 	RenderRequest &request;

@@ -28,8 +28,8 @@ using namespace gnomon;
 const std::pair<const char *, const char *> MODULES_OF_COMMANDS[] = { { "edit", "editor" },
 	{ "visibility", "masks" }, { "compare", "masks" }, { "report", "error_report" } };
 
-/// A command that this build lacks ends with the module's name, not with a riddle, and one that no
-/// build has with those that there are.
+/// Fails for an unknown command: one that this build lacks is reported with the module it needs,
+/// any other with the list of commands.
 void check_command(const CLI::App &p_app, const std::string &p_command) {
 	for (const auto &[command, module] : MODULES_OF_COMMANDS) {
 		const auto has_name = [&](const CLI::App *p_found) {
@@ -53,7 +53,7 @@ void check_command(const CLI::App &p_app, const std::string &p_command) {
 	}
 }
 
-/// As --help lists them.
+/// Lists the commands in the order of --help.
 std::vector<CommandInfo> list_commands() {
 	std::vector<CommandInfo> commands = CommandRegistry::get_all();
 	std::ranges::sort(commands, {}, [](const CommandInfo &p_command) {

@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 const char *const LIGHTING_PASS = "lighting"; // of a whole frame: no part of the shadow
 
-/// The passes of the light, or of every light, without its name.
+/// Returns the passes of the light, or of every light, without the light's name.
 std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRequest &p_request) {
 	std::vector<PassCost> passes;
 	for (const LightSnapshot &light : p_request.scene->lights) {
@@ -29,7 +29,7 @@ std::vector<PassCost> select_passes(const RenderResult &p_result, const RenderRe
 			if (timing.name == LIGHTING_PASS) {
 				continue;
 			}
-			// Of several lights each has its own row.
+			// If there are several lights, each has its own row.
 			const std::string name =
 					p_request.mask_light.empty() ? light.name + ": " + timing.name : timing.name;
 			passes.push_back({ name, timing.gpu_ms, timing.wall_ms, timing.is_on_host });

@@ -17,8 +17,8 @@ namespace gnomon {
 
 namespace {
 
-// Of a cell: 20 frames by default or 3 s, at least 5. The mask itself has made the pipelines and
-// warmed up.
+// Limits for a cell of the report: 20 frames by default, or 3 s but at least 5 frames. Drawing the
+// mask itself has created the pipelines and warmed up.
 const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
 const char *const SAMPLES_ENDING = "_samples"; // <id>_samples: the reference's rays per pixel
 
@@ -122,7 +122,7 @@ MeasuredMask RenderedMasks::measure(
 
 namespace {
 
-/// Takes the program's warnings while it lives; other lines go where they went.
+/// Collects the program's warnings while it exists; other lines go to the previous sink.
 class WarningCollector {
 public:
 	explicit WarningCollector(std::vector<std::string> &r_warnings) {
@@ -163,7 +163,7 @@ DrawnMasks RenderedMasks::draw(
 	for (const MaskQuestion &question : p_questions) {
 		RenderRequest request = make_request(question, p_technique);
 		if (question.scene->lights.size() > 1) {
-			// Not only the one light that is measured: all of them are drawn.
+			// Draws all lights, not only the one that is measured.
 			RenderRequest whole_frame = request;
 			whole_frame.mask_light.clear();
 			whole_frame.wants_mask = false;
@@ -179,7 +179,7 @@ DrawnMasks RenderedMasks::draw(
 
 namespace {
 
-/// Techniques, and the mask filters behind them.
+/// Lists the ids of the techniques and of the mask filters behind them.
 std::vector<std::string> list_ids() {
 	std::vector<std::string> ids;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {

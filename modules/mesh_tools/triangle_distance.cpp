@@ -43,8 +43,8 @@ bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node
 		return glm::dvec3(p_world_from_node *
 				glm::dvec4(glm::dvec3(p_mesh.positions_node[p_mesh.indices[p_index]]), 1.0));
 	};
-	// The box of the bounding sphere in the mesh's own space, where most triangles are rejected
-	// without a transform. A flattened mesh has no such space.
+	// Bounds of the search sphere around the point, in the mesh's own space, where most triangles
+	// are rejected without a transform. A flattened mesh has no such space.
 	Bounds near_node;
 	near_node.add(p_point_world - p_distance);
 	near_node.add(p_point_world + p_distance);

@@ -20,7 +20,7 @@ struct AlphaTest {
 };
 
 /// Makes the test for the material's base colour texture. The cutoff applies to the product of the
-/// texture's alpha and the material's own, which callers multiply. The image is null if there is no
+/// texture's alpha and the material's own. The image is null if there is no
 /// texture.
 AlphaTest make_alpha_test(const Material &p_material);
 /// Hashes everything that affects the test, texels included; without an image, the other fields.

@@ -10,10 +10,10 @@ namespace gnomon {
 
 namespace {
 
-// Measured on trees, fences and single leaves: what an outline adds to the error of a penumbra
-// stays below 0.002 where its radius is so many times the tolerance. That is the greatest radius of
-// a scene; most of its receivers see less. Above a quarter of a texel those decide that touch their
-// caster, whose penumbra no light makes wide.
+// Measured on trees, fences and single leaves: the error that an outline adds to a penumbra stays
+// below 0.002 if the penumbra's radius is this many times the tolerance. The radius is the largest
+// in a scene; most receivers see a smaller one. Above a quarter of a texel, receivers that touch
+// their caster dominate, because no light gives them a wide penumbra.
 const double RADII_PER_TOLERANCE = 80;
 const double RADII_PER_COARSE_TOLERANCE = 350;
 const double COARSE_TOLERANCE_PX = 0.25;

@@ -118,7 +118,7 @@ void Light3D::add_gizmos(std::vector<NodeGizmo> &r_gizmos) const {
 	gizmo.value = gizmo.radius_m;
 	gizmo.is_filled = type == LightType::SPOT;
 	r_gizmos.push_back(gizmo);
-	if (type == LightType::OMNI) { // a ball: two more rings, without handles
+	if (type == LightType::OMNI) { // a sphere: two more rings, without handles
 		gizmo.property.clear();
 		gizmo.axis_y = glm::dvec3(0, 0, 1);
 		r_gizmos.push_back(gizmo);

@@ -231,8 +231,8 @@ bool is_on_border(const glm::ivec2 &p_point, const glm::ivec2 &p_size) {
 	return p_point.x == 0 || p_point.y == 0 || p_point.x == p_size.x || p_point.y == p_size.y;
 }
 
-/// A point moved by at most p_most, if it is not on the rectangle's border: those stay, as those of
-/// the next tile do.
+/// Moves a point by at most p_most, unless it is on the rectangle's border, where it must match the
+/// next tile.
 glm::ivec2 move_point(const glm::ivec2 &p_point, const glm::dvec2 &p_shift, double p_most,
 		const glm::ivec2 &p_size) {
 	const double length = glm::length(p_shift);
@@ -279,9 +279,9 @@ void restore_area(
 	}
 }
 
-/// The points that are left of a chain, moved by at most twice p_tolerance so that each line has as
-/// much of the loop on one side as on the other: chords of a curve alone make what is round
-/// smaller. What lines that end on the rectangle's border lack, the others get.
+/// Returns the points kept in a chain, moved by at most twice p_tolerance so that each line has as
+/// much of the loop on one side as on the other, because replacing a curve by chords alone would
+/// shrink round shapes. The other lines make up for those that end on the rectangle's border.
 PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {
 	struct Line {
 		glm::dvec2 normal;

@@ -98,7 +98,7 @@ class EditorCase(DisplayTest):
         self.wait_frames(matches=lambda state: state["is_resting"])
 
     def photograph(self, begin=0.0, end=1.0):
-        """Return the viewport between two fractions of its width as raw bytes, without what the mouse calls up there."""
+        """Return the viewport between two fractions of its width as raw bytes, without hover effects."""
         self.press("mousemove", *NOWHERE, "sleep", "0.1")
         self.rest()
         left, top, right, bottom = (int(value) for value in self.get_state()["items"]["viewport"])

@@ -19,7 +19,7 @@ public:
 	PropertyEditor(EditorContext &r_context, const PropertyInfo &p_info, PropertyValue &r_value) :
 			context(r_context), info(p_info), value(r_value) {}
 
-	/// True: the user has changed the value.
+	/// Returns true if the user has changed the value.
 	bool draw() {
 		ImGui::SetNextItemWidth(-1.0f);
 		switch (info.type) {
@@ -147,8 +147,8 @@ void draw_label(const PropertyInfo &p_info) {
 	}
 }
 
-/// What the widgets of one frame request; done after all are drawn, since a change may declare
-/// other properties.
+/// The edit that the widgets of one frame request. It is applied after all are drawn, because a
+/// change may declare other properties.
 struct PropertyEdit {
 	bool is_requested = false;
 	std::string name;
@@ -197,7 +197,8 @@ void draw_property(EditorContext &r_context, const Node3D &p_node, const Propert
 	ImGui::PopID();
 }
 
-/// That the values below are not those that the viewport shows.
+/// Notes that an animation poses the node, so that the viewport shows values other than those
+/// below.
 void draw_pose(EditorContext &r_context, const Node3D &p_node) {
 	const Animation *animation = r_context.document.get_timeline().get_animation();
 	const auto *instance = dynamic_cast<const MeshInstance3D *>(&p_node);
@@ -219,7 +220,7 @@ bool matches_filter(const EditorContext &p_context, const PropertyInfo &p_info) 
 			p_info.group.find(p_context.inspector_filter) != std::string::npos;
 }
 
-/// All properties under one heading, as they follow each other in the list.
+/// Draws all properties under one heading, in the order of the list.
 void draw_group(EditorContext &r_context, const Node3D &p_node, const std::string &p_group,
 		const std::vector<PropertyInfo> &p_properties, PropertyEdit &r_edit) {
 	const char *heading = p_group.empty() ? "Other" : p_group.c_str();

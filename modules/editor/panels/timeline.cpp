@@ -13,7 +13,8 @@ namespace {
 
 const double GREATEST_SPEED = 10;
 
-/// Above the widget that was drawn last, whose value it would cover; not while it is dragged.
+/// Shows the tooltip above the widget drawn last, so that it does not cover the value; hidden while
+/// the widget is dragged.
 void show_tooltip(const std::string &p_text) {
 	if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive()) {
 		return;
@@ -27,7 +28,7 @@ void show_tooltip(const std::string &p_text) {
 	ImGui::SetTooltip("%s", p_text.c_str());
 }
 
-/// A triangle, or two bars while it plays.
+/// Draws a triangle, or two bars while the animation plays.
 void draw_play_button(EditorContext &r_context) {
 	const Timeline &timeline = r_context.document.get_timeline();
 	const float side = ImGui::GetFrameHeight();

@@ -56,7 +56,7 @@ void move_camera(ViewportState &r_viewport, bool p_is_hovered) {
 	}
 }
 
-/// Which view of the light in question, and which technique in addition to its own.
+/// Draws the choice of the debug view and of the technique to compare with.
 void draw_choices(EditorContext &r_context) {
 	ViewportState &viewport = r_context.viewport;
 	const auto choose = [&](std::string &r_choice, const std::string &p_choice,
@@ -112,7 +112,7 @@ void draw_choices(EditorContext &r_context) {
 	}
 }
 
-/// The image, or two with a line between them.
+/// Draws the image, or two images with a line between them.
 void draw_images(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	if (r_context.image == nullptr) {
 		return;
@@ -130,7 +130,7 @@ void draw_images(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	list.AddLine(ImVec2(x, p_least.y), ImVec2(x, greatest.y), IM_COL32(255, 255, 255, 220), 2.0f);
 }
 
-/// Instead of a message elsewhere: what is wrong with a shader that was changed.
+/// Shows what is wrong with a shader that was changed.
 void draw_shader_errors(const EditorContext &p_context, ImVec2 p_least, ImVec2 p_size) {
 	std::string lines;
 	for (const auto &[shader, failure] : p_context.shader_errors) {
@@ -169,7 +169,7 @@ void draw_line_handle(EditorContext &r_context, ImVec2 p_least, ImVec2 p_size) {
 	}
 }
 
-/// A click that is no drag selects what is under the mouse.
+/// A click that is not a drag selects what is under the mouse.
 void pick(EditorContext &r_context, const ViewportProjection &p_projection) {
 	const float FARTHEST_PX = 4.0f;
 	const ImGuiIO &io = ImGui::GetIO();

@@ -13,7 +13,7 @@ const ImU32 MARK_COLOR = IM_COL32(230, 230, 230, 200);
 const ImU32 OUTER_COLOR = IM_COL32(255, 150, 40, 230);
 const ImU32 INNER_COLOR = IM_COL32(70, 150, 255, 230);
 
-/// The radius at which the mouse now holds the handle of a circle, as far along the line from its
+/// Returns the radius for the handle of a circle at the mouse's position along the line from the
 /// centre to the handle.
 double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
@@ -29,7 +29,7 @@ double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 	return p_radius_m * (1.0 + glm::dot(moved, way) / (length_px * length_px));
 }
 
-/// A sun for a light, a frame for a camera.
+/// Draws a sun for a light, a frame for a camera.
 void draw_mark(ImDrawList &r_list, const ImVec2 &p_position, bool p_is_light, ImU32 p_color) {
 	const float radius = 0.3f * ImGui::GetFontSize();
 	if (!p_is_light) {
