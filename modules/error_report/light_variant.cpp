@@ -12,18 +12,18 @@ namespace gnomon {
 
 namespace {
 
-/// Of a light that was directional, in S: the study's lights are about that far away.
+/// Distance of a light that was directional, as a multiple of S: about that of the study's lights.
 const double DISTANCE_IN_SCENE_SIZES = 1.5;
-const double WIDEST_CONE_RAD = 1.4; // half; beyond, one perspective view has no resolution left
-const double CONE_MARGIN = 1.1;		// the cone's rim would else touch the casters' ball
+const double WIDEST_CONE_RAD = 1.4; // half angle; beyond, one view has too little resolution
+const double CONE_MARGIN = 1.1;		// keeps the cone's rim off the casters' bounding sphere
 
-/// What of a light a variant changes.
+/// The state of a light that a variant changes.
 auto tie_state(Light3D &r_light) {
 	return std::tie(r_light.type, r_light.parent_from_node, r_light.range_m, r_light.inner_cone_rad,
 			r_light.outer_cone_rad, r_light.properties);
 }
 
-/// A light's own state, given back when the variant is built.
+/// Restores a light's own state after the variant is built.
 class LightKeeper {
 public:
 	explicit LightKeeper(Light3D &r_light) : light(r_light), saved(tie_state(r_light)) {
@@ -68,7 +68,7 @@ void change_type(Light3D &r_light, const LightSnapshot &p_before, const SceneSna
 	const glm::dmat4 world_from_parent =
 			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
 	const glm::dmat4 parent_from_light = glm::inverse(world_from_parent) * world_from_light;
-	// A lampshade or a camera that hangs below the light stays where it is.
+	// Child nodes of the light, such as a lampshade or a camera, keep their place.
 	const glm::dmat4 new_from_old = glm::inverse(parent_from_light) * r_light.parent_from_node;
 	for (const std::unique_ptr<Node3D> &child : r_light.children) {
 		child->parent_from_node = new_from_old * child->parent_from_node;
@@ -129,7 +129,7 @@ bool sees_whole_disc(const LightSnapshot &p_light, const glm::vec3 &p_light_posi
 	if (!(distance > 0.0f)) {
 		return false;
 	}
-	// The disc is perpendicular to the way to its centre; its lowest point is R sin below that.
+	// The disc is perpendicular to the direction to its centre; its lowest point is R sin below it.
 	const float cosine = glm::dot(to_light, p_normal) / distance;
 	const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
 	return cosine * distance >= p_light.get_disc_radius() * sine;

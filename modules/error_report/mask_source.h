@@ -14,13 +14,13 @@
 
 namespace gnomon {
 
-/// What a technique is to compute: one light's mask as the camera sees it.
+/// The task for a technique: compute one light's mask as the camera sees it.
 struct MaskQuestion {
 	std::shared_ptr<const SceneSnapshot> scene;
 	std::string light; // name; empty: all lights at once, for their cost only
 	glm::uvec2 size_px = glm::uvec2(0u);
 	uint64_t filter_hash =
-			0; // of the mask filters that there are, which masks and references depend on
+			0; // hash of the registered mask filters, on which masks and references depend
 	/// The scene a frame later, for errors of change; null: not requested.
 	std::shared_ptr<const SceneSnapshot> next_scene = nullptr;
 };
@@ -30,7 +30,7 @@ struct TracedReference {
 	std::vector<uint8_t> sees_whole_light; // per pixel, see sees_whole_disc; 0 where no receiver
 	std::vector<glm::vec3> positions;	   // per pixel, camera-relative, metres
 	std::vector<glm::vec3> normals;		   // per pixel, of the face; 0 where nothing is
-	bool is_double = false;				   // traced in double, as float32 was not enough
+	bool is_double = false;				   // traced in double precision
 	double standard_error = 0;
 	double wall_ms = 0;
 };
@@ -41,22 +41,23 @@ struct MeasuredMask {
 	uint64_t bytes = 0; // of device memory in use
 };
 
-/// Frames drawn for what is in them, not for their time.
+/// Frames that are drawn for their content, not for their time.
 struct DrawnMasks {
 	std::vector<MaskImage> frames;
 	std::vector<std::string> warnings;
 	unsigned validation_message_count = 0; // where the layers are on
 };
 
-/// A technique that the report can measure, or a mask filter behind one.
+/// A technique that the report can measure, or a mask filter applied after one.
 struct TechniqueSource {
 	ReportTechnique info;
 	std::function<std::vector<QualitySetting>(const LightSnapshot &)> get_settings;
-	/// False: it has nothing to do in that scene, and has no rows there. Empty: always.
+	/// Returns false when it has no effect in the scene, which then gets no rows. Empty: always
+	/// true.
 	std::function<bool(const MaskQuestion &)> applies = {};
 };
 
-/// Whoever can draw: the program with its renderer, a test with numbers. Failures are Errors.
+/// Interface to what draws masks: the program with its renderer, or a test double. Throws Errors.
 class MaskSource {
 public:
 	virtual ~MaskSource() = default;
@@ -68,7 +69,7 @@ public:
 			const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) = 0;
 	virtual MeasuredMask measure(
 			const MaskQuestion &p_question, const std::string &p_technique) = 0;
-	/// The questions one after another, as frames of one run: what a technique caches, it reuses.
+	/// Draws the questions as consecutive frames of one run, so that techniques reuse their caches.
 	virtual DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) = 0;
 };

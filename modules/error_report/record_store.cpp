@@ -16,12 +16,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Messages may hold file names, whose bytes may be no UTF-8.
+/// Messages may contain file names, which need not be UTF-8.
 std::string dump_content(const Json &p_json) {
 	return p_json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Ends in a dash and the 16 digits of a hash, as the plan names records: nothing else is removed.
+/// True for names that end in a dash and 16 hash digits, as the plan names records. Only such files
+/// are removed.
 bool is_record_name(const std::string &p_stem) {
 	const size_t dash = p_stem.rfind('-');
 	return dash != std::string::npos && p_stem.size() == dash + 17 &&
@@ -41,7 +42,7 @@ RecordStore::RecordStore(fs::path p_folder) : folder(std::move(p_folder)) {
 
 void RecordStore::save(
 		const std::string &p_name, const Json &p_content, std::span<const uint8_t> p_image) {
-	// The image first: a record that is there is complete.
+	// The image is written first, so that an existing record is complete.
 	if (!p_image.empty()) {
 		save_file_atomically(folder / (p_name + ".png"), p_image);
 	}

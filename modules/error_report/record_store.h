@@ -11,11 +11,11 @@
 
 namespace gnomon {
 
-/// What a report has measured so far, one record a cell, in files that survive a stop. A record is
-/// whole or absent: one that is damaged is reported and counts as absent.
+/// The results measured so far, one record per cell, in files that survive an interruption. A
+/// record is complete or absent: a damaged one is reported and counts as absent.
 class RecordStore {
 public:
-	/// Makes the folder. One that cannot be made or written is an Error.
+	/// Creates the folder. Throws an Error when it cannot be created or written.
 	explicit RecordStore(std::filesystem::path p_folder);
 
 	/// p_image: bytes of a PNG that belongs to the record; may be empty.
@@ -24,7 +24,7 @@ public:
 	std::optional<nlohmann::ordered_json> load(const std::string &p_name) const;
 	/// The record's PNG; empty where it has none.
 	std::vector<uint8_t> load_image(const std::string &p_name) const;
-	/// Copies a record of another store.
+	/// Copies a record from another store.
 	void copy_from(const RecordStore &p_other, const std::string &p_name);
 	void remove(const std::string &p_name);
 	/// Removes records whose names are not in the list: leftovers of other plans.

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: functions that the command line calls.
+// This module registers nothing: the command line calls its functions.

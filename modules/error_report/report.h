@@ -13,8 +13,9 @@
 
 namespace gnomon {
 
-/// What `gnomon report` measures and writes; doc/report_format.md describes it as a file.
+// The data that `gnomon report` measures and writes; doc/report_format.md describes the file.
 
+/// The machine that measured.
 struct ReportMachine {
 	std::string device;
 	std::string driver;
@@ -29,7 +30,7 @@ struct ReportTechnique {
 	std::string name;
 	std::string source;
 	std::string color;		  // "#rrggbb"
-	bool is_baseline = false; // the fallback: what times are ratios to
+	bool is_baseline = false; // the fallback technique, to which time ratios refer
 };
 
 enum class ReportStatus { OK, FAILED, MISSING };
@@ -39,8 +40,8 @@ const char *get_name(ReportStatus p_status);
 /// The exact mask of a configuration, as far as the report keeps it.
 struct ReportReference {
 	double standard_error = 0;
-	bool is_double = false; // of a stability sweep: in double precision, as float32 was not enough
-	double wall_ms = 0;		// to trace it; from the cache, to load it
+	bool is_double = false; // traced in double precision; only in stability sweeps
+	double wall_ms = 0;		// time to trace it, or to load it from the cache
 	std::string image;		// grey and alpha (0 = no receiver); empty where there is none
 	uint64_t receiver_pixel_count = 0;
 	uint64_t penumbra_pixel_count = 0;
@@ -55,13 +56,13 @@ inline constexpr const char *RESOLUTION_GROUP = "resolution";
 inline constexpr const char *ANIMATION_GROUP = "animation"; // value: the time in s
 inline constexpr const char *STABILITY_GROUP = "stability"; // points of sweeps, see StabilitySweep
 
-/// A scene, a light and its size: one question that all techniques answer.
+/// A scene, a light and its size: one task for all techniques.
 struct ReportConfiguration {
-	std::string id;		// its own in the report
+	std::string id;		// unique in the report
 	std::string record; // of its reference, see RecordStore; empty without one
 	std::string group = MATRIX_GROUP;
-	double value = 0;  // abscissa in its group: R in metres, triangles, lights, pixels of a side
-	std::string sweep; // of the stability group, else empty: what the value is of
+	double value = 0;  // abscissa of its group: R in m, triangles, lights, image side in px
+	std::string sweep; // stability group: the sweep that `value` belongs to; else empty
 	std::string scene;
 	std::string light;
 	std::string light_type;				   // "spot", "omni", "directional"
@@ -78,20 +79,20 @@ struct ReportConfiguration {
 
 	bool is_matrix() const { return group == MATRIX_GROUP; }
 	bool is_stability() const { return group == STABILITY_GROUP; }
-	/// A curve of cost has none; everything else is measured against one.
+	/// False for the scaling curves, which only measure cost.
 	bool has_reference() const {
 		return group != TRIANGLES_GROUP && group != LIGHT_SIZE_GROUP && group != LIGHTS_GROUP &&
 				group != RESOLUTION_GROUP;
 	}
 };
 
-/// Over all receivers, and over those that see the whole disc above their own horizon.
+/// Errors over all receivers, and over those for which the whole light is above their horizon.
 struct ReportError {
 	MaskMetrics all;
 	MaskMetrics whole_light;
 };
 
-/// Whose fault an error is.
+/// The cause of an error.
 enum class ErrorCause {
 	METHOD,	   // exact arithmetic would leave it
 	ROUNDING,  // the question itself changes as much when its input is rounded to float32
@@ -100,28 +101,26 @@ enum class ErrorCause {
 /// "method", "rounding", "reference_mask".
 const char *get_name(ErrorCause p_cause);
 
-/// How sensitive visibility is at some points, in double precision: means over the points.
+/// The condition of visibility v at some points, in double precision: means over the points.
 struct VisibilityCondition {
-	/// Change of v over the relative change of the receiver's position that makes it: |dv| rho /
-	/// |dP|, rho the distance to the light (directional: S).
+	/// Condition number: change of v divided by the relative change of the receiver's position P,
+	/// |dv| rho / |dP|, with rho the distance to the light (directional: S).
 	double number = 0;
-	double rounding = 0;		// change of v when P moves by what float32 rounds away
+	double rounding = 0;		// change of v when P is rounded to float32
 	double reference_error = 0; // |v in double - v of the reference|
-	double error = 0;			// of the technique
+	double error = 0;			// |v of the technique - v of the reference|
 	ErrorCause cause = ErrorCause::METHOD;
 };
 
-/// What else a point of a stability sweep or of an animation has; a part of the report (ReportPart)
-/// fills it in.
+/// Additional results of a point of a stability sweep or an animation, filled in by a ReportPart.
 struct ReportStability {
-	/// Over penumbra pixels, when the light moves by a thousandth of its radius or an animation
-	/// plays on for a frame: see TemporalMetrics. None where the light has no position to move to.
+	/// RMS error of the change over penumbra pixels when the light moves by R / 1000, or an
+	/// animation advances by a frame: see TemporalMetrics. None when the light has no position.
 	std::optional<double> temporal_rmse;
-	/// Of the receivers: the share whose reference visibility is 0 or 1 and that are wrong by more
-	/// than a half.
+	/// Fraction of the receivers whose reference visibility is 0 or 1 and whose error exceeds 0.5.
 	double wrong_share = 0;
 	std::vector<std::string> warnings; // that the program gave
-	std::string refusal; // why it drew nothing: an error that states what to do; then no numbers
+	std::string refusal; // the error with which it refused to draw; then there are no numbers
 	std::optional<VisibilityCondition> condition; // where the error is far above the centre's
 };
 
@@ -147,7 +146,7 @@ struct ReportCell {
 /// A scene as its camera sees it, for the page.
 struct ReportSceneImage {
 	std::string scene;
-	bool has_shadows = true; // of all its lights, as the file states them; false: of none
+	bool has_shadows = true; // true: all lights as in the file; false: none cast shadows
 	std::string record;		 // see RecordStore
 	ReportStatus status = ReportStatus::MISSING;
 	std::string message; // why it failed
@@ -156,10 +155,10 @@ struct ReportSceneImage {
 
 struct Report {
 	std::string project;
-	std::string program;	   // version and hash of what measured
+	std::string program;	   // version and hash of the program that measured
 	uint32_t sample_count = 0; // of the references
 	double precision_percent =
-			0; // to which medians of time were to be known; 0: as well as 20 frames do
+			0; // requested precision of median times; 0: that of 20 frames
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;
 	std::vector<ReportSceneImage> scene_images;
@@ -168,11 +167,11 @@ struct Report {
 
 	/// Indices of the cells of one configuration, in order.
 	std::vector<size_t> find_cells(size_t p_configuration) const;
-	/// The baseline's cell in the configuration of that cell, when it was measured.
+	/// The baseline's cell in the same configuration; null when it was not measured.
 	const ReportCell *find_baseline(const ReportCell &p_cell) const;
-	/// Cost over the baseline's; nothing where one of both is not there.
+	/// Cost as a multiple of the baseline's; none when either was not measured.
 	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
-	/// Cells, configurations' references and scenes' images with that status.
+	/// Number of cells, references and scene images with that status.
 	size_t count(ReportStatus p_status) const;
 };
 

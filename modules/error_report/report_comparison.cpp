@@ -17,10 +17,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-const double ERROR_MARGIN = 0.0005;		// differences of rounding between devices stay below
-const double ERROR_MARGIN_SHARE = 0.01; // of the old error
-const double RATIO_MARGIN_SHARE = 0.15; // repeated runs on one machine stay within, mostly
-const double TIME_MARGIN_SHARE = 0.3;	// the same for times, which other work on it changes
+const double ERROR_MARGIN = 0.0005;		// rounding differences between devices are smaller
+const double ERROR_MARGIN_SHARE = 0.01; // fraction of the old error
+const double RATIO_MARGIN_SHARE = 0.15; // repeated runs on one machine mostly differ by less
+const double TIME_MARGIN_SHARE = 0.3;	// for times in ms, which also vary with the machine's load
 
 using Key = std::tuple<std::string, std::string, std::string, uint32_t, uint32_t>;
 
@@ -29,7 +29,7 @@ Key make_key(const Report &p_report, const ReportCell &p_cell) {
 	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
 }
 
-/// How far the 90th percentile of what most of the cost is exceeds the median, as a share.
+/// The 90th percentile minus the median, as a fraction of it, of the largest part of the cost.
 double compute_spread(const ReportCell &p_cell) {
 	const FrameCost &total = p_cell.time.total;
 	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;
@@ -37,7 +37,7 @@ double compute_spread(const ReportCell &p_cell) {
 	return median_ms > 0 ? (is_on_gpu ? total.gpu_ms_p90 : total.wall_ms_p90) / median_ms - 1.0 : 0;
 }
 
-/// For reading: report.json has all digits.
+/// Rounds for display; report.json has all digits.
 std::string format_value(double p_value) {
 	char digits[32];
 	std::snprintf(digits, sizeof(digits), "%.4g", p_value);
@@ -90,7 +90,7 @@ private:
 		compare_times(p_old, p_new);
 	}
 
-	/// What was drawn and is now refused, or became nonsense, and the other way round.
+	/// Reports cells that were usable and are now refused or unusable, and vice versa.
 	void compare_part(const ReportCell &p_old, const ReportCell &p_new) {
 		const ReportPart *part = ReportPartRegistry::find_part(
 				new_report.configurations[p_new.configuration_index].group);

@@ -9,13 +9,13 @@
 
 namespace gnomon {
 
-/// One thing that differs between two reports by more than their noise.
+/// A value that differs between two reports by more than their noise.
 struct ReportDifference {
 	std::string configuration;
 	std::string technique;
 	std::string setting;
-	/// "penumbra error", "receiver error": MAE. "time ratio": cost_ms over the baseline's. "time":
-	/// cost_ms. "status": 1 measured, 0 failed.
+	/// "penumbra error", "receiver error": MAE. "time ratio": cost_ms as a multiple of the
+	/// baseline's. "time": cost_ms. "status": 1 measured, 0 failed.
 	std::string what;
 	double old_value = 0;
 	double new_value = 0;
@@ -32,20 +32,20 @@ struct ReportComparison {
 	size_t only_new_count = 0;
 	bool has_same_machine = true;
 
-	/// An error that grew, or a cell that was measured and now fails.
+	/// True when an error grew, or a cell that was measured before now fails.
 	bool has_regression() const;
 };
 
 /// Cells are the same when configuration, technique and setting have the same names, and the
 /// images the same size.
 ///
-/// An error differs when it does so by more than 0.0005 + 1 %, and, where the references have
-/// different numbers of samples, by more than both standard errors too. Compared are penumbra
-/// pixels, and all receivers, where a leak shows that is in the lit. A time is compared as ratio to
-/// the baseline of its own report, so that a slower machine alone is no difference, and differs by
-/// more than 15 % and by more than the distances from median to 90th percentile of all that it was
-/// made of. The baseline, and cells without one, are compared in milliseconds, on the same machine
-/// only and beyond 30 %.
+/// An error differs when the change exceeds 0.0005 + 1 % and, if the references have different
+/// numbers of samples, also both standard errors. Errors are compared over penumbra pixels, and
+/// over all receivers, which also shows leaks in lit areas. A time is compared as a ratio to the
+/// baseline of its own report, so that a slower machine alone is no difference. It differs when the
+/// change exceeds 15 % and also the spread (median to 90th percentile) of all times involved. The
+/// baseline, and cells without one, are compared in milliseconds, only on the same machine, and
+/// differ beyond 30 %.
 ReportComparison compare_reports(const Report &p_old, const Report &p_new);
 
 nlohmann::ordered_json to_json(const ReportComparison &p_comparison);

@@ -36,8 +36,8 @@ bool is_same_folder(const fs::path &p_first, const fs::path &p_second) {
 	return fs::equivalent(p_first, p_second, code) && !code;
 }
 
-/// The store whose record of that name to take: the first that has it and did not fail, else the
-/// first that has it.
+/// The store from which to take the record of that name: the first with a record that did not fail,
+/// else the first with a record.
 const RecordStore *choose_store(
 		const std::vector<RecordStore> &p_stores, const std::string &p_name) {
 	const RecordStore *failed = nullptr;

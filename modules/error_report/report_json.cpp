@@ -17,17 +17,17 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// T may be const, where it is written.
+/// T is const when the value is written.
 template <typename T, typename Plain>
 concept Either = std::same_as<std::remove_const_t<T>, Plain>;
 
-/// A form names each of its fields once, in describe(), for this and for the Reader.
+/// Writes JSON. Each format names its fields once, in describe(), for the Writer and the Reader.
 struct Writer {
 	Json &json;
 
-	/// Has the form a field that some lack?
+	/// Whether an optional field is written: when it is set.
 	bool has(const char * /*p_name*/, bool p_is_set) const { return p_is_set; }
-	/// What follows from the rest and is not read.
+	/// Adds a derived value, which is not read.
 	void add_computed(const char *p_name, const Json &p_value) const { json[p_name] = p_value; }
 
 	template <typename Describe> void part(const char *p_name, Describe p_describe) const {
@@ -93,7 +93,7 @@ struct Reader {
 	}
 
 private:
-	/// Each enum that a form holds has three values.
+	/// All enums of the format have three values.
 	template <typename T> static T find_value(const char *p_field, const std::string &p_name) {
 		for (const T value : { T(0), T(1), T(2) }) {
 			if (p_name == get_name(value)) {
@@ -105,7 +105,7 @@ private:
 	}
 };
 
-/// Names and fields in turn.
+/// Describes fields; the arguments are alternating names and fields.
 template <typename Form, typename Value, typename... Rest>
 void describe_fields(const Form &p_form, const char *p_name, Value &r_value, Rest &...r_rest) {
 	p_form(p_name, r_value);
@@ -178,7 +178,7 @@ void describe(const auto &p_form, Either<ReportStability> auto &r_stability) {
 			r_stability.temporal_rmse, "condition", r_stability.condition);
 }
 
-/// Everything of a cell but which cell it is.
+/// The results of a cell, without what identifies it.
 void describe_result(const auto &p_form, Either<ReportCell> auto &r_cell) {
 	describe_fields(p_form, "status", r_cell.status, "message", r_cell.message, "error",
 			r_cell.error, "stability", r_cell.stability);
@@ -197,7 +197,7 @@ void describe(const auto &p_form, Either<ReportCell> auto &r_cell) {
 	describe_result(p_form, r_cell);
 }
 
-/// What is known of a configuration's reference.
+/// The results of a configuration's reference.
 void describe_result(const auto &p_form, Either<ReportConfiguration> auto &r_configuration) {
 	describe_fields(p_form, "status", r_configuration.status, "message", r_configuration.message);
 	const bool has_reference =
@@ -231,7 +231,7 @@ void describe(const auto &p_form, Either<ReportConfiguration> auto &r_configurat
 	describe_result(p_form, r_configuration);
 }
 
-/// What is known of a scene's image.
+/// The result of a scene's image.
 void describe_result(const auto &p_form, Either<ReportSceneImage> auto &r_image) {
 	describe_fields(
 			p_form, "status", r_image.status, "message", r_image.message, "image", r_image.image);
@@ -262,7 +262,7 @@ void rename_key(Json &r_json, const char *p_old, const char *p_new) {
 	}
 }
 
-/// Version 1 had other names for what concerns the reference. Of a record or a whole report.
+/// Renames the reference's fields of version 1, in a record or a whole report.
 void upgrade(Json &r_json) {
 	rename_key(r_json, "truth", "reference_mask");
 	if (!r_json.is_object()) {
@@ -305,7 +305,7 @@ Report read_report(Json p_json) {
 	return report;
 }
 
-/// Cell or configuration; one that cannot be read is as before.
+/// Reads a cell or configuration; leaves it unchanged when it cannot be read.
 template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
 	try {
 		upgrade(p_json);

@@ -55,7 +55,7 @@ std::string escape_html(const std::string &p_text) {
 	return replace_all(replace_all(replace_all(p_text, "&", "&amp;"), "<", "&lt;"), ">", "&gt;");
 }
 
-/// The contents of the embedded files of that folder and ending, in the order of their names.
+/// The concatenated embedded files of a folder with an extension, ordered by name.
 std::string join_files(std::string_view p_folder, std::string_view p_ending) {
 	std::string joined;
 	for (const PageFile &file : get_page_files()) {
@@ -108,7 +108,7 @@ std::string build_report_page(const Json &p_report, const RecordStore &p_store) 
 	const Json &configurations = p_report.at("configurations");
 	for (size_t index = 0; index < configurations.size(); ++index) {
 		const Json &configuration = configurations[index];
-		// Of a stability sweep's points few have images of their techniques.
+		// Only few points of a stability sweep have images of their techniques.
 		if (configuration.contains("reference_mask") &&
 				(configuration.value("group", "") != STABILITY_GROUP ||
 						with_images.count(index) != 0)) {

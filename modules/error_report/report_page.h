@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// The page of a report: one HTML file with its plotting library, its data and its images inside,
-/// which loads nothing. p_report: report.json; images are those that it names, from the store.
+/// The page of a report: one self-contained HTML file with its plotting library, data and images.
+/// p_report: report.json; p_store holds the images that it names.
 std::string build_report_page(const nlohmann::ordered_json &p_report, const RecordStore &p_store);
 
 } // namespace gnomon

@@ -14,8 +14,7 @@ namespace gnomon {
 
 namespace {
 
-/// R in S where no sizes are requested: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4
-/// m.
+/// Default R as fractions of S: those of the study's scenes, 0.08, 0.4 and 1.2 m at S = 4 m.
 const double DEFAULT_SIZES[] = { 0.02, 0.1, 0.3 };
 const char *const SCALING_SCENE_NAME = "torus_knot, generated";
 
@@ -23,7 +22,7 @@ using SceneCache = LastValue<ScalingScene, std::shared_ptr<const Scene>>;
 
 enum class ExpensiveSettings { MEASURED, SKIPPED };
 
-/// Letters, digits and underscores, for file names.
+/// Reduces a name to letters, digits and underscores, for file names.
 std::string make_slug(const std::string &p_text) {
 	std::string slug;
 	for (const char letter : p_text) {
@@ -58,9 +57,9 @@ uint64_t add_instance(const InstanceSnapshot &p_instance, uint64_t p_hash) {
 	return compute_value_hash(p_instance.material->is_double_sided, p_hash);
 }
 
-/// 64 bits that change when anything changes that the mask could depend on: the casters and their
-/// positions, what scatters, the camera, the light (all lights where the question names none) with
-/// all its properties, and the size of the image.
+/// 64-bit hash of everything that the mask may depend on: the casters and their transforms, the
+/// scattering materials, the camera, the light (all lights when the question names none) with all
+/// its properties, and the size of the image.
 uint64_t compute_question_hash(const MaskQuestion &p_question) {
 	const SceneSnapshot &scene = *p_question.scene;
 	uint64_t hash = scene.camera.compute_hash(1);
@@ -141,7 +140,7 @@ private:
 				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
 	}
 
-	/// Of a scene as a whole.
+	/// Data of a scene that all its configurations share.
 	void add_failure(const std::string &p_scene, const std::string &p_message) {
 		ReportConfiguration configuration;
 		configuration.id = p_scene;
@@ -253,7 +252,7 @@ private:
 				ExpensiveSettings::SKIPPED);
 	}
 
-	/// Fills in what the scene states, and plans the cells.
+	/// Fills in the scene's data and plans the cells.
 	void add_configuration(ReportConfiguration p_configuration,
 			ReportPlan::MakeQuestion p_make_question, ExpensiveSettings p_expensive) {
 		MaskQuestion question;
@@ -300,7 +299,7 @@ private:
 				settings.clear();
 			}
 			if (!p_configuration.is_matrix()) {
-				// A technique of expensive settings is brute force: many times the cost of another.
+				// Expensive settings mean brute force: many times the cost of other techniques.
 				const bool is_expensive = std::any_of(settings.begin(), settings.end(),
 						[](const QualitySetting &p_setting) { return p_setting.is_expensive; });
 				if (is_expensive && !p_configuration.has_reference() &&

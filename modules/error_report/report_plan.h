@@ -22,20 +22,20 @@ struct ReportScene {
 	std::string failure;
 };
 
-/// What of a scene is measured: how it is seen, and the masks of which lights.
+/// The camera and the lights of a scene that are measured.
 struct ReportView {
 	Camera3D *camera = nullptr;
 	std::vector<Light3D *> lights; // those that cast shadows; at least one
 };
-/// An Error where the scene was not loaded, has no camera, or no light that casts shadows.
+/// Throws an Error when the scene was not loaded, has no camera, or no light that casts shadows.
 ReportView find_report_view(const ReportScene &p_scene);
 
 struct ReportOptions {
 	std::string project;
 	std::string program;			   // version and hash of this program: others measure again
-	std::vector<double> sizes_m;	   // R; empty: 0.02, 0.1 and 0.3 S of each scene
-	bool has_own_sizes = false;		   // instead: each light's own
-	bool has_default_settings = false; // each technique's defaults alone, no other quality levels
+	std::vector<double> sizes_m;	   // R in metres; empty: 0.02, 0.1 and 0.3 S of each scene
+	bool has_own_sizes = false;		   // true: each light keeps its size instead
+	bool has_default_settings = false; // true: only each technique's default quality level
 	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
 	/// that cast shadows, as they are.
 	std::vector<LightType> light_types;
@@ -53,9 +53,8 @@ struct ReportOptions {
 	bool has_sweep(const std::string &p_id) const;
 };
 
-/// What is to be measured: a report whose references and cells are still missing, and how to
-/// compute each. Questions are built when they are needed, since a scene may hold a million
-/// triangles.
+/// The planned measurements: a report whose references and cells are still missing, and how to
+/// compute each. Questions are built on demand, since a scene may have a million triangles.
 struct ReportPlan {
 	Report report;
 	std::vector<std::shared_ptr<const SceneSnapshot>> shown_scenes; // of Report::scene_images

@@ -28,7 +28,7 @@ double get_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
 
-/// The sum so far plus that part; absent as soon as one of both is.
+/// The sum of both; absent when either is absent.
 std::optional<double> add_share(
 		const std::optional<double> &p_sum, const std::optional<double> &p_value, double p_share) {
 	return p_sum && p_value ? std::optional(*p_sum + *p_value * p_share) : std::nullopt;
@@ -76,7 +76,7 @@ RankingRow summarize(const Report &p_report, const std::string &p_technique,
 	return row;
 }
 
-/// Rows by rising error from lists of cells, whose key is technique and setting.
+/// Rows by ascending error, from lists of cells keyed by technique and setting.
 std::vector<RankingRow> summarize_all(const Report &p_report,
 		const std::map<std::pair<std::string, std::string>, std::vector<size_t>> &p_lists) {
 	std::vector<RankingRow> rows;

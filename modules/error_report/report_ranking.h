@@ -20,25 +20,24 @@ struct RankingRow {
 	double penumbra_rmse = 0;
 	double penumbra_p99 = 0;
 	double penumbra_bias = 0;
-	/// ErrorMetrics::wrong; absent where one of the cells is of a report without it.
+	/// ErrorMetrics::wrong; absent when a cell comes from a report without it.
 	std::optional<double> penumbra_wrong;
 	std::optional<double> receiver_wrong;
 	double umbra_over = 0;
-	std::optional<double> whole_light_penumbra_mae; // where such pixels are
+	std::optional<double> whole_light_penumbra_mae; // absent when there are no such pixels
 	double cost_ms = 0;
 	std::optional<double> time_ratio;
 };
 
-/// Settings by rising mean error over the configurations of the matrix.
+/// Settings, sorted by ascending mean error over the configurations of the matrix.
 std::vector<RankingRow> rank_settings(const Report &p_report);
-/// Techniques in the same way, each with its setting of least error chosen separately in each
-/// configuration.
+/// Techniques, sorted in the same way, each with the setting of least error per configuration.
 std::vector<RankingRow> rank_best_settings(const Report &p_report);
 
-/// Cells of a configuration by rising cost, of which no other cell is both cheaper and closer to
-/// the reference. Cells without error or time are not on it.
+/// The Pareto front of a configuration: cells for which no other is both cheaper and closer to the
+/// reference, by ascending cost. Cells without error or time are not on it.
 std::vector<size_t> find_pareto_front(const Report &p_report, size_t p_configuration);
-/// The cell of least error whose cost is within the budget; nothing where none is.
+/// The cell of least error whose cost is within the budget; none when there is no such cell.
 std::optional<size_t> find_within_budget(
 		const Report &p_report, size_t p_configuration, double p_budget_ms);
 

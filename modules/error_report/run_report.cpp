@@ -22,7 +22,7 @@ namespace {
 
 const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
 
-/// The mask with the receivers that the list omits taken away.
+/// The mask restricted to the receivers in the list.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_included) {
 	MaskImage restricted = p_mask;
 	for (size_t index = 0; index < restricted.receiver.size(); ++index) {
@@ -34,7 +34,7 @@ MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_i
 	return restricted;
 }
 
-/// Grey and alpha: what is no receiver is transparent.
+/// Grey and alpha; pixels without a receiver are transparent.
 std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	const std::vector<uint8_t> grey = compute_mask_pixels(p_mask);
 	std::vector<uint8_t> pixels;
@@ -45,13 +45,13 @@ std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	return encode_png(p_mask.size_px, 2, pixels);
 }
 
-/// Runs a piece of work that may fail; its message, or nothing when it went well.
+/// Runs a task that may fail; returns its error message, or an empty one on success.
 template <typename Work> std::optional<std::string> find_failure(Work p_work) {
 	try {
 		p_work();
 		return std::nullopt;
 	} catch (const DeviceLost &error) {
-		// All that is left would fail too; it is not marked, so that a resume measures it.
+		// All remaining tasks would fail too. They are not marked, so that a resume measures them.
 		throw DeviceLost(text(error.what(), " What was measured is saved: go on with --resume."));
 	} catch (const std::exception &error) {
 		return describe_failure(error);
@@ -81,18 +81,18 @@ private:
 	bool is_mine(size_t p_configuration) const {
 		const ReportConfiguration &configuration = plan.report.configurations[p_configuration];
 		if (configuration.is_stability()) {
-			// A whole curve each, since its points are judged by its centre.
+			// Shards get whole curves, since a curve's points are judged by its centre.
 			const uint64_t hash = compute_text_hash(
 					configuration.light_type, compute_text_hash(configuration.sweep, 1));
 			return hash % options.shard_count == options.shard_index;
 		}
-		// Along diagonals: sizes follow one another, and the middle ones have the expensive
-		// settings.
+		// Shards are diagonals of the matrix: sizes are adjacent, and the middle ones have the
+		// expensive settings.
 		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
 				options.shard_index;
 	}
 
-	/// Takes over what is there or takes it away, and counts what is left to do.
+	/// Loads or removes existing records, and counts the remaining tasks.
 	void load_earlier() {
 		if (options.resumes) {
 			report = collect_report(plan.report, store, &machine);
@@ -111,7 +111,7 @@ private:
 		}
 	}
 
-	/// Those of other shards stay, also where one question belongs to both.
+	/// Records of other shards are kept, even when both shards have the same question.
 	void remove_own_records() {
 		std::set<std::string> own;
 		std::set<std::string> others;
@@ -128,7 +128,7 @@ private:
 		}
 	}
 
-	/// What made it fail may have gone away.
+	/// Removes failed records: the cause of the failure may be gone.
 	void retry_failures() {
 		const auto retry = [](auto &r_items, const auto &p_planned) {
 			for (size_t index = 0; index < r_items.size(); ++index) {
@@ -142,7 +142,7 @@ private:
 		retry(report.cells, plan.report.cells);
 	}
 
-	/// Once a scene, before its first configuration.
+	/// Called once per scene, before its first configuration.
 	void run_scene_images(const std::string &p_scene) {
 		for (size_t index = 0; index < report.scene_images.size(); ++index) {
 			ReportSceneImage &shown = report.scene_images[index];
@@ -218,7 +218,7 @@ private:
 				configuration.record + ".png", metrics.receiver.pixel_count,
 				metrics.penumbra.pixel_count };
 		} else {
-			return; // measured by the run that was stopped
+			return; // measured by the interrupted run
 		}
 		store.save(configuration.record, reference_result_to_json(configuration), image);
 	}

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-// Edges in all lists: on average so many for each block, and 24 MB at most. Lists without room cost
-// time, not exactness.
+// Capacity of all edge lists: an average per block, and 24 MB at most. Blocks whose lists do not
+// fit cost time, but are still exact.
 constexpr uint64_t LISTED_EDGES_PER_BLOCK = 2048;
 constexpr uint64_t MOST_LISTED_EDGES = 6'000'000;
 
@@ -21,7 +21,7 @@ glm::uvec2 divide_up(glm::uvec2 p_value, uint32_t p_divisor) {
 	return (p_value + (p_divisor - 1)) / p_divisor;
 }
 
-/// What every pass over blocks reads, count_blocks_inc.glsl.
+/// The bindings of every pass over blocks, count_blocks_inc.glsl.
 std::vector<PassBinding> make_block_bindings(const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = p_blocks.receivers;
 	bindings.push_back(PassBinding::constants(COUNT_BINDING_LIGHT, p_blocks.constants));
@@ -29,7 +29,7 @@ std::vector<PassBinding> make_block_bindings(const CountBlocks &p_blocks) {
 	return bindings;
 }
 
-/// And the face lists, count_lists_inc.glsl.
+/// Adds the bindings of the face lists, count_lists_inc.glsl.
 std::vector<PassBinding> make_plain_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_block_bindings(p_blocks);
@@ -42,7 +42,7 @@ std::vector<PassBinding> make_plain_bindings(
 	return bindings;
 }
 
-/// And what count_resolve_inc.glsl reads.
+/// Adds the bindings of count_resolve_inc.glsl.
 std::vector<PassBinding> make_count_bindings(
 		const CountBlockPasses &p_passes, const CountBlocks &p_blocks) {
 	std::vector<PassBinding> bindings = make_plain_bindings(p_passes, p_blocks);
@@ -55,7 +55,7 @@ std::vector<PassBinding> make_count_bindings(
 	return bindings;
 }
 
-/// A pass over the blocks of one kind, of as many work groups as the dispatches state.
+/// Adds an indirect dispatch over the blocks of one kind.
 void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, const std::string &p_name, const std::string &p_shader,
 		uint32_t p_kind, std::vector<PassBinding> p_bindings) {
@@ -82,7 +82,7 @@ void add_kind_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 	});
 }
 
-/// In blocks that have more edges than the budget: percentage-closer soft shadows.
+/// Adds percentage-closer soft shadows for the blocks that have more edges than the budget.
 void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 		const CountBlocks &p_blocks, RGTexture p_mask) {
 	CountBlocks blocks = p_blocks;
@@ -100,7 +100,7 @@ void add_filter_pass(RenderGraph &r_graph, const CountBlockPasses &p_passes,
 
 uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count) {
 	const glm::uvec2 blocks = divide_up(p_size_px, EDGE_COUNT_BLOCK_PX);
-	// In powers of two: few sizes of memory while the scene changes.
+	// Rounded to powers of two, so that the memory size seldom changes with the scene.
 	const uint64_t edges = std::min<uint64_t>(std::bit_ceil(p_edge_count), LISTED_EDGES_PER_BLOCK);
 	const uint64_t chunks_per_block = std::max<uint64_t>(edges / EDGE_COUNT_CHUNK_SIZE, 1);
 	return static_cast<uint32_t>(

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// What the passes over an image's pixels need, and what they make for one another.
+/// The inputs of the passes over an image's pixels.
 struct CountBlockPasses {
 	const ShadowTechnique::Inputs &inputs;
 	const CountSettings &settings;
@@ -13,7 +13,7 @@ struct CountBlockPasses {
 	CountCapacities capacities;
 	uint32_t empty_views = 0; // bit i: view i has no casters or no receivers
 	RGBuffer masks;			  // the tables of DiscMasks, one per turn
-	/// The views' nearest casters, where blocks may have more edges than the budget; else empty.
+	/// Depth map of the views, when blocks may have more edges than the budget; else empty.
 	RGTexture depth_map;
 	std::vector<LightView> depth_views; // of that map
 };
@@ -22,8 +22,8 @@ struct CountBlockPasses {
 struct CountBlocks {
 	std::vector<PassBinding> receivers; // make_map_resolve_bindings
 	RGBuffer constants;					// CountLightConstants
-	RGBuffer receives;					// of each block, EDGE_COUNT_RECEIVES_*
-	RGBuffer chains;					// of each block and part, EDGE_COUNT_CHAIN_*
+	RGBuffer receives;					// per block, EDGE_COUNT_RECEIVES_*
+	RGBuffer chains;					// per block and part, EDGE_COUNT_CHAIN_*
 	RGBuffer lists;
 	RGBuffer blocks;	 // by kind, EDGE_COUNT_BLOCKS_*
 	RGBuffer dispatches; // see EDGE_COUNT_BLOCK_KINDS
@@ -35,19 +35,19 @@ shader::CountLightConstants make_block_constants(const ShadowTechnique::Inputs &
 		const CountSettings &p_settings, const CountCapacities &p_capacities,
 		uint32_t p_empty_views);
 
-/// Passes that find the bounds of each block's receivers and its edges.
+/// Adds passes that find the bounds of each block's receivers and list its edges.
 CountBlocks add_block_passes(RenderGraph &r_graph, const CountBlockPasses &p_passes);
 
-/// A pass for the blocks of each kind. Returns the mask.
+/// Adds one pass for each kind of block. Returns the mask.
 RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
-/// Three layers: edges that were counted per pixel, solids between it and the light's centre, and
-/// its block's kind.
+/// Adds a pass that writes a debug image with three array layers: per pixel the number of edges
+/// that were counted, the number of solids before the light's centre, and the block's kind.
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
-/// Chunks in the lists of all blocks for which there is room, 1 or more.
+/// Capacity of the edge lists of all blocks together, in chunks; at least 1.
 uint32_t choose_chunk_capacity(glm::uvec2 p_size_px, uint32_t p_edge_count);
 
 } // namespace gnomon

@@ -12,8 +12,8 @@ namespace gnomon {
 
 namespace {
 
-// Nodes of a view's face lists where their number is not known beforehand: for each face the four
-// texels that a small one meets at most, and for each texel some large ones.
+// Node capacity of a view's face lists when no bound is known: four per face, the maximum number of
+// texels that a small face meets, and some per texel for large faces.
 constexpr uint64_t NODES_PER_FACE = 4;
 constexpr uint64_t NODES_PER_TEXEL_OF_ONE_VIEW = 4;
 constexpr uint64_t NODES_PER_TEXEL_OF_SIX_VIEWS = 2;
@@ -42,7 +42,7 @@ CountCapacities choose_capacities(
 			capacities.texels_per_view *
 					(p_view_count == 1 ? NODES_PER_TEXEL_OF_ONE_VIEW
 									   : NODES_PER_TEXEL_OF_SIX_VIEWS);
-	// In powers of two, so that what moves seldom needs other buffers.
+	// Rounded to powers of two, so that a moving scene seldom needs other buffers.
 	const uint64_t bound = p_casters.node_bound;
 	capacities.nodes_per_view = static_cast<uint32_t>(
 			bound >= usual ? usual : std::min(usual, std::bit_ceil(std::max(bound, uint64_t(1)))));
@@ -56,7 +56,7 @@ bool CountBuffers::prepare(RenderingDevice &p_device, const std::string &p_light
 	if (nodes && capacities.view_count == needed.view_count &&
 			capacities.texels_per_view == needed.texels_per_view &&
 			capacities.face_count == needed.face_count) {
-		// Never fewer than there are: a scene that swings about a limit reuses its buffers.
+		// Capacities never shrink: a scene that oscillates about a limit reuses its buffers.
 		needed.nodes_per_view = std::max(needed.nodes_per_view, capacities.nodes_per_view);
 	}
 	if (nodes && capacities == needed) {

@@ -7,13 +7,13 @@
 
 namespace gnomon {
 
-/// How the buffers of one light are divided.
+/// Capacities of one light's buffers.
 struct CountCapacities {
 	uint32_t view_count = 1;
 	uint32_t texels_per_view = 0;
 	uint32_t nodes_per_view = 0;
 	uint32_t face_count = 0;
-	uint32_t cut_face_count = 0; // that may cut the light's disc
+	uint32_t cut_face_count = 0; // faces that may cut the light's disc
 	uint32_t edge_count = 0;
 	uint32_t word_count = 0;
 	uint32_t block_count = 0;
@@ -22,29 +22,29 @@ struct CountCapacities {
 	uint32_t get_bundle_group_count() const;
 };
 
-/// Room for all faces and edges. For nodes of face lists as many as there may be, where that is
-/// known and little, else enough for nearly all scenes.
+/// Chooses capacities for all faces and edges. The node capacity of the face lists is their upper
+/// bound when that is known and small, else enough for nearly all scenes.
 CountCapacities choose_capacities(
 		uint32_t p_view_count, glm::uvec2 p_map_size_px, const CountCasters &p_casters);
 
-/// Buffers of one light, as handles of this frame.
+/// This frame's handles of one light's buffers.
 struct CountFrameBuffers {
 	RGBuffer planes;	// vec4 per face
 	RGBuffer faces;		// CountFaceRecord
 	RGBuffer words;		// a bit per edge of the casters
-	RGBuffer blocks;	// how many of them are set
+	RGBuffer blocks;	// number of set bits per block of words
 	RGBuffer edges;		// CountEdgeRecord
 	RGBuffer bundles;	// CountEdgeBundle
-	RGBuffer heads;		// of the texels' face lists, by view
-	RGBuffer nodes;		// of the same lists
-	RGBuffer cut_faces; // that may cut the light's disc
+	RGBuffer heads;		// first nodes of the texels' face lists, by view
+	RGBuffer nodes;		// nodes of these lists
+	RGBuffer cut_faces; // faces that may cut the light's disc
 	RGBuffer totals;	// EDGE_COUNT_TOTAL_*
 };
 
 /// The GPU memory of one light, reused from frame to frame.
 class CountBuffers {
 public:
-	/// Makes what is missing. Returns false when nothing of earlier frames is in the buffers.
+	/// Creates missing buffers. Returns false when the buffers hold nothing from earlier frames.
 	bool prepare(RenderingDevice &p_device, const std::string &p_light,
 			const CountCapacities &p_capacities);
 	void reset();

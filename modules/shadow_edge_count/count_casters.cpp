@@ -16,13 +16,13 @@ namespace {
 // Below 24 bits, see EDGE_COUNT_FACE_MASK.
 constexpr uint32_t MAX_COUNT = 10'000'000;
 
-// Faces that are looked at one by one: at most some tenths of a millisecond.
+// Maximum number of faces to examine one by one, which takes some tenths of a millisecond.
 constexpr uint32_t MAX_BOUNDED_FACES = 20'000;
 
-const double SIDE_TOLERANCE_SIZES = 2.5e-7; // of S: what rounding may move a face's plane
+const double SIDE_TOLERANCE_SIZES = 2.5e-7; // shift by rounding, fraction of S
 const double SIDE_TOLERANCE_COSINE = 1e-6;	// the same, directional
 
-/// How many texels the faces of a mesh may cover in part.
+/// Upper bound of the number of texels that the faces of a mesh overlap.
 uint64_t compute_node_bound(
 		const MeshTopology &p_topology, const glm::mat4 &p_clip_from_node, glm::vec2 p_size_px) {
 	const double whole = double(p_size_px.x) * p_size_px.y;
@@ -34,7 +34,7 @@ uint64_t compute_node_bound(
 	for (size_t first = 0; first < p_topology.triangles.size(); first += 3) {
 		glm::dvec2 positions[3];
 		bool is_before = false;
-		int outside_counts[5] = {}; // all three corners beyond one of the view's planes: not there
+		int outside_counts[5] = {}; // vertices outside each view plane; 3: not in the view
 		for (size_t corner = 0; corner < 3; ++corner) {
 			const glm::dvec4 point(clip[p_topology.triangles[first + corner]]);
 			outside_counts[0] += point.x > point.w;
@@ -54,8 +54,8 @@ uint64_t compute_node_bound(
 		const glm::dvec2 size =
 				glm::min(greatest, glm::dvec2(p_size_px)) - glm::max(least, glm::dvec2(0.0)) + 2.0;
 		const double box = std::max(size.x, 0.0) * std::max(size.y, 0.0);
-		// A convex region meets no more unit squares than it has lattice points within a square's
-		// reach: its own area, its bounds' sides, half of both outlines.
+		// Upper bound of the unit squares that a convex region overlaps, from its area, the sides
+		// of its bounds and its perimeter.
 		const glm::dvec2 u = positions[1] - positions[0];
 		const glm::dvec2 v = positions[2] - positions[0];
 		const double outline = glm::length(u) + glm::length(v) + glm::length(u - v);
@@ -68,7 +68,7 @@ uint64_t compute_node_bound(
 	return static_cast<uint64_t>(std::ceil(sum));
 }
 
-/// True where the instance's bounds come as near to the light's centre as R.
+/// True when the instance's bounds come within R of the light's centre.
 bool is_near_light(
 		const InstanceSnapshot &p_instance, const LightView &p_view, double p_disc_radius) {
 	const double WIDENED = 1.01; // for rounding
@@ -102,7 +102,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 	std::iota(view_indices.begin(), view_indices.end(), 0u);
 	CountCasters result;
 	std::set<uint32_t> with_faces;
-	bool is_deformed = false; // faces are elsewhere than the CPU has them
+	bool is_deformed = false; // the CPU does not know the faces' positions
 	for (const uint32_t index : collect_casters(p_inputs, view_indices)) {
 		const InstanceSnapshot &instance = p_inputs.scene.instances[index];
 		const double volume = glm::determinant(glm::dmat3(instance.world_from_node));
@@ -160,7 +160,7 @@ CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double
 					: 0;
 		}
 		result.empty_views |= face_count == 0 ? 1u << view : 0u;
-		// All casters: also those known to be outside the view.
+		// All casters, including those known to be outside the view.
 		for (const uint32_t index : with_faces) {
 			if (is_bounded) {
 				const InstanceSnapshot &instance = p_inputs.scene.instances[index];

@@ -12,7 +12,7 @@ static_assert(NO_FACE == EDGE_COUNT_NO_FACE);
 
 namespace {
 
-/// Of 10 bits each becomes one number; the bits of one are three apart.
+/// Spreads the lowest 10 bits to every third bit, for a Morton code.
 uint32_t spread_bits(uint32_t p_value) {
 	uint32_t value = (p_value | p_value << 16) & 0x030000ffu;
 	value = (value | value << 8) & 0x0300f00fu;
@@ -20,7 +20,7 @@ uint32_t spread_bits(uint32_t p_value) {
 	return (value | value << 2) & 0x09249249u;
 }
 
-/// Edges in the order of their middles along a Morton curve through the mesh's bounds.
+/// Edges sorted by their midpoints along a Morton curve through the mesh's bounds.
 std::vector<MeshEdge> sort_edges(const MeshTopology &p_topology) {
 	const std::vector<glm::vec3> &positions = p_topology.welded_positions_node;
 	glm::dvec3 least(1e300);

@@ -11,10 +11,10 @@
 
 namespace gnomon {
 
-/// A mesh as the passes that find faces and edges read it; vertices are welded ones.
+/// A mesh as the passes that find faces and edges read it. Vertices are welded vertices.
 struct CountMesh {
-	/// Those that can be silhouettes: without edges between faces that continue each other. What is
-	/// close together in the mesh is close together here, see CountEdgeBundle.
+	/// The edges that can be silhouettes: not those between coplanar faces. Sorted for spatial
+	/// locality, see CountEdgeBundle.
 	std::vector<shader::CountMeshEdge> edges;
 	std::vector<shader::CountMeshFace> faces;
 
@@ -38,7 +38,7 @@ struct CountGpuMesh {
 	uint32_t block_count = 0;
 };
 
-/// A mesh whose triangles all collapse has no faces and no buffers.
+/// A mesh whose triangles are all degenerate has no faces and no buffers.
 CountGpuMesh upload_count_mesh(
 		RenderingDevice &p_device, const std::string &p_name, const MeshTopology &p_topology);
 

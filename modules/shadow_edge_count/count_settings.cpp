@@ -6,9 +6,9 @@ namespace gnomon {
 
 namespace {
 
-/// An edge counts only where it is nearer to the light than a receiver by this share of their
-/// distance; of a directional light, whose receivers have no distance, of max(S, D / 250), with D
-/// the view's depth. Nearer edges are the receiver's own, or rounding.
+/// An edge counts only when it is nearer to the light than the receiver by this fraction of the
+/// receiver's distance to the light (directional: of max(S, D / 250), D the view's depth). Edges
+/// closer to the receiver than that are its own, or rounding.
 const double NEARER_TOLERANCE = 2e-5;
 const double LARGEST_DEPTH_SHARE = 250.0;
 
@@ -51,7 +51,7 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 			static_cast<float>(std::get<double>(p_properties.at("edge_count_interpolation")));
 	const int64_t budget = std::get<int64_t>(p_properties.at("edge_count_budget"));
 	settings.budget = budget < 0 ? EDGE_COUNT_NO_BUDGET : static_cast<uint32_t>(budget);
-	// The mean of both penumbra widths. A directional light's are lengths, over S tangents.
+	// The mean of both penumbra widths in metres; for a directional light divided by S: a tangent.
 	const double widths_m =
 			0.5 * (double(p_light.penumbra_outer_width_m) + p_light.penumbra_inner_width_m);
 	settings.disc_radius =

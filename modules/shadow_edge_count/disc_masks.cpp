@@ -8,7 +8,7 @@ namespace gnomon {
 
 namespace {
 
-/// The bits of a number below p_count, a power of two, the other way round.
+/// Reverses the bits of p_value, which is below p_count, a power of two.
 uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	uint32_t reversed = 0;
 	for (uint32_t bit = 1; bit < p_count; bit *= 2) {
@@ -17,7 +17,7 @@ uint32_t reverse_bits(uint32_t p_value, uint32_t p_count) {
 	return reversed;
 }
 
-/// The middle of a bin of diamond angles, see count_masks_inc.glsl; not unit.
+/// The direction at the centre of a bin of diamond angles, see count_masks_inc.glsl; not unit.
 glm::dvec2 compute_bin_center(uint32_t p_bin) {
 	const double angle = 4.0 * (p_bin + 0.5) / DiscMasks::DIRECTION_COUNT;
 	const double x = angle < 2.0 ? 1.0 - std::abs(angle - 1.0) : std::abs(angle - 3.0) - 1.0;

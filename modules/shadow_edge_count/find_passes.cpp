@@ -8,8 +8,8 @@ namespace {
 
 using Content = PassBuilder::Content;
 
-/// A pass that runs a shader once per caster. p_items: invocations that a caster needs; 0: it is
-/// skipped.
+/// Adds a pass that runs a shader once per caster. p_items: number of invocations that a caster
+/// needs; 0: it is skipped.
 template <typename Items, typename Bind>
 void add_caster_pass(RenderingDevice &p_device, PassBuilder p_pass, const char *p_shader,
 		const CountFindPasses &p_passes, Items p_items, Bind p_bind) {
@@ -83,7 +83,7 @@ void add_edge_passes(
 			{ p_passes.capacities.get_bundle_group_count(), 1, 1 });
 }
 
-/// A compute pass whose size is in a buffer.
+/// Adds a compute pass with an indirect dispatch.
 void add_indirect_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, RGBuffer p_dispatches, uint32_t p_word,
 		const shader::CountFaceListPush &p_push) {
@@ -137,8 +137,8 @@ void add_find_passes(
 
 void add_face_list_passes(RenderGraph &r_graph, RenderingDevice &p_device,
 		const CountFindPasses &p_passes, uint32_t p_view_index) {
-	// Each further attempt has texels as large as the number of nodes of the one before suggests,
-	// the last one a single texel.
+	// Each further attempt chooses larger texels by the node count of the attempt before; the last
+	// one uses a single texel.
 	const uint32_t attempt_count = p_passes.may_be_short ? 5 : 1;
 	const CountFrameBuffers buffers = p_passes.buffers;
 	const std::string view = text(" view ", p_view_index);

@@ -14,8 +14,8 @@ namespace gnomon {
 
 namespace {
 
-constexpr uint32_t BORDER_PX = 1;			 // receivers at the view's side, where rounding decides
-constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // of the filter, as that of pcss
+constexpr uint32_t BORDER_PX = 1;			 // for rounding of receivers at the view's side
+constexpr uint32_t DEPTH_MAP_SIZE_PX = 1024; // for blocks over budget; the same as for pcss
 
 void check_device(const ShadowTechnique::Inputs &p_inputs) {
 	if (!p_inputs.device.get_features().subgroup_operations) {
@@ -44,7 +44,7 @@ void ShadowEdgeCount::get_quality_settings(
 void ShadowEdgeCount::get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const CountSettings view_settings = read_count_settings(p_light, p_scene.scene, p_properties);
-	// A directional light's view holds all casters, and what is outside it has none before it.
+	// A directional light's view holds all casters: nothing can hide receivers outside it.
 	const float margin_m = p_light.type == LightType::DIRECTIONAL
 			? 0.0f
 			: static_cast<float>(view_settings.disc_radius);
@@ -199,7 +199,7 @@ RGTexture ShadowEdgeCount::import_depth_map(RenderGraph &r_graph, const Inputs &
 RGBuffer ShadowEdgeCount::import_masks(RenderGraph &r_graph, const Inputs &p_inputs) {
 	const uint32_t turn_count = settings.get_turn_count();
 	if (!masks || mask_turn_count != turn_count) {
-		// The masks of all turns one behind the other: the shader reads two at once.
+		// The masks of all turns are adjacent, since the shader reads two at once.
 		std::vector<uint64_t> tables;
 		for (uint32_t turn = 0; turn < turn_count; ++turn) {
 			const DiscMasks disc_masks(turn, turn_count);

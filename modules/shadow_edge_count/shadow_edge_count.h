@@ -7,9 +7,9 @@
 
 namespace gnomon {
 
-/// Soft shadows by counting: the solids between a receiver and the light's centre, exactly, plus
-/// the silhouette edges crossed on the way to each point of the light. No noise and no bias to
-/// tune. See doc/techniques/edge_count.md.
+/// Soft shadows by counting: the exact number of solids between a receiver and the light's centre,
+/// plus the silhouette edges crossed between the centre and each sample point of the light. No
+/// noise, and no bias to tune. See doc/techniques/edge_count.md.
 class ShadowEdgeCount : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;
@@ -29,9 +29,9 @@ public:
 	std::vector<std::string> get_shader_files() const override;
 
 private:
-	/// What the buffers were made with.
+	/// The state for which the buffers were filled.
 	struct Drawn {
-		LightView first_view; // whose axes are those of light space
+		LightView first_view; // its axes are those of light space
 		double disc_radius = -1;
 		CountCasters casters;
 		bool has_depth_map = false;
@@ -39,10 +39,10 @@ private:
 
 	void plan_casters(TechniquePlan &r_plan);
 	void plan_blocks(TechniquePlan &r_plan);
-	/// The face lists of a view surely have room.
+	/// True when the face lists of each view certainly fit into their capacity.
 	bool is_node_count_known() const;
 	RGBuffer import_masks(RenderGraph &r_graph, const Inputs &p_inputs);
-	/// The views' nearest casters, for blocks over budget; one texture for all views.
+	/// The depth map for blocks over budget; one texture array for all views.
 	RGTexture import_depth_map(RenderGraph &r_graph, const Inputs &p_inputs);
 	std::vector<LightView> build_depth_views(const Inputs &p_inputs) const;
 
@@ -55,7 +55,7 @@ private:
 
 	// This frame.
 	CountSettings settings;
-	bool has_casters = false; // with faces
+	bool has_casters = false; // some caster has faces
 	bool may_filter = false;  // blocks may have more edges than the budget
 	bool are_casters_found = false;
 	RGBuffer constants; // CountLightConstants, for the passes that find faces

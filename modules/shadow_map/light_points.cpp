@@ -9,8 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr double GOLDEN_ANGLE_RAD = 2.399963229728653;
-// 1 / the plastic number: the golden ratio would run in step with the golden angle, and tie the
-// radius to the direction.
+// 1 / plastic number. The golden ratio would be correlated with the golden angle, and so would the
+// radius with the direction.
 constexpr double RADIUS_STEP = 0.7548776662466927;
 
 glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
@@ -19,7 +19,7 @@ glm::dvec2 compute_vogel_point(uint32_t p_index, uint32_t p_count) {
 	return radius * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
 }
 
-/// Inverts F(x) = 2/pi (asin x - x sqrt(1 - x^2)), the share of the ball's density within x R.
+/// Inverts F(x) = 2/pi (asin x - x sqrt(1 - x^2)), the fraction of the points within x R.
 double compute_ball_radius(double p_share) {
 	double low = 0;
 	double high = 1;
@@ -32,7 +32,7 @@ double compute_ball_radius(double p_share) {
 }
 
 glm::dvec3 compute_ball_point(uint32_t p_index, uint32_t p_count) {
-	// Fibonacci sphere for the direction; the radius runs through its strata in another order.
+	// A Fibonacci sphere gives the direction; the radius visits its strata in another order.
 	const double z = 1 - 2 * (p_index + 0.5) / p_count;
 	const double angle_rad = GOLDEN_ANGLE_RAD * p_index;
 	const double share = std::fmod(0.5 + p_index * RADIUS_STEP, 1.0);

@@ -4,10 +4,10 @@
 
 namespace gnomon {
 
-/// Depth seen from the light's centre, compared per pixel: hard, or the mean over n x n texels.
-/// Blind to the light's size. Receivers are compared with their own plane at the texel's centre, so
-/// that no depth bias has to be tuned. A map is cached while neither its view nor its casters
-/// change.
+/// Shadow map from the light's centre, compared per pixel: hard, or percentage-closer filtered over
+/// n x n texels. Ignores the light's size. The comparison uses the receiver's plane at the texel's
+/// centre, so that no depth bias has to be tuned. A map is cached while neither its view nor its
+/// casters change.
 class ShadowMap : public DepthMapTechnique {
 public:
 	ShadowMap() :

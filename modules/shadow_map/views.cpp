@@ -14,7 +14,7 @@ namespace gnomon {
 namespace {
 
 uint32_t get_count(const LightSnapshot &p_light, const PropertyValues &p_properties) {
-	// All points of a light without size are one.
+	// A light without size has a single point.
 	return p_light.get_disc_radius() > 0.0f
 			? static_cast<uint32_t>(std::get<int64_t>(p_properties.at("views_count")))
 			: 1;
@@ -64,8 +64,8 @@ void Views::plan(const Inputs &p_inputs, TechniquePlan &r_plan) {
 	is_all_empty = std::all_of(is_empty.begin(), is_empty.end(), [](bool p_is) { return p_is; });
 }
 
-// Everything is recorded here and not at the views' hooks: all points share one map, so that each
-// point's depth passes must be followed at once by the pass that reads them.
+// All passes are recorded here and not in the views' hooks: all points share one map, so the pass
+// that reads a point's map must directly follow its depth passes.
 RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 	if (is_all_empty) {
 		return add_constant_mask(r_graph, p_inputs.size_px, 1.0f);
@@ -94,7 +94,7 @@ RGTexture Views::resolve(RenderGraph &r_graph, const Inputs &p_inputs) {
 			}
 		}
 		if (!is_map_written) {
-			// A point before the first caster: the map is bound though not read, so it must exist.
+			// No map has been drawn yet. It is bound although it is not read, so it must exist.
 			add_depth_pass(r_graph, "empty map", p_inputs, views[0], {}, map, 0);
 			is_map_written = true;
 		}

@@ -4,8 +4,8 @@
 
 namespace gnomon {
 
-/// The mean of N hard shadow maps from N points of the light: brute force, the honest yardstick.
-/// Converges to the exact mask with N; costs N times a hard map, every frame.
+/// The mean of N hard shadow maps from N points of the light: the brute-force baseline. Converges
+/// to the exact mask with N; costs N times as much as a hard shadow map, every frame.
 class Views : public ShadowTechnique {
 public:
 	void get_light_properties(PropertyList &r_list) const override;

@@ -16,7 +16,7 @@ void ShadowPcss::get_light_properties(PropertyList &r_list) const {
 }
 
 ShadowLimits ShadowPcss::get_limits(const PropertyValues & /*p_properties*/) const {
-	// Nearer, the search for blockers is wider than the shadows: sweep near_caster of
+	// For nearer casters the blocker search is wider than the shadows: see the sweep near_caster in
 	// doc/stability.md.
 	return { .least_caster_distance_radii = 5 };
 }

@@ -4,10 +4,10 @@
 
 namespace gnomon {
 
-/// Percentage-closer soft shadows (Fernando 2005), as games use them: the mean depth of what is
-/// between receiver and light, from N taps of a depth map, gives the penumbra's width, and N more
-/// taps over that width the visibility. One depth map, so that what one caster hides from the light
-/// is unknown; noise where N is small for the width.
+/// Percentage-closer soft shadows (Fernando 2005), as used in games: the mean blocker depth, from N
+/// taps of a depth map, gives the penumbra width, and N more taps over that width give the
+/// visibility. There is one depth map, so blockers behind other blockers are unknown. Noisy when N
+/// is small for the width.
 class ShadowPcss : public DepthMapTechnique {
 public:
 	ShadowPcss() :

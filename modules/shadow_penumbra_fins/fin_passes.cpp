@@ -9,8 +9,8 @@ namespace gnomon {
 namespace {
 
 constexpr uint32_t VERTICES_PER_HALF = 6;
-// Fins nearer to the light than this part of the farthest are taken to be there, so that the inner
-// depths, divided by K, stay far above the smallest float.
+// Fins nearer to the light than this fraction of the farthest distance are clamped to it, so that
+// inner depths, which are divided by K, stay far above the smallest float.
 constexpr float NEAREST_PER_FARTHEST = 1e-6f;
 
 struct FinDraw {
@@ -125,7 +125,7 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 	const RGBuffer constants = r_graph.upload_constants("fins view",
 			compute_fins_view_constants(p_inputs, p_view_index, p_settings), BufferUsage::UNIFORM);
 	const RGTexture layer_1 = p_targets.layer_1;
-	// Bound though not read where the layer was not peeled.
+	// When layer 2 was not peeled, layer 1 is bound in its place and not read.
 	const RGTexture layer_2 = p_targets.layer_2 ? p_targets.layer_2 : layer_1;
 	PassBuilder pass = r_graph.add_pass(text("fins view ", p_view_index));
 	pass.reads(constants, Access::UNIFORM_READ)
@@ -138,7 +138,7 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 								: TopologyPart::EDGES);
 	const std::vector<FinDraw> draws = build_draws(p_inputs, p_view_index, p_casters, parts);
 	if (draws.empty() || !p_settings.has_fins()) {
-		pass.execute([](PassContext &) {}); // cleared, and that is all
+		pass.execute([](PassContext &) {}); // only clears the attachments
 		return;
 	}
 	const PipelineRID pipeline =

@@ -9,12 +9,12 @@
 
 namespace gnomon {
 
-/// The textures of one light, cached from frame to frame: depth layers and penumbra maps, one
-/// texture layer per light view.
+/// The textures of one light, cached from frame to frame: depth layers and penumbra maps, each a
+/// texture array with one array layer per light view.
 class FinsMaps {
 public:
-	/// Makes what these settings need where it is not there yet, and frees the rest. Returns false
-	/// when the textures are new, so that nothing of earlier frames is in them.
+	/// Creates the textures that are needed and missing, and frees the others. Returns false when
+	/// the textures are new and hold nothing from earlier frames.
 	bool prepare(RenderingDevice &p_device, const std::string &p_light, glm::uvec2 p_size_px,
 			uint32_t p_view_count, uint32_t p_layer_count, bool p_has_fins);
 	void reset();
@@ -24,9 +24,9 @@ public:
 	bool is_imported() const { return !frame_layers.empty(); }
 	void forget_frame();
 	const std::vector<RGTexture> &get_layers() const { return frame_layers; }
-	/// layer_2 is empty where it was not peeled.
+	/// layer_2 is empty when it was not peeled.
 	FinTargets get_targets() const;
-	/// The third layer, or the first where it was not peeled.
+	/// The third depth layer, or the first when it was not peeled.
 	RGTexture get_layer_3() const;
 
 private:

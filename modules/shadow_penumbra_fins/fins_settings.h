@@ -9,12 +9,12 @@
 
 namespace gnomon {
 
-/// How the layers are found; both ways give the same bits.
+/// How the depth layers are peeled; both ways give the same bits.
 enum class Peeling { PASSES, ONE_PASS };
-/// How the fins are made; both ways give the same edges and corners.
+/// How the fins are extruded; both ways give the same edges and vertices.
 enum class FinMethod { GEOMETRY_SHADER, COMPUTE };
 
-/// What one light's properties and the device make of the technique. Lengths in metres.
+/// The technique's parameters for one light and device. Lengths in metres.
 struct FinsSettings {
 	float outer_width_m = 0; // r of Sun et al. 2010
 	float inner_width_m = 0; // t
@@ -27,26 +27,26 @@ struct FinsSettings {
 	FinMethod method = FinMethod::COMPUTE;
 
 	bool has_fins() const { return outer_width_m > 0 || inner_width_m > 0; }
-	/// Are the maps the same, bit for bit? Ways to make them do not count.
+	/// True when both settings give the same maps, bit for bit, whatever the method.
 	bool gives_maps_of(const FinsSettings &p_other) const;
 };
 
-/// The properties of a technique of this module. p_id begins their names.
+/// Adds the properties of a technique of this module. Their names begin with p_id.
 void add_fins_properties(const std::string &p_id, bool p_has_inner_half, PropertyList &r_list);
 
-/// Its settings.
+/// Adds the technique's settings.
 void add_fins_settings(bool p_has_inner_half, PropertyList &r_list);
 
-/// Widths and map size alone: what the light's views depend on.
+/// Reads only the widths and the map size, on which the light's views depend.
 FinsSettings read_fins_view_settings(const std::string &p_id, bool p_has_inner_half,
 		const LightSnapshot &p_light, const PropertyValues &p_properties);
 
-/// Everything, with the method decided for this device.
+/// Reads all settings, with the method chosen for this device.
 FinsSettings read_fins_settings(
 		const std::string &p_id, bool p_has_inner_half, const ShadowTechnique::Inputs &p_inputs);
 
-/// How to peel one view. ONE_PASS needs fragment stores and layers that one storage buffer can
-/// hold; a wish for it that the device cannot grant becomes PASSES.
+/// Chooses how to peel one view. ONE_PASS needs stores in fragment shaders, and layers that fit
+/// into one storage buffer; without these, PASSES is returned even when ONE_PASS is requested.
 Peeling choose_peeling(const FinsSettings &p_settings, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index);
 

@@ -15,7 +15,7 @@ constexpr uint32_t BORDER_PX = 2; // bilinear lookups, and the 3 x 3 texels of a
 } // namespace
 
 ShadowLimits ShadowPenumbraFins::get_limits(const PropertyValues & /*p_properties*/) const {
-	// Wider fins cross one another, and one texel serves one receiver: sweep fin_width of
+	// Wider fins overlap, and a texel holds only one fin: see the sweep fin_width in
 	// doc/stability.md.
 	if (!has_inner_half) {
 		return { .most_outer_width_sizes = 0.075 };
@@ -33,7 +33,8 @@ void ShadowPenumbraFins::get_settings(PropertyList &r_list) const {
 
 void ShadowPenumbraFins::get_quality_settings(
 		const LightSnapshot &p_light, std::vector<QualitySetting> &r_settings) const {
-	// Near the best widths of tests/benchmark/search_fins.py over scenes and light sizes.
+	// Close to the best widths that tests/benchmark/search_fins.py found over scenes and light
+	// sizes.
 	const double outer_width_m = p_light.penumbra_outer_width_m * 0.25;
 	const double inner_width_m = p_light.penumbra_inner_width_m * 0.5;
 	if (!has_inner_half) {
@@ -51,7 +52,7 @@ void ShadowPenumbraFins::get_light_views(const LightSnapshot &p_light, const Lig
 		const PropertyValues &p_properties, std::vector<LightView> &r_views) const {
 	const FinsSettings view_settings =
 			read_fins_view_settings(id, has_inner_half, p_light, p_properties);
-	// Inner fins are behind their own casters, so that only the outer ones reach farther.
+	// Inner fins are behind their own casters: only outer fins extend beyond them.
 	r_views = build_light_views(
 			p_light, p_scene, view_settings.map_size_px, BORDER_PX, view_settings.outer_width_m);
 }
@@ -154,7 +155,7 @@ void ShadowPenumbraFins::at_light_view(
 	if (!draws_fins) {
 		return;
 	}
-	// What is a silhouette depends on the light's position alone: its views share one list.
+	// Silhouettes depend only on the light's position, so all its views share one list.
 	if (settings.method == FinMethod::COMPUTE && settings.has_fins() && !edge_lists.list &&
 			!fin_casters.casters.empty()) {
 		edge_lists = add_silhouette_passes(r_graph, p_inputs.device, fin_casters);

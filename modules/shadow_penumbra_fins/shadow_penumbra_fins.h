@@ -6,9 +6,9 @@
 namespace gnomon {
 
 /// Approximate soft shadows of Sun, Lü, Liu, Wu 2010: three depth layers from the light, and fins
-/// that lead from each silhouette edge along the vertex normals, r outwards and t inwards, rastered
-/// into a penumbra map that each receiver looks up once. With Halves::OUTER the method that the
-/// paper compares itself with (Lü et al. 2009): one depth layer, outer fins only.
+/// that are extruded from each silhouette edge along the vertex normals, r outwards and t inwards,
+/// and rasterised into a penumbra map that each receiver looks up once. With Halves::OUTER the
+/// method to which the paper compares (Lü et al. 2009): one depth layer, only outer fins.
 ///
 /// Spaces: fins are built in the light view's space (metres, float32); depths are compared as the
 /// view stores them (reversed, float32); the receiver is compared on its own plane at the texel.
@@ -39,10 +39,10 @@ public:
 private:
 	void plan_views(const Inputs &p_inputs, TechniquePlan &r_plan);
 	void plan_fins(const Inputs &p_inputs, TechniquePlan &r_plan);
-	/// Depths that debug views of layers show black and white: from the farthest caster to a third
-	/// of its distance; orthographic: all.
+	/// Depths that debug views of layers show black and white: the distance of the farthest caster
+	/// and a third of it; orthographic: the whole range.
 	glm::vec2 compute_layer_range(const Inputs &p_inputs) const;
-	/// Of resolve.comp, hard.comp or cases.comp: one texel per pixel.
+	/// Adds a pass of resolve.comp, hard.comp or cases.comp. Returns one texel per pixel.
 	RGTexture add_resolve_pass(
 			RenderGraph &r_graph, const Inputs &p_inputs, const std::string &p_shader);
 

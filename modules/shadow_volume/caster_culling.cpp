@@ -20,12 +20,12 @@ const double LEAST_HIDDEN_SHARE = 0.1;
 const uint64_t REST_FRAMES = 60;
 const size_t HEADER_BYTES = CULLING_HEADER_WORDS * sizeof(uint32_t);
 
-/// Of powers of two, so that a few casters more or less leave the buffers as they are.
+/// Rounds up to a power of two, so that a few casters more or less do not resize the buffers.
 size_t compute_words_bytes(size_t p_caster_count) {
 	return HEADER_BYTES + std::bit_ceil(p_caster_count) * sizeof(uint32_t);
 }
 
-/// Equal keys: the same views, and the same casters at the same transforms, in the same order.
+/// Equal keys mean the same views, and the same casters and transforms in the same order.
 uint64_t compute_key(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_instances) {
 	uint64_t key = compute_value_hash(uint64_t(p_instances.size()), 1);

@@ -6,7 +6,7 @@ namespace gnomon {
 
 namespace {
 
-/// Appends corners of one mesh.
+/// Appends vertices of one mesh's volume.
 struct VolumeBuilder {
 	const MeshTopology &topology;
 	std::vector<glm::vec4> corners;
@@ -19,7 +19,7 @@ struct VolumeBuilder {
 		add_corner(p_b, p_is_far);
 		add_corner(p_c, p_is_far);
 	}
-	/// From the edge to infinity; the light-facing surface winds p_from -> p_to.
+	/// Adds a side from the edge to infinity; the light-facing surface winds p_from -> p_to.
 	void add_side(uint32_t p_from, uint32_t p_to) {
 		add_corner(p_from, false);
 		add_corner(p_from, true);
@@ -55,7 +55,7 @@ std::vector<glm::vec4> build_cpu_volume(const MeshTopology &p_topology,
 	}
 	for (const SilhouetteEdge &edge : silhouette.edges) {
 		const MeshPart &part = p_topology.get_part(p_topology.edges[edge.edge_index].face0);
-		// A closed part that is robust has both sides of each edge.
+		// A closed part that is robust gets both sides at each edge.
 		const uint32_t times = part.is_closed && includes(p_shape.robust, part.is_solid()) ? 2 : 1;
 		for (uint32_t i = 0; i < edge.weight * times; ++i) {
 			builder.add_side(edge.from, edge.to);

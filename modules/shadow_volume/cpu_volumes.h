@@ -9,10 +9,10 @@
 
 namespace gnomon {
 
-/// The triangles of a caster's shadow volume, made from build_silhouette: what a geometry shader
-/// makes, in double precision. Three corners each, xyz a vertex of the mesh in node space, w = 1:
-/// at the vertex, 0: where the light's ray through it ends. They turn counter-clockwise seen from
-/// outside. A light that is not finite has no volume.
+/// The triangles of a caster's shadow volume, extruded from build_silhouette: the same as those of
+/// the geometry shader, in double precision. Three vertices per triangle: xyz is a vertex of the
+/// mesh in node space; w = 1: at that vertex, w = 0: its extrusion along the light's ray. Triangles
+/// are counter-clockwise seen from outside. Empty when the light is not finite.
 std::vector<glm::vec4> build_cpu_volume(
 		const MeshTopology &p_topology, const glm::dvec4 &p_light_node, const VolumeShape &p_shape);
 

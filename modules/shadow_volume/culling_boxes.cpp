@@ -13,7 +13,7 @@ shader::CullingBox make_box(
 		glm::vec4(0.5 * (p_bounds.maximum - p_bounds.minimum), 0.0), p_first, p_count, 0, 0 };
 }
 
-/// The items of a subtree are contiguous: from its leftmost leaf on.
+/// Index of a subtree's first item: its items are contiguous, from the leftmost leaf on.
 uint32_t find_first_item(const std::vector<Bvh::Node> &p_nodes, uint32_t p_node) {
 	while (p_nodes[p_node].item_count == 0) {
 		p_node = p_nodes[p_node].first;

@@ -9,15 +9,15 @@
 
 namespace gnomon {
 
-/// What one workgroup each of cull.comp looks at: first all subtrees, then the casters' boxes.
+/// The boxes that cull.comp tests: first one per subtree (a workgroup each), then the casters'.
 struct CullingBoxes {
 	std::vector<shader::CullingBox> boxes;
 	uint32_t subtree_count = 0;
 };
 
-/// Cuts a tree over the boxes into subtrees of at most 64. CullingBox::first of a caster is its
-/// index in p_boxes_world. Boxes that no tree takes (empty, NaN) are skipped: never hidden.
-/// float32, metres from p_origin_world.
+/// Splits a tree over the boxes into subtrees of at most 64 boxes. CullingBox::first of a caster is
+/// its index in p_boxes_world. Empty and NaN boxes are left out, so these casters are never hidden.
+/// The result is in float32, metres relative to p_origin_world.
 CullingBoxes build_culling_boxes(
 		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_origin_world);
 

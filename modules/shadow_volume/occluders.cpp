@@ -18,14 +18,14 @@ namespace {
 const size_t MOST_OCCLUDERS = 128;
 const uint32_t MOST_TRIANGLES = 16384;
 const uint32_t MOST_TRIANGLES_OF_ONE = 4096;
-const double LEAST_SIZE_PX = 8.0; // its borders alone are 3 wide
-const double ROUNDING = 4e-7;	  // of the product of a matrix and a vertex
+const double LEAST_SIZE_PX = 8.0; // the borders alone are 3 texels wide
+const double ROUNDING = 4e-7;	  // relative error of a matrix-vector product in float32
 const double MOST_ROUNDING_PER_DISTANCE = 1e-3;
 const double LEAST_DISTANCE_PER_NEAR = 10.0;
 const uint32_t VERTICES_PER_EDGE = 6;
 const uint32_t CORNERS_PER_FACE = 3;
 
-/// How many texels of a view's side the box's diagonal takes, roughly.
+/// Approximate size of the box's diagonal in texels of the view.
 double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p_box_world) {
 	const LightView &view = p_inputs.views[0];
 	double half_width_m = view.half_extent.x;
@@ -37,9 +37,9 @@ double estimate_size_px(const ShadowTechnique::Inputs &p_inputs, const Bounds &p
 	return 0.5 * CULLING_MAP_SIZE_PX * p_box_world.get_diagonal() / half_width_m;
 }
 
-/// Vertices far from the node's origin lose their low bits. Boxes are made in double: what float32
-/// may move an occluder by must be small compared with the gap that cull.comp leaves to it, or it
-/// could come before a caster that is behind it.
+/// Vertices far from the node's origin lose their low bits in float32, while boxes are computed in
+/// double. The shift of an occluder by rounding must be small compared with the gap of cull.comp,
+/// or the occluder could hide a caster that is in front of it.
 bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot &p_instance) {
 	const Bounds &box = p_instance.caster_bounds_node;
 	const double reach = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum)));
@@ -59,7 +59,7 @@ bool is_precise(const ShadowTechnique::Inputs &p_inputs, const InstanceSnapshot 
 
 /// One occluder in one view.
 struct OccluderDraw {
-	double begin_m = 0; // of its box along the view
+	double begin_m = 0; // minimum distance of its box along the view
 	const GpuTopology *gpu = nullptr;
 	shader::OccluderPush push;
 };
@@ -79,31 +79,31 @@ std::vector<OccluderDraw> build_draws(const ShadowTechnique::Inputs &p_inputs,
 		draw.push.clip_from_node = p_view.compute_clip_from_node(instance.world_from_node);
 		draw.push.near_m = p_view.is_orthographic ? 0.0f : p_view.near_m;
 		draw.push.light_node = compute_light_node(p_inputs.light, instance.world_from_node);
-		// Without edges or an inside it has no volume, and hides nothing.
+		// A caster without edges or an inside has no volume and hides nothing.
 		if (draw.gpu->edge_count > 0 && is_light_node_usable(draw.push.light_node)) {
 			draws.push_back(draw);
 		}
 	}
-	// Front to back: a farther one fills the texels that the edges of a nearer one have spoilt.
+	// Front to back: a farther occluder fills the texels that the edges of a nearer one cleared.
 	std::stable_sort(draws.begin(), draws.end(), [](const auto &p_left, const auto &p_right) {
 		return p_left.begin_m < p_right.begin_m;
 	});
 	return draws;
 }
 
-/// The stencil identifies occluders by numbers from 1 on, which begin again after so many: a
-/// pipeline has one number. 128 boxes in a map of their own take 4.0 ms with 8 numbers, 3.8 with 16
-/// and 4.6 with 4 on a software driver, and 3.3 with numbers set while recording; 16 make the first
-/// frame 90 ms longer.
+/// The stencil identifies occluders by numbers from 1 to this one, used cyclically, since each
+/// number needs its own pipeline. On a software driver 128 boxes in one map take 4.0 ms with 8
+/// numbers, 3.8 with 16, 4.6 with 4, and 3.3 with a dynamic stencil reference; 16 numbers make the
+/// first frame 90 ms longer.
 constexpr size_t NUMBER_COUNT = 8;
 
 struct OccluderPipelines {
-	std::array<PipelineRID, NUMBER_COUNT> faces; // of number 1 first
+	std::array<PipelineRID, NUMBER_COUNT> faces; // index 0: number 1
 	std::array<PipelineRID, NUMBER_COUNT> edges;
 	PipelineRID forget; // all numbers
 };
 
-/// p_count: of the occluders.
+/// p_count: number of occluders.
 OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 	RasterPipelineDesc desc;
 	desc.name = "occluders";
@@ -137,8 +137,8 @@ OccluderPipelines get_pipelines(RenderingDevice &p_device, size_t p_count) {
 	return pipelines;
 }
 
-/// The edges after the faces, occluder by occluder: what an occluder's faces have put into a texel
-/// of its edges is corrected before the next one comes, and only there, by the stencil test.
+/// Draws, per occluder, its faces and then its edges: texels that an edge crosses are corrected
+/// before the next occluder is drawn. The stencil test limits this to the occluder's own texels.
 void record_draws(CommandList &r_commands, const OccluderPipelines &p_pipelines,
 		const std::vector<OccluderDraw> &p_draws) {
 	for (size_t index = 0; index < p_draws.size(); ++index) {

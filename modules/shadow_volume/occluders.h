@@ -4,25 +4,24 @@
 
 #include <vector>
 
-// Which casters are drawn from the light, to find those that they hide.
+// The casters that are drawn from the light as occluders, to find the casters that they hide.
 
 namespace gnomon {
 
-/// At most 128 casters of p_instances, with at most 16384 triangles together: those that look
-/// largest from the light, the largest first, and no meshes of more than 4096 triangles.
-/// p_was_hidden: of each of p_instances, whether it was found to be hidden lately; such a caster is
-/// taken after all others. Empty: nothing is known. The choice decides what is found, never what
-/// the image shows.
+/// Chooses at most 128 casters of p_instances, with at most 16384 triangles together: those that
+/// appear largest from the light, the largest first, without meshes of more than 4096 triangles.
+/// p_was_hidden: per instance, whether it was hidden recently; such casters come last. Empty:
+/// unknown. The choice affects how many casters are culled, never the image.
 std::vector<uint32_t> choose_occluders(const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_instances, const std::vector<bool> &p_was_hidden);
 
-/// What the occluders stop.
+/// Depths behind which the occluders block all light.
 struct OccluderMap {
-	RGTexture depth; // a layer per view, reversed; where nothing is known 0
-	RGBuffer bounds; // for every view the texels of all levels, see culling_shared.h
+	RGTexture depth; // one array layer per view, reversed depth; 0 where nothing is occluded
+	RGBuffer bounds; // per view the texels of all levels, see culling_shared.h
 };
 
-/// Passes that draw the occluders from each of the light's views.
+/// Adds passes that draw the occluders from each of the light's views.
 OccluderMap add_occluder_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const std::vector<uint32_t> &p_occluders);
 

@@ -6,10 +6,10 @@
 
 namespace gnomon {
 
-/// Hard shadows that are exact in every pixel: the space that each caster hides from the light's
-/// centre is drawn into a stencil, as polygons from its silhouette to infinity (GPU Gems 3, chapter
-/// 11; DOOM 3). A pixel whose count of entered less left volumes is not 0 is hidden. Counted before
-/// the receiver (z-pass), or, where the camera may be in a volume, behind it (z-fail, with caps).
+/// Pixel-exact hard shadows: stencil shadow volumes, extruded from each caster's silhouette away
+/// from the light's centre to infinity (GPU Gems 3, chapter 11; DOOM 3). A pixel is in shadow when
+/// the volumes entered minus the volumes left are not 0. They are counted in front of the receiver
+/// (z-pass), or behind it where the camera may be inside a shadow volume (z-fail, with caps).
 ///
 /// Spaces: silhouettes in node space, float32 (on the CPU in double); volumes in the camera's clip
 /// space; depths reversed, float32, compared with the receiver moved off its surface by 5e-5 S.

@@ -10,7 +10,7 @@ namespace {
 
 const size_t CORNER_COUNT = 8;
 const double MARGIN_PX = 1.0; // for the rasteriser's rounding
-// Boxes are grown by these parts of the near distance and of their own size.
+// Boxes are grown by these fractions of the near distance and of their own diagonal.
 const double MARGIN_PER_NEAR = 1e-3;
 const double MARGIN_PER_BOX = 1e-5;
 
@@ -27,7 +27,7 @@ Corners compute_corners_view(const Bounds &p_box_world, const LightView &p_camer
 	return corners;
 }
 
-/// The light as seen from the camera: xyz / w its centre, w = 0 the direction towards it.
+/// The light in camera view space: xyz / w is its centre; w = 0: xyz is the direction towards it.
 glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_camera) {
 	return p_camera.view_from_world *
 			(p_light.type == LightType::DIRECTIONAL
@@ -35,7 +35,7 @@ glm::dvec4 compute_light_view(const LightSnapshot &p_light, const LightView &p_c
 							: glm::dvec4(p_light.position_world, 1.0));
 }
 
-/// Collects projected points.
+/// Accumulates the bounds of projected points.
 struct Projection {
 	const LightView &camera;
 	glm::dvec2 minimum = glm::dvec2(1e300);
@@ -43,7 +43,7 @@ struct Projection {
 	double least_depth = 1.0;
 	double greatest_depth = 0.0;
 
-	/// A point of homogeneous view space with z >= near w, w >= 0.
+	/// Adds a point in homogeneous view space, with z >= near w and w >= 0.
 	void add(const glm::dvec4 &p_point) {
 		for (int axis = 0; axis < 2; ++axis) {
 			const double limit = p_point.z * camera.half_extent[axis];
@@ -71,15 +71,15 @@ VolumeArea make_area(const Projection &p_projection, glm::uvec2 p_size_px) {
 	}
 	area.offset_px = glm::uvec2(begin);
 	area.size_px = glm::uvec2(end - begin);
-	const double tolerance = 1e-5; // relative, of the stored float and its interpolation
+	const double tolerance = 1e-5; // relative error of the stored float and its interpolation
 	area.least_depth = static_cast<float>(p_projection.least_depth * (1 - tolerance));
 	area.greatest_depth =
 			static_cast<float>(std::min(p_projection.greatest_depth * (1 + tolerance), 1.0));
 	return area;
 }
 
-/// How far beyond each corner the volume goes, in parts of the corner's distance from the light;
-/// infinity without an end.
+/// Distance from the light at which the volume ends behind each of the box's corners, as a multiple
+/// of the corner's distance: at least 1; infinity: unbounded.
 double compute_reach(const Bounds &p_box_world, const LightSnapshot &p_light) {
 	const double nearest_m = p_box_world.compute_distance(p_light.position_world);
 	return p_light.range_m > 0 && nearest_m > 1e-3 * p_box_world.get_diagonal()
@@ -123,7 +123,7 @@ VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p
 		if (height >= 0) {
 			projection.add(points[i]);
 		}
-		for (size_t j = 0; j < i; ++j) { // where the hull's edges, and more, cross the near plane
+		for (size_t j = 0; j < i; ++j) { // all pairs of points: includes the hull's edges
 			const double other = get_height(points[j]);
 			if ((height < 0) != (other < 0)) {
 				const double share = height / (height - other);
@@ -149,7 +149,7 @@ bool may_shade_near_plane(
 		glm::dvec3(half.x, -half.y, near_m), glm::dvec3(half.x, half.y, near_m),
 		glm::dvec3(-half.x, half.y, near_m) };
 	const glm::dvec3 centre(0, 0, near_m);
-	// The near plane itself, seen from the light's side of it.
+	// The near plane: the box does not matter when it is on the side without the light.
 	const double light_height = light.z - near_m * light.w;
 	if (light_height != 0) {
 		const double side = light_height > 0 ? 1.0 : -1.0;
@@ -171,7 +171,7 @@ bool may_shade_near_plane(
 			return false;
 		}
 	}
-	// The light's end of the space between.
+	// Axis-aligned bounds of the light and the rectangle: the space between cannot exceed them.
 	if (light.w != 0) {
 		for (int axis = 0; axis < 3; ++axis) {
 			double least = light[axis];

@@ -4,8 +4,8 @@
 
 #include <glm/glm.hpp>
 
-// Where a caster's shadow volume is in the image. Camera view space, metres, double precision:
-// x right, y down, z along the view.
+// The area of the image that a caster's shadow volume covers. Computed in camera view space in
+// double precision: metres, x right, y down, z along the view.
 
 namespace gnomon {
 
@@ -13,14 +13,14 @@ namespace gnomon {
 struct VolumeArea {
 	glm::uvec2 offset_px = glm::uvec2(0);
 	glm::uvec2 size_px = glm::uvec2(0); // 0: outside the image
-	float least_depth = 0.0f;			// as stored: reversed, 0 = infinitely far
+	float least_depth = 0.0f;			// reversed depth as stored, 0 = infinitely far
 	float greatest_depth = 1.0f;
 
 	bool is_empty() const { return size_px.x == 0 || size_px.y == 0; }
 };
 
-/// Of what the box hides from the light: the box drawn out along the light's rays, to infinity or
-/// to the end of its range. A light in the box or in its planes gives the whole image.
+/// The area of the box's shadow volume: the box extruded along the light's rays, to infinity or to
+/// the light's range. A light inside the box or on its surface gives the whole image.
 VolumeArea compute_volume_area(const Bounds &p_box_world, const LightSnapshot &p_light,
 		const LightView &p_camera, glm::uvec2 p_size_px);
 

@@ -18,9 +18,9 @@ namespace {
 const uint32_t STENCIL_MAXIMUM = 255;
 const uint32_t TRIANGLES_PER_LAYER = 8; // a box has 12 and one layer
 const uint32_t MOST_LAYERS = 32;
-// Below, what compute shaders cost for each caster is more than what they save (doc/benchmarks.md).
+// For fewer triangles, compute shaders cost more per caster than they save (doc/benchmarks.md).
 const uint32_t MOST_FACES_FOR_GEOMETRY_SHADER = 4096;
-const double BOX_GROWTH = 1e-3; // of its size: a light so near is taken to be inside
+const double BOX_GROWTH = 1e-3; // fraction of the box's size: a light within is treated as inside
 
 /// Cached for each mesh.
 struct MeshSolids {
@@ -49,8 +49,8 @@ bool is_light_within(const InstanceSnapshot &p_instance, const LightSnapshot &p_
 			glm::all(glm::lessThanEqual(light, p_instance.bounds_world.maximum + margin_m));
 }
 
-/// Counts how many layers may cover each part of the image, and begins a group when a stencil
-/// could no longer hold them.
+/// Counts how many layers may cover each tile of the image, and starts a new group when the
+/// stencil could overflow.
 class GroupSplitter {
 public:
 	explicit GroupSplitter(glm::uvec2 p_size_px) : size_px(p_size_px) {}

@@ -18,7 +18,7 @@ struct VolumeCaster {
 	VolumeShape shape;
 	bool is_mirrored = false;
 	VolumeMaker maker = VolumeMaker::COMPUTE;
-	uint32_t group = 0; // those of one group share a stencil
+	uint32_t group = 0; // casters of one group are counted together in the stencil
 	VolumeArea area;
 };
 
@@ -29,22 +29,22 @@ struct VolumeCasters {
 	uint32_t z_fail_count = 0;
 	uint32_t robust_count = 0; // with robust faces
 	uint32_t geometry_shader_count = 0;
-	uint32_t flat_count = 0;		// with a singular transform: they have no inside
-	uint32_t spared_caps_count = 0; // counted by z-pass, as it is safe
-	uint32_t unseen_count = 0;		// whose shadow is outside the image
+	uint32_t flat_count = 0;		// with a singular transform: no inside
+	uint32_t spared_caps_count = 0; // without caps, since z-pass is safe
+	uint32_t unseen_count = 0;		// with a shadow outside the image
 };
 
-/// The camera that volumes are drawn for: moved by the receivers' offset, see VOLUMES_MOVED_AXIS.
+/// The camera for which volumes are drawn: moved by the receivers' offset, see VOLUMES_MOVED_AXIS.
 LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs);
 
-/// Decides for every caster of p_instances (ascending) how it is drawn. Robust are the faces of
-/// parts that are not solid, and all when the light is within the caster's box. A stencil counts to
-/// 255: where more volumes may overlap one another, the casters are split into groups.
+/// Decides for every caster of p_instances (ascending) how its volume is drawn. Faces of parts that
+/// are not solid are robust, and all faces when the light is inside the caster's box. The stencil
+/// counts to 255: if more volumes may overlap, the casters are split into groups.
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
 
-/// At most so many solids of the mesh are taken to overlap one another: of convex ones as many as
-/// there are, of others one for every 8 triangles, up to 32.
+/// Estimates how many solids of the mesh overlap at most: each convex part counts as one, other
+/// parts count one for every 8 triangles, up to 32.
 uint32_t estimate_layers(const MeshTopology &p_topology);
 
 } // namespace gnomon

@@ -18,15 +18,15 @@ static_assert(VOLUMES_FACES_NONE == uint32_t(VolumeFaces::NONE) &&
 		VOLUMES_FACES_NOT_SOLID == uint32_t(VolumeFaces::NOT_SOLID) &&
 		VOLUMES_FACES_ALL == uint32_t(VolumeFaces::ALL));
 
-/// What is drawn of one caster, and with which pipelines.
+/// The draws of one caster and their pipelines.
 struct VolumeDraw {
 	const VolumeCaster *caster = nullptr;
-	PipelineRID pipeline;	   // of all of it, or of its sides
-	PipelineRID caps_pipeline; // without a geometry shader
+	PipelineRID pipeline;	   // of the whole volume, or only of its sides
+	PipelineRID caps_pipeline; // only without a geometry shader
 	shader::VolumePush push;
 	uint32_t cap_vertex_count = 0;
 	uint32_t draw_index = 0; // into the lists' indirect draws
-	RGBuffer corners;		 // made on the CPU
+	RGBuffer corners;		 // vertices of a volume built on the CPU
 	uint32_t corner_count = 0;
 };
 
@@ -156,7 +156,7 @@ void record_draw(PassContext &r_context, const VolumeDraw &p_draw, const Silhoue
 void add_hidden_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeTargets &p_targets, const std::string &p_name) {
 	RasterPipelineDesc desc = make_screen_desc("hidden", "shadow_volume/hidden.frag");
-	// Leaves the stencil at 0 for the next group.
+	// Resets the stencil to 0 for the next group.
 	desc.stencil.front = { CompareOp::NOT_EQUAL, StencilOp::KEEP, StencilOp::KEEP,
 		StencilOp::ZERO };
 	desc.stencil.back = desc.stencil.front;

@@ -5,22 +5,22 @@
 
 namespace gnomon {
 
-/// What volumes are counted in. The mask is R16_SFLOAT.
+/// The attachments of the volume passes. The mask is R16_SFLOAT.
 struct VolumeTargets {
 	RGTexture mask;
-	RGTexture depth; // D32_SFLOAT_S8_UINT: of the receivers moved off their surfaces; the count
+	RGTexture depth; // D32_SFLOAT_S8_UINT: depth of the receivers, moved off their surfaces; count
 };
 
-/// Makes the targets: a mask that is 1 at receivers and 0 elsewhere, and no count.
+/// Creates the targets: the mask is 1 at receivers and 0 elsewhere, the stencil is 0.
 VolumeTargets add_volume_receivers_pass(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
 
-/// Those whose edges compute shaders find.
+/// The casters whose silhouette edges are found by compute shaders.
 SilhouetteCasters list_compute_casters(
 		const ShadowTechnique::Inputs &p_inputs, const VolumeCasters &p_casters);
 
-/// Counts the volumes of each group, of casters whose predicate is not 0, and darkens the mask
-/// where the count is not 0. p_casters must stay until the frame has run.
+/// Adds passes that count the volumes of each group, for casters whose predicate is not 0, and set
+/// the mask to 0 where the count is not 0. p_casters must live until the frame has run.
 void add_volume_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const VolumeCasters &p_casters,
 		const DrawPredicates &p_predicates, const VolumeTargets &p_targets, CachedEdges &r_edges);

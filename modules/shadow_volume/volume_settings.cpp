@@ -63,8 +63,8 @@ VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inp
 			settings.maker = VolumeMaker::COMPUTE;
 		}
 		const std::string &culling = read_choice(values, "culling");
-		// Counted in front alone, volumes are wrong where the camera is in a shadow, hidden ones
-		// too.
+		// With z-pass for all casters, volumes that contain the camera are counted wrong, hidden
+		// casters' too: culling these would change the image.
 		const bool may_be_wrong = settings.count == VolumeCount::Z_PASS;
 		settings.culling = may_be_wrong ? CasterCulling::Wish::OFF
 				: culling == "on"		? CasterCulling::Wish::ON

@@ -6,22 +6,22 @@
 
 namespace gnomon {
 
-/// How a caster's volume is counted, see ShadowVolume.
+/// Where a caster's volume is counted, see ShadowVolume.
 enum class VolumeCount { Z_PASS, Z_FAIL };
-/// How volumes are made; all ways give the same triangles, but for the CPU's rounding.
+/// How volumes are extruded; all ways give the same triangles, except for rounding on the CPU.
 enum class VolumeMaker { GEOMETRY_SHADER, COMPUTE, CPU };
 
-/// What the technique's settings and the device make of it.
+/// The technique's settings, restricted to what the device supports.
 struct VolumeSettings {
 	std::optional<VolumeCount> count; // none: chosen for each caster
-	std::optional<VolumeMaker> maker; // none: the same
+	std::optional<VolumeMaker> maker; // none: chosen for each caster
 	bool is_always_robust = false;
-	bool has_scissor = true; // and depth bounds, where the device can
+	bool has_scissor = true; // also depth bounds, where the device supports them
 	CasterCulling::Wish culling = CasterCulling::Wish::OFF;
 };
 
 void add_volume_settings(bool p_is_on_cpu, PropertyList &r_list);
-/// Light properties of files that were written before these were settings.
+/// Declares the light properties of older files that are settings now.
 void add_removed_volume_properties(const std::string &p_id, PropertyList &r_list);
 VolumeSettings read_volume_settings(bool p_is_on_cpu, const ShadowTechnique::Inputs &p_inputs);
 

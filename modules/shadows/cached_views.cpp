@@ -32,7 +32,7 @@ void CachedViews::plan(
 	const bool may_reuse = p_inputs.may_skip && p_inputs.may_reuse;
 	for (uint32_t index = 0; index < view_count; ++index) {
 		if ((unseen_views & (1u << index)) != 0) {
-			// What was drawn stays right for when the camera turns back.
+			// The cached map stays valid, in case the camera turns back.
 			r_plan.skip_light_view(index, "the camera sees no receiver in it");
 		} else if ((empty_views & (1u << index)) != 0) {
 			drawn_hashes[index] = 0;

@@ -16,33 +16,34 @@ struct CasterDraw {
 	shader::DepthPush push;
 };
 
-/// The casters of one view, uploaded where they were not.
+/// Builds the draws of one view's casters, and uploads the meshes that are not on the GPU yet.
 std::vector<CasterDraw> build_caster_draws(const ShadowTechnique::Inputs &p_inputs,
 		const LightView &p_view, const CasterList &p_casters);
 
-/// A pipeline that draws casters through shadows/depth.vert: both sides, the nearest wins
-/// (reversed depth), depth clamped at the near plane where the device can. Every pipeline made from
-/// it gives a caster the same depth, bit for bit. To be completed: name, fragment shader, targets.
+/// Describes a pipeline that draws casters through shadows/depth.vert: no face culling, the nearest
+/// fragment wins (reversed depth), depth clamped at the near plane where the device supports it.
+/// All pipelines built from it give a caster the same depth, bit for bit. The caller sets the name,
+/// the fragment shader and the targets.
 RasterPipelineDesc make_caster_pipeline_desc(const RenderingDevice &p_device);
 
-/// Records the draws; the pipeline and its resources are bound.
+/// Records the draws. The pipeline and its resources must be bound already.
 void record_caster_draws(CommandList &r_commands, const std::vector<CasterDraw> &p_draws);
 
-/// A pass that draws a view's casters, depth only, into one layer of a D32_SFLOAT texture, which is
-/// cleared first.
+/// Adds a depth-only pass that draws a view's casters into one array layer of a D32_SFLOAT texture
+/// and clears that layer first.
 void add_depth_pass(RenderGraph &r_graph, const std::string &p_name,
 		const ShadowTechnique::Inputs &p_inputs, const LightView &p_view,
 		const CasterList &p_casters, RGTexture p_target, uint32_t p_layer);
 
-/// The casters of all views that are listed in p_view_indices, each once, ascending.
+/// Instance indices of the casters of all views in p_view_indices, each once, ascending.
 std::vector<uint32_t> collect_casters(
 		const ShadowTechnique::Inputs &p_inputs, const std::vector<uint32_t> &p_view_indices);
 
-// For techniques that draw nothing from the light, but have to know which casters matter.
+// For techniques that draw nothing from the light, but need to know which casters matter.
 
-/// Views for ShadowTechnique::get_light_views that only list casters.
+/// Builds views for ShadowTechnique::get_light_views that only serve to list casters.
 std::vector<LightView> build_listing_views(const LightSnapshot &p_light, const LightScene &p_scene);
-/// Skips all of the light's views, and returns their casters, ascending.
+/// Skips all of the light's views and returns the instance indices of their casters, ascending.
 std::vector<uint32_t> list_casters(const ShadowTechnique::Inputs &p_inputs, TechniquePlan &r_plan);
 
 } // namespace gnomon

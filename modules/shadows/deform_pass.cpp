@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-/// What deform.comp reads of a mesh at rest.
+/// The data of a mesh at rest that deform.comp reads.
 struct GpuRig {
 	OwnedBuffer influences;
 	OwnedBuffer targets;
@@ -46,7 +46,7 @@ GpuRig upload_rig(RenderingDevice &p_device, const Mesh &p_mesh) {
 	return gpu;
 }
 
-/// Three rows for each joint, then the targets' weights.
+/// Packs three matrix rows per joint, then the morph targets' weights.
 std::vector<glm::vec4> pack_pose(const MeshPose &p_pose) {
 	std::vector<glm::vec4> words;
 	for (const glm::dmat4 &joint : p_pose.get_joints()) {
@@ -63,7 +63,7 @@ std::vector<glm::vec4> pack_pose(const MeshPose &p_pose) {
 	return words;
 }
 
-/// Of what was cut out of a mesh.
+/// The data of a mesh that was cut out of another one.
 struct GpuPoints {
 	OwnedBuffer points;
 };
@@ -76,7 +76,7 @@ GpuPoints upload_points(RenderingDevice &p_device, const Mesh &p_mesh) {
 	return { upload(p_device, p_mesh.name + " points", points) };
 }
 
-/// Which vertex each welded one follows, and which faces it has.
+/// The vertex that each welded vertex follows, and the faces that meet in it.
 struct GpuWeld {
 	OwnedBuffer vertices;
 	OwnedBuffer faces;
@@ -91,7 +91,7 @@ GpuWeld upload_weld(RenderingDevice &p_device, const Mesh &p_mesh, const MeshTop
 			vertices[welded] = static_cast<uint32_t>(vertex);
 		}
 	}
-	// Where each vertex's faces begin, then the faces, by counting.
+	// Counting sort: where each vertex's faces begin, then the faces.
 	std::vector<uint32_t> faces(welded_count + 1 + p_topology.triangles.size(), 0);
 	for (const uint32_t welded : p_topology.triangles) {
 		++faces[welded + 1];

@@ -9,24 +9,24 @@
 
 namespace gnomon {
 
-/// The work of MeshStore::add_deform_pass, found when the pass is recorded: by then all that reads
-/// vertices has requested its buffers. In three steps, each with what the one before wrote:
-/// vertices of the meshes with rigs, those of what was cut out of them, welded ones.
+/// The work of MeshStore::add_deform_pass. It is determined while the pass is recorded, when every
+/// reader of vertices has requested its buffers. Three steps, each of which reads what the step
+/// before wrote: vertices of rigged meshes, vertices of meshes cut out of those, welded vertices.
 class DeformPass {
 public:
 	DeformPass(MeshStore &r_store, const SceneSnapshot &p_scene, RenderGraph &r_graph);
 
 	bool is_needed() const { return !slots.empty(); }
-	/// Instances whose vertices do not have their pose yet.
+	/// Number of instances whose vertices do not have the current pose yet.
 	uint32_t count_moved() const;
-	/// What the pass reads of the frame.
+	/// The frame's buffers that the pass reads.
 	std::vector<RGBuffer> list_inputs() const;
 	void record(PassContext &p_context);
 
 private:
 	struct Slot {
 		std::shared_ptr<const MeshPose> pose;
-		std::shared_ptr<const Mesh> mesh; // of the slot, whole
+		std::shared_ptr<const Mesh> mesh; // the slot's whole mesh
 		RGBuffer words;					  // the joints' rows and the targets' weights
 	};
 	/// One dispatch and what it writes.
@@ -43,7 +43,7 @@ private:
 			const Slot &p_slot, const std::shared_ptr<const Mesh> &p_mesh, GpuMesh &r_gpu);
 	void deform_welded(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
 	void deform_normals(const std::shared_ptr<const Mesh> &p_mesh, GpuTopology &r_gpu);
-	/// Records what was found and waits for it.
+	/// Records the dispatches in `step` and a barrier after them.
 	void run(CommandList &r_commands);
 
 	MeshStore &store;

@@ -6,10 +6,10 @@
 
 namespace gnomon {
 
-/// A technique that looks each receiver up in a depth map of each light view, and differs from its
-/// like in the filter alone: what its shader does with the map, and the properties of that.
-/// Maps are layers of one texture (D32_SFLOAT, reversed), cached from frame to frame while neither
-/// a view nor its casters change; views without casters or receivers are skipped.
+/// Base of techniques that look each receiver up in depth maps of the light's views. They differ
+/// only in the filter: what their shader does with the maps, and its properties. The maps are the
+/// array layers of one texture (D32_SFLOAT, reversed depth), cached while neither a view nor its
+/// casters change; views without casters or receivers are skipped.
 class DepthMapTechnique : public ShadowTechnique {
 public:
 	void get_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
@@ -23,21 +23,22 @@ public:
 	std::vector<std::string> get_shader_files() const override { return { shader }; }
 
 protected:
-	/// p_size_property: of the light, see add_size_property. p_reads: how far the filter reads.
+	/// p_size_property: name of the light property for the map size, see add_size_property.
+	/// p_reads: how far the filter reads.
 	DepthMapTechnique(
 			std::string p_shader, std::string p_size_property, CachedViews::Reads p_reads) :
 			shader(std::move(p_shader)),
 			size_property(std::move(p_size_property)), reads(p_reads) {}
 
-	/// Width and height of a map in pixels, 16 to 8192.
+	/// Adds the property for the width and height of a map in pixels, 16 to 8192.
 	void add_size_property(PropertyList &r_list, const std::string &p_group) const;
-	/// Pixels around the view's content that the filter reads.
+	/// Width in texels of the border around the view's content that the filter reads.
 	virtual uint32_t get_border_px(const PropertyValues & /*p_properties*/) const { return 1; }
-	/// Records the pass of the shader, with p_bindings (those of map_resolve_shared.h, map and
-	/// mask) and its own. Bit i of p_empty_views: view i was not drawn and must not be read.
+	/// Records the filter's pass, with p_bindings (those of map_resolve_shared.h, the map and the
+	/// mask) plus its own. Bit i of p_empty_views: view i was not drawn and must not be read.
 	virtual void filter(RenderGraph &r_graph, const Inputs &p_inputs, uint32_t p_empty_views,
 			std::vector<PassBinding> p_bindings) = 0;
-	/// No view has casters and receivers: filter() is not called, all is lit.
+	/// True when no view has both casters and receivers: filter() is not called, all is lit.
 	bool is_all_empty() const { return views.is_all_empty(); }
 
 	const std::string shader;
@@ -50,8 +51,8 @@ private:
 	OwnedTexture map;
 	TextureDesc map_desc;
 	CachedViews views;
-	bool has_content = false; // of the map, before this frame
-	RGTexture frame_map;	  // this frame's handle; empty where no view is read
+	bool has_content = false; // the map holds content of earlier frames
+	RGTexture frame_map;	  // this frame's handle; empty when no view is read
 };
 
 } // namespace gnomon

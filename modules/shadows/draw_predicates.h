@@ -8,19 +8,20 @@
 
 namespace gnomon {
 
-/// Words on the GPU that decide, in the frame that they are made in, which casters' draws and
-/// dispatches happen: those whose word is not 0. By default none has a word, and all happen.
+/// Words on the GPU, written in the same frame, that predicate the draws and dispatches of casters:
+/// they execute when the caster's word is not 0. Casters without a word always execute; by default
+/// none has one.
 struct DrawPredicates {
 	RGBuffer words; // with BufferUsage::CONDITIONAL
 	uint64_t first_offset_bytes = 0;
 	/// The instances that have a word, ascending, in the words' order.
 	std::shared_ptr<const std::vector<uint32_t>> instances;
 
-	/// Where the instance's word is.
+	/// Byte offset of the instance's word in `words`; none for an instance without a word.
 	std::optional<uint64_t> find_offset_bytes(uint32_t p_instance_index) const;
 	/// Declares the use of the words in a pass.
 	void add_to(PassBuilder &r_pass) const;
-	/// Records what p_record does, to happen only where the instance's word is set.
+	/// Records the commands of p_record so that they execute only when the instance's word is set.
 	template <typename Record>
 	void record(PassContext &r_context, uint32_t p_instance_index, Record p_record) const {
 		const std::optional<uint64_t> offset = find_offset_bytes(p_instance_index);

@@ -9,23 +9,23 @@ namespace gnomon {
 
 /// One line of the plan: a pass that runs, or one that was skipped and why.
 struct FramePlanEntry {
-	std::string light; // empty: of the whole frame
+	std::string light; // empty: the whole frame
 	std::string pass;
 	bool runs = true;
 	std::string reason; // empty when it runs
 };
 
-/// What a frame does and does not do (doc/architecture.md). Built before any pass is recorded.
-/// Everything that is skipped leaves the image bit for bit as it was.
+/// The passes that a frame runs and those that it skips (doc/architecture.md), built before any
+/// pass is recorded. Skipping a pass never changes the image, bit for bit.
 class FramePlan {
 public:
-	/// Lines are added for this light until the next call; empty = the whole frame.
+	/// Entries belong to this light until the next call; empty = the whole frame.
 	void set_light(const std::string &p_name) { light = p_name; }
 	void run(const std::string &p_pass);
 	void skip(const std::string &p_pass, const std::string &p_reason);
 
 	const std::vector<FramePlanEntry> &get_entries() const { return entries; }
-	/// True when a line states that the pass of that light was skipped.
+	/// True when an entry states that the pass of that light was skipped.
 	bool is_skipped(const std::string &p_light, const std::string &p_pass) const;
 	/// One line per entry: "Lamp: light view 0: skipped, no casters".
 	std::string to_text() const;

@@ -12,7 +12,7 @@ constexpr uint32_t NO_EDGE = ~0u;
 } // namespace
 
 std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology) {
-	// Each corner of a face begins at most one edge that is the face's own.
+	// Each vertex of a face starts at most one edge that the face owns.
 	std::vector<uint32_t> edge_of_corner(p_topology.triangles.size(), NO_EDGE);
 	for (uint32_t index = 0; index < p_topology.edges.size(); ++index) {
 		const MeshEdge &edge = p_topology.edges[index];
@@ -90,7 +90,7 @@ void GpuTopology::upload(RenderingDevice &p_device, TopologyPart p_parts) {
 						{ text(named ? named->name : "mesh", " ", p_what), bytes.size(),
 								p_usage | BufferUsage::COPY_TARGET },
 						bytes));
-		pose_hash = 0; // whatever is posed already is posed again
+		pose_hash = 0; // buffers that have the pose already are deformed again
 	};
 	const auto widen = [](const std::vector<glm::vec3> &p_values, float p_w) {
 		std::vector<glm::vec4> wide;

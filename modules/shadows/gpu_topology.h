@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// What of a mesh's topology a technique reads on the GPU; bits are joined with |.
+/// The buffers of a mesh's topology that a technique reads on the GPU; bits, combined with |.
 enum class TopologyPart : uint32_t {
 	NONE = 0,
 	POSITIONS = 1,
@@ -30,8 +30,8 @@ constexpr TopologyPart operator~(TopologyPart p_parts) {
 	return TopologyPart(~uint32_t(p_parts));
 }
 
-/// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them. Node space.
-/// Buffers are there once they were requested, see MeshStore::get_topology.
+/// A mesh's welded vertices and edges in GPU memory, as silhouette_inc.glsl reads them, in node
+/// space. A buffer exists once it was requested, see MeshStore::get_topology.
 struct GpuTopology {
 	OwnedBuffer positions;			// VERTEX | STORAGE, vec4 per welded vertex, w = 1
 	OwnedBuffer normals;			// VERTEX | STORAGE, vec4; zero where the faces cancel
@@ -39,27 +39,27 @@ struct GpuTopology {
 	SharedBuffer triangles;			// STORAGE, three welded vertices per face
 	SharedBuffer face_flags;		// STORAGE, one word per face, TOPOLOGY_FACE_*
 	SharedBuffer adjacency_indices; // INDEX, six per face, see MeshTopology
-	uint64_t pose_hash = 0;			// of the pose that positions and normals have; 0: at rest
+	uint64_t pose_hash = 0;			// hash of the pose that positions and normals have; 0: at rest
 	uint32_t edge_count = 0;
 	uint32_t adjacency_index_count = 0;
 	std::shared_ptr<const MeshTopology> topology;
 	std::weak_ptr<const Mesh> mesh;
 
-	/// A mesh whose triangles all collapse has no edges, and never a buffer.
+	/// A mesh whose triangles are all degenerate has no edges, and never a buffer.
 	explicit GpuTopology(const std::shared_ptr<const Mesh> &p_mesh);
-	/// Those parts that are not there yet. New positions and normals are those at rest.
+	/// Uploads the parts that are not uploaded yet. New positions and normals are those at rest.
 	void upload(RenderingDevice &p_device, TopologyPart p_parts);
-	/// Takes over what a mesh that poses deform has in common with its mesh at rest.
+	/// Shares the buffers that a deformed mesh has in common with its mesh at rest.
 	void share(const GpuTopology &p_rest);
 };
 
-/// Indices into MeshTopology::edges in the order in which the GPU holds the edges: by their first
-/// face, then as that face winds. A geometry shader meets them in the same order.
+/// Indices into MeshTopology::edges in the order in which the GPU holds the edges: by first face,
+/// then by that face's winding. A geometry shader visits them in the same order.
 std::vector<uint32_t> order_edges_by_face(const MeshTopology &p_topology);
-/// The edges as the shaders read them, in that order.
+/// The edges as the shaders read them, in the order of order_edges_by_face.
 std::vector<shader::TopologyEdge> build_edge_records(const MeshTopology &p_topology);
-/// Per face: which of its edges (0: corners 0 1, 1: 1 2, 2: 2 0) are its own, and which have no
-/// other face, and whether its part is solid. An edge is the own one of its face0.
+/// Flags per face: which of its edges (0: vertices 0 1, 1: 1 2, 2: 2 0) it owns, which have no
+/// other face, and whether its part is solid. An edge is owned by its face0.
 std::vector<uint32_t> build_face_flags(const MeshTopology &p_topology);
 
 } // namespace gnomon

@@ -12,13 +12,13 @@ namespace gnomon {
 
 namespace {
 
-const double MOST_SIZE_PER_CASTERS = 200; // receivers then move by a hundredth of the casters
+const double MOST_SIZE_PER_CASTERS = 200; // receivers then move by 1 % of the casters' diagonal
 const double MOST_CASTERS_PER_SIZE = 5e3;
 
 const char *const WHERE_TO_READ = "; doc/stability.md lists the limits of each technique.";
 
-/// True when all of the box is behind the light by more than its radius: what a spot does not
-/// shine at.
+/// True when the whole box is behind the light by more than the light's radius, where a spot does
+/// not shine.
 bool is_behind(const Bounds &p_bounds, const LightSnapshot &p_light) {
 	const glm::dvec3 direction = p_light.get_direction_world();
 	const glm::dvec3 farthest = glm::mix(

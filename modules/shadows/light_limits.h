@@ -8,28 +8,28 @@
 
 namespace gnomon {
 
-/// A limit of a technique that a light is beyond.
+/// A limit of a technique that a light exceeds.
 struct BrokenLimit {
 	std::string key;	 // the same for as long as the same limit is broken
 	std::string warning; // light, value, range and what to do
 };
 
-/// Looks for limits that a light breaks; at a caster's triangles again only when it or the light
-/// moved.
+/// Finds the limits that a light exceeds. A caster's triangles are searched again only when the
+/// caster or the light moved.
 class LightLimits {
 public:
-	/// p_technique_id: for the text. The limits are of that technique with the light's properties.
+	/// p_technique_id is used in the text. p_limits: ShadowTechnique::get_limits of that technique.
 	const std::vector<BrokenLimit> &find_broken(const SceneSnapshot &p_scene,
 			const LightSnapshot &p_light, const std::string &p_technique_id,
 			const ShadowLimits &p_limits);
 
-	/// Meshes that were searched since the beginning.
+	/// Number of meshes searched since construction.
 	uint32_t get_search_count() const { return search_count; }
 
 private:
-	/// A caster whose triangles were searched, and what came out.
+	/// A caster whose triangles were searched, and the result.
 	struct Search {
-		uint64_t hash = 0; // of the mesh, its transform, the light's transform and the distance
+		uint64_t hash = 0; // mesh, its transform, the light's transform and the distance
 		bool is_near = false;
 	};
 	const InstanceSnapshot *find_near_caster(
@@ -40,8 +40,8 @@ private:
 	uint32_t search_count = 0;
 };
 
-/// Why shadows of the scene are not what they should be with its size S, of which all receivers are
-/// moved by the same part, and what to do; empty: they are.
+/// Why the scene's size S does not fit its casters, and what to do; empty: it fits. All receivers
+/// are moved off their surfaces by the same fraction of S.
 std::string describe_unfit_size(const SceneSnapshot &p_scene);
 
 } // namespace gnomon

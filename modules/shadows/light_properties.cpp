@@ -13,7 +13,7 @@ namespace {
 
 const char TECHNIQUE[] = "shadow_technique";
 
-/// The techniques to choose from, the default first; an example only where it is chosen.
+/// The techniques to choose from, the default first. An example is listed only when it is chosen.
 PropertyInfo make_choice(const PropertyInfo &p_info, const std::string &p_chosen_id) {
 	PropertyInfo info = p_info;
 	if (ShadowRegistry::get_all().empty()) {
@@ -44,7 +44,7 @@ std::vector<const PropertyList *> get_added_lists() {
 	return lists;
 }
 
-/// One warning for all removed properties that have one advice, once a file.
+/// Warns once per file about all removed properties that have the same advice.
 void warn_of_removed(const LightSnapshot &p_light, const PropertyList &p_list) {
 	static std::set<std::string> reported;
 	std::map<std::string, std::string> names_of_advice;

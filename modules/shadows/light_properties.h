@@ -12,15 +12,15 @@
 
 namespace gnomon {
 
-/// A NodePropertySource: of a light, shadow_technique as a choice of those that are registered, and
-/// the properties of the one that it has and of all filters.
+/// A NodePropertySource. For a light it adds shadow_technique, an enum of the registered
+/// techniques, the properties of the light's technique, and those of all mask filters.
 void add_light_properties(const Node3D &p_node, PropertyList &r_list);
 
-/// The property of whichever technique or filter declares that name, or null.
+/// The property with that name that some technique or filter declares, or null.
 const PropertyInfo *find_added_light_property(std::string_view p_name);
-/// What they once declared and nothing reads any more, or null.
+/// A property with that name that techniques or filters once declared and no longer read, or null.
 const RemovedProperty *find_removed_light_property(std::string_view p_name);
-/// The names of all of them.
+/// The names of all light properties that techniques and filters declare.
 std::vector<std::string> list_added_light_properties();
 
 /// The properties of one technique or filter that the light has, with defaults filled in. A stored
@@ -28,10 +28,11 @@ std::vector<std::string> list_added_light_properties();
 /// removed property is logged once per file.
 PropertyValues resolve_light_properties(const LightSnapshot &p_light, const PropertyList &p_list);
 
-/// A property of lights, ID_NAME, that is the setting NAME of the technique now: files may hold it.
+/// Declares the removed light property ID_NAME, which older files may hold: it is now the setting
+/// NAME of the technique.
 void add_moved_setting(const std::string &p_id, const std::string &p_name, PropertyList &r_list);
 
-/// Names that do not begin with the id, or a property without a tooltip, are programming errors.
+/// Asserts that every name begins with the id and that every property has a tooltip.
 void check_own_properties(const std::string &p_id, const PropertyList &p_list);
 
 } // namespace gnomon

@@ -10,17 +10,17 @@ namespace gnomon {
 
 namespace {
 
-// One perspective map spreads its texels badly beyond this: 60 degrees has 4 times the texel size
-// at its corner that it has in the middle. Six views of 90 degrees are better from there on.
+// Beyond this cone half angle one perspective map distributes its texels badly: at 60 degrees a
+// texel in the corner is 4 times as large as in the centre. Six views of 90 degrees are better.
 constexpr float MAX_SINGLE_VIEW_RAD = 1.0471975512f;
-// Casters nearer than this part of S to the light are clamped to the near plane, or cut there, not
-// lost. A reversed depth of floats has the digits: from far : near = 10 to 1e7 no error grows
-// (doc/stability.md); 1e-4 cost edge_count all shadows of casters nearer than that.
+// Near plane as a fraction of S. Casters nearer than that are clamped to the near plane or clipped
+// there. Reversed float depth has enough precision: no error grows from far : near = 10 to 1e7
+// (doc/stability.md). With 1e-4, edge_count lost all shadows of casters nearer than that.
 constexpr double NEAR_PER_SCENE_SIZE = 1e-8;
 // Keeps the view's extent finite for a cone of zero degrees.
 constexpr float MIN_TANGENT = 1e-4f;
 
-/// Rows are right, down and forward: world axes to view axes.
+/// Rotation from world axes to view axes; its rows are right, down and forward.
 glm::dmat4 make_view(const glm::dvec3 &p_right, const glm::dvec3 &p_down,
 		const glm::dvec3 &p_forward, const glm::dvec3 &p_origin_world) {
 	const glm::dmat3 rotation = glm::transpose(glm::dmat3(p_right, p_down, p_forward));
@@ -58,7 +58,7 @@ LightView build_directional_view(const LightSnapshot &p_light, const LightScene 
 		seen.add(glm::dvec3(view.view_from_world * glm::dvec4(p_corner, 1.0)));
 	});
 	const double margin_m = 1e-3 * p_scene.scene.scene_size_m + p_caster_margin_m;
-	// Origin on the near plane: depths are then positive and as small as can be.
+	// With the origin on the near plane, depths are positive and as small as possible.
 	view.view_from_world[3].z += margin_m - seen.minimum.z;
 	view.near_m = 0.0f;
 	view.far_m = static_cast<float>(seen.maximum.z - seen.minimum.z + 2 * margin_m);
@@ -111,8 +111,8 @@ shader::LightViewConstants LightView::compute_constants(
 
 bool LightView::may_see_box(
 		const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const {
-	// All corners further than the margin beyond one plane: outside. Planes: the four sides and
-	// z > 0 (perspective).
+	// The box is outside when all its corners are farther than the margin outside one plane: the
+	// four sides, and z > 0 for a perspective view.
 	const glm::dvec2 slope = is_orthographic ? glm::dvec2(0.0) : glm::dvec2(half_extent);
 	const glm::dvec2 margin = p_margin_m * glm::sqrt(1.0 + slope * slope);
 	int outside_counts[5] = {};

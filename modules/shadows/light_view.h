@@ -11,7 +11,7 @@
 namespace gnomon {
 
 /// A camera placed at the light. View space: x right, y down, z along the view, metres, origin at
-/// the light (directional: at a point before the casters). See LightViewConstants for map space.
+/// the light (directional: at a point in front of all casters). Map space: see LightViewConstants.
 struct LightView {
 	glm::dmat4 view_from_world = glm::dmat4(1.0);
 	bool is_orthographic = false;
@@ -19,13 +19,13 @@ struct LightView {
 	float near_m = 0.001f;
 	float far_m = 1.0f; // orthographic only; a perspective view reaches to infinity
 	glm::uvec2 size_px = glm::uvec2(1024);
-	/// Casters up to this far beyond the view's sides are listed too: what a technique adds to them
-	/// may reach into it.
+	/// Casters up to this distance outside the view's sides are listed too: geometry that a
+	/// technique adds to them may reach into the view.
 	float caster_margin_m = 0.0f;
 
 	/// Vulkan clip space with reversed depth: 1 near .. 0 far.
 	glm::dmat4 compute_clip_from_view() const;
-	/// Composed in double, so that a scene far from the origin keeps its precision.
+	/// Computed in double precision, so that a scene far from the origin keeps its precision.
 	glm::mat4 compute_clip_from_node(const glm::dmat4 &p_world_from_node) const;
 	glm::mat4 compute_view_from_camera_relative(const CameraSnapshot &p_camera) const;
 	shader::LightViewConstants compute_constants(
@@ -33,16 +33,16 @@ struct LightView {
 	/// False only when the box, grown by caster_margin_m, is certainly outside the view's sides or
 	/// behind it.
 	bool may_see(const Bounds &p_bounds_world) const;
-	/// As above, also of the instance's own box, which fits closer where it is turned.
+	/// As above, but also tests the instance's oriented box, which is tighter when it is rotated.
 	bool may_see(const InstanceSnapshot &p_instance) const;
-	/// Least and greatest distance of the box along the view, metres; negative behind the view. Of
-	/// the whole box, wherever it is.
+	/// Minimum and maximum distance of the box along the view in metres, negative behind the view.
+	/// The box is not clipped to the view.
 	glm::dvec2 compute_distance_range_m(const Bounds &p_bounds_world) const;
 	glm::dvec2 compute_distance_range_m(const InstanceSnapshot &p_instance) const;
 	bool operator==(const LightView &) const = default;
 
 private:
-	/// Of a box in any space, grown by a margin to all sides.
+	/// may_see for a box in any space, grown by a margin on all sides.
 	bool may_see_box(
 			const Bounds &p_box, const glm::dmat4 &p_view_from_box, double p_margin_m) const;
 };
@@ -50,7 +50,7 @@ private:
 /// A scene as a technique sees it for one light.
 struct LightScene {
 	const SceneSnapshot &scene;
-	Bounds caster_bounds_world; // of those that cast a shadow for it; empty without
+	Bounds caster_bounds_world; // of the light's casters; empty when there are none
 
 	LightScene(const SceneSnapshot &p_scene, const Bounds &p_caster_bounds_world) :
 			scene(p_scene), caster_bounds_world(p_caster_bounds_world) {}
@@ -59,18 +59,19 @@ struct LightScene {
 			LightScene(p_scene, p_scene.compute_caster_bounds()) {}
 };
 
-/// Views that together hold everything the light reaches: 1 for a spot up to 60 degrees and for a
-/// directional light (fitted to the casters), 6 for omni and wider spots (those that the cone
-/// misses included, so that a view's index is its axis). A perspective view has border_px texels
-/// beyond the light's field on each side, so that a filter of that radius never leaves the map.
-/// p_caster_margin_m: how far a technique widens the casters; a directional view holds that too.
+/// Views that together cover everything the light reaches: 1 for a spot with a half angle up to 60
+/// degrees and for a directional light (fitted to the casters), 6 for omni and wider spots (that
+/// the cone misses are included, so that a view's index is its axis). A perspective view has a
+/// border of p_border_px texels around the light's field, so that a filter of that radius stays in
+/// the map. p_caster_margin_m: how far a technique extends the casters; a directional view holds
+/// it.
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m = 0.0f);
 
 /// The light in camera-relative space, as the shaders read it.
 shader::LightConstants compute_light_constants(
 		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
-/// The light's own axes from camera-relative space, for find_view in light_view_inc.glsl.
+/// Matrix from camera-relative space to the light's axes, for find_view in light_view_inc.glsl.
 glm::mat4 compute_light_from_camera_relative(
 		const LightSnapshot &p_light, const CameraSnapshot &p_camera);
 /// All views of one light as the shaders read them.

@@ -20,14 +20,15 @@ public:
 	/// Properties this filter adds to every light; names begin with the filter's id. Called on any
 	/// instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
-	/// Settings worth comparing, as ShadowTechnique's; measured behind the default technique.
+	/// Quality settings worth comparing, see ShadowTechnique; measured with the default technique.
 	virtual void get_quality_settings(std::vector<QualitySetting> & /*r_settings*/) const {}
-	/// False when it changes no mask of the scene, whatever its properties are.
+	/// False when the filter changes no mask of the scene, whatever its properties are.
 	virtual bool may_change(const SceneSnapshot & /*p_scene*/, glm::uvec2 /*p_size_px*/) const {
 		return true;
 	}
-	/// False, with the reason in the plan, when the mask would stay as it is. p_properties: the
-	/// filter's own of the light, with defaults filled in and every value in range.
+	/// Returns false, and reports the reason in the plan, when the filter would not change the
+	/// mask. p_properties: the filter's properties of the light, with defaults filled in, all in
+	/// range.
 	virtual bool plan(const ShadowTechnique::Inputs &p_inputs, const PropertyValues &p_properties,
 			TechniquePlan &r_plan) = 0;
 	/// Called when plan() returned true. Returns the new mask, of the same format and size.
@@ -40,20 +41,20 @@ struct MaskFilterInfo {
 	std::string id;
 	std::string name;
 	std::string source;
-	std::string color; // "#rrggbb", its own: it is drawn so in every plot
+	std::string color; // "#rrggbb", unique: the filter's colour in all plots
 	std::function<std::unique_ptr<MaskFilter>()> make;
-	/// What the filter approximates. A reference integrates it, and the filter does not run then.
-	/// Null: it runs after the reference too.
+	/// The exact form of what the filter approximates: the reference integrates it, so the filter
+	/// does not run after the reference. Null: the filter also runs after the reference.
 	std::shared_ptr<const SurfaceSpread> spread = nullptr;
 };
 
-/// All mask filters there are.
+/// All registered mask filters.
 using MaskFilterRegistry = Registry<MaskFilterInfo>;
 
-/// What the first filter approximates that approximates something; null: there is none. A reference
-/// integrates it. Main thread, or the render thread while the main thread waits for the frame.
+/// MaskFilterInfo::spread of the first filter that has one, for the reference; null: there is none.
+/// Call on the main thread, or on the render thread while the main thread waits for the frame.
 std::shared_ptr<const SurfaceSpread> find_surface_spread();
-/// Changes with what filters there are: part of what a reference, or a measured mask, depends on.
+/// Hash of the registered filters, on which references and measured masks depend.
 uint64_t compute_filter_hash();
 
 } // namespace gnomon

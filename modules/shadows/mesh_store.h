@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// Of MeshStore::add_deform_pass; all lights have it in common.
+/// Name of the pass of MeshStore::add_deform_pass, which all lights share.
 inline constexpr char DEFORM_PASS_NAME[] = "deform";
 
 /// One mesh in GPU memory.
@@ -20,31 +20,31 @@ struct GpuMesh {
 	OwnedBuffer positions;	 // VERTEX | STORAGE, three floats each
 	OwnedBuffer normals;	 // VERTEX | STORAGE, three floats each
 	SharedBuffer indices;	 // INDEX | STORAGE
-	OwnedBuffer tangents;	 // of a mesh that poses deform, once requested: four floats each
-	BufferRID rest_tangents; // from which those come
+	OwnedBuffer tangents;	 // only of a deformed mesh, once requested: four floats each
+	BufferRID rest_tangents; // tangents at rest, from which `tangents` are computed
 	uint32_t index_count = 0;
-	uint64_t pose_hash = 0; // of the pose that the vertices have; 0: at rest
+	uint64_t pose_hash = 0; // hash of the pose that the vertices have; 0: at rest
 	std::weak_ptr<const Mesh> mesh;
 };
 
-/// Keeps the GPU buffers of the meshes in use; a mesh that nothing holds any more is freed. Those
-/// that poses deform have vertices of their own and share the rest with their mesh at rest.
+/// Keeps the GPU buffers of the meshes in use; buffers of a mesh without owners are freed. Deformed
+/// meshes have their own vertices and share the other buffers with their mesh at rest.
 class MeshStore {
 public:
 	explicit MeshStore(RenderingDevice &p_device) : device(p_device) {}
 
-	/// Uploads the mesh the first time. The mesh must have triangles.
+	/// Returns the mesh's buffers, uploaded on the first call. The mesh must have triangles.
 	const GpuMesh &get(const std::shared_ptr<const Mesh> &p_mesh);
-	/// The mesh's tangents as its pose turns them, VERTEX. p_rest: those at rest, one a vertex,
-	/// which live as long as the mesh at rest.
+	/// The mesh's tangents at its pose, a VERTEX buffer. p_rest: the tangents at rest, one per
+	/// vertex, which must live as long as the mesh at rest.
 	BufferRID get_deformed_tangents(const std::shared_ptr<const Mesh> &p_mesh, BufferRID p_rest);
-	/// Uploads those parts of the mesh's topology that were not requested before. Before passes are
-	/// recorded.
+	/// Returns the mesh's topology and uploads the parts that were not requested before. Call
+	/// before passes are recorded.
 	const GpuTopology &get_topology(
 			const std::shared_ptr<const Mesh> &p_mesh, TopologyPart p_parts);
-	/// What a technique of its own derives from a mesh, shared by all lights and cached as long as
-	/// the mesh lives; p_make makes a T the first time. One T per mesh and type; meshes that poses
-	/// deform have those of their mesh at rest.
+	/// Data that a technique derives from a mesh, shared by all lights and cached as long as the
+	/// mesh lives; p_make creates a T on the first call. One T per mesh and type; deformed meshes
+	/// use the T of their mesh at rest.
 	template <typename T, typename Make>
 	const T &get_derived(const std::shared_ptr<const Mesh> &p_mesh, Make p_make) {
 		const std::shared_ptr<const Mesh> &owner = p_mesh->rest ? p_mesh->rest : p_mesh;
@@ -54,20 +54,20 @@ public:
 		}
 		return *static_cast<const T *>(entry.value.get());
 	}
-	/// Before all passes that read vertices: brings those of meshes that poses deform up to the
-	/// scene's poses, also of buffers that are requested later in the frame. Those whose pose is
-	/// the same as before stay as they are, where p_may_reuse. Returns how many instances' vertices
-	/// the pass moves now.
+	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
+	/// vertices; buffers that are requested later in the frame are deformed too. With p_may_reuse,
+	/// vertices whose pose did not change are kept. Returns the number of instances that it
+	/// deforms.
 	uint32_t add_deform_pass(
 			RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_reuse = true);
 	RenderingDevice &get_device() { return device; }
-	/// Frees what belongs to meshes that are gone. Once a frame.
+	/// Frees the buffers of meshes that no longer exist. Call once a frame.
 	void collect_garbage();
 	size_t get_mesh_count() const { return meshes.size(); }
 
 private:
 	friend class DeformPass;
-	/// Uploads what the deform pass will read of a mesh that poses deform.
+	/// Uploads the data of a deformed mesh that the deform pass reads.
 	void prepare_deform(const std::shared_ptr<const Mesh> &p_mesh, bool p_has_topology);
 	struct Derived {
 		std::shared_ptr<const void> value;

@@ -7,15 +7,15 @@ namespace gnomon {
 
 namespace {
 
-/// Distance along the view before which none of the box is, as far as the view sees it.
+/// Lower bound of the distance along the view to the part of the box that the view sees, metres.
 double compute_nearest_distance_m(
 		const LightView &p_view, const LightSnapshot &p_light, const InstanceSnapshot &p_instance) {
 	const double along_m = p_view.compute_distance_range_m(p_instance).x;
 	if (p_view.is_orthographic) {
 		return along_m;
 	}
-	// A box that reaches behind the light may still be far from it wherever the view looks: what is
-	// so far away, and between the view's sides, has at least this distance along the view.
+	// A box that reaches behind the light may still be far from it inside the view: a point at
+	// distance straight_m between the view's sides has at least straight_m / corner along the view.
 	const double straight_m = p_instance.bounds_world.compute_distance(p_light.position_world);
 	const double corner = std::sqrt(
 			1.0 + glm::dot(glm::dvec2(p_view.half_extent), glm::dvec2(p_view.half_extent)));

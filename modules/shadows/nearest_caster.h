@@ -4,12 +4,13 @@
 
 namespace gnomon {
 
-/// The greatest w (see LightViewConstants) that a caster has in any view: no blocker is nearer to
-/// the light, so that none is searched farther out than it can reach.
+/// Upper bound of w (see LightViewConstants) over the view's casters: no blocker is nearer to the
+/// light, which limits the radius of a blocker search.
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
-/// The greatest of all views.
+/// The maximum over all views.
 float compute_nearest_w(const ShadowTechnique::Inputs &p_inputs);
-/// What debug views of light depths show black and white, see ShadowTechnique::DebugView.
+/// The depths that debug views of light depths show black and white, see
+/// ShadowTechnique::DebugView.
 glm::vec2 compute_shown_depths(const ShadowTechnique::Inputs &p_inputs);
 
 } // namespace gnomon

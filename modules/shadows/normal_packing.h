@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// The unit vector of a texel of the G-buffer's normals: normal_inc.glsl's unpack_normal, for
-/// passes that run on the CPU.
+/// The unit vector that a texel of the G-buffer's normals encodes: the CPU version of
+/// unpack_normal in normal_inc.glsl.
 inline glm::vec3 unpack_normal(uint32_t p_packed) {
 	const glm::vec2 folded = glm::unpackSnorm2x16(p_packed);
 	glm::vec3 n(folded, 1.0f - std::abs(folded.x) - std::abs(folded.y));

@@ -10,8 +10,9 @@
 
 namespace gnomon {
 
-/// Extensions that add properties to lights. `make` of an Info makes what declares them. Who holds
-/// what was made of one drops it before the next frame (see get_revision).
+/// Registry of extensions that add properties to lights. Info::make creates the object that
+/// declares them. Owners of such objects drop them before the next frame when get_revision()
+/// changes.
 template <typename Info> class Registry : public ExtensionRegistry<Info> {
 public:
 	static void add(Info p_info) {
@@ -27,7 +28,7 @@ public:
 		properties.erase(std::string(p_id));
 		++revision;
 	}
-	/// Light properties of one that must exist.
+	/// Light properties of the extension p_id, which must be registered.
 	static const PropertyList &get_light_properties(std::string_view p_id) {
 		const auto found = properties.find(p_id);
 		GNOMON_ASSERT(found != properties.end(), p_id, " is not registered");

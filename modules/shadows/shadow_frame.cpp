@@ -37,7 +37,7 @@ CasterList cull_casters(const SceneSnapshot &p_scene, const CasterFlags &p_casts
 	return casters;
 }
 
-/// Of those that cast.
+/// Bounds of the instances that cast.
 Bounds compute_bounds(const SceneSnapshot &p_scene, const CasterFlags &p_casts) {
 	Bounds bounds;
 	for (size_t index = 0; index < p_scene.instances.size(); ++index) {
@@ -276,7 +276,7 @@ RGTexture ShadowFrame::add_filters(const Work &p_work, RGTexture p_mask) {
 	for (size_t index = 0; index < system.filters.size(); ++index) {
 		const MaskFilterInfo &info = MaskFilterRegistry::get_all()[index];
 		if (p_work.info.is_reference && info.spread) {
-			continue; // a reference has done already what filters approximate
+			continue; // the reference already integrates what the filter approximates
 		}
 		const PropertyValues properties = resolve_light_properties(
 				p_work.light, MaskFilterRegistry::get_light_properties(info.id));
@@ -301,7 +301,7 @@ RGTexture ShadowFrame::add_technique(const Work &p_work, ShadowTechnique &r_tech
 					compute_fit_reach_m(view, p_work.light, p_work.scene));
 		}
 		casters.push_back(cull_casters(p_work.scene, p_casts, view, options.may_skip));
-		// What is shown itself is seen, receivers or not.
+		// A view that is shown itself counts as visible, with or without receivers.
 		casters.back().has_receivers =
 				wants_debug_views || may_view_hold_any(view, p_work.lit_receivers);
 	}
@@ -385,7 +385,7 @@ RGTexture ShadowFrame::add_shadow(const LightSnapshot &p_light, const VisibleRec
 	if (!slot.technique->sees_translucent_casters()) {
 		translucent = find_translucent_casters(seen, p_light);
 	}
-	std::erase_if(system.slots, [&](const auto &p_slot) { // of groups that there are no more
+	std::erase_if(system.slots, [&](const auto &p_slot) { // groups that no longer exist
 		return p_slot.first.first == p_light.name &&
 				p_slot.first.second > translucent.groups.size();
 	});

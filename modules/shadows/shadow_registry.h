@@ -18,56 +18,56 @@ struct ShadowTechniqueInfo {
 	std::string id; // stored in scene files; never changes
 	std::string name;
 	std::string source; // paper, book, section
-	std::string color;	// "#rrggbb", its own: it is drawn so in every plot
+	std::string color;	// "#rrggbb", unique: the technique's colour in all plots
 	std::function<std::unique_ptr<ShadowTechnique>()> make;
-	/// The highest rank is what a light without shadow_technique gets; 0 = never by default.
+	/// A light without shadow_technique gets the technique of the highest rank; 0 = never.
 	int default_rank = 0;
-	/// Takes over for lights whose technique is missing.
+	/// True: replaces the technique of lights whose own is not registered.
 	bool is_fallback = false;
-	/// Exact within its sampling error: what the others are measured against.
+	/// True: exact within its sampling error; the other techniques are measured against it.
 	bool is_reference = false;
-	/// Of a reference: the same mask without a device, for whoever cannot wait for a frame. Empty:
-	/// there is no such way.
+	/// For a reference: computes the same mask on the CPU, for callers that cannot wait for a
+	/// frame. Empty: not available.
 	std::function<std::unique_ptr<ReferenceSource>(ReferenceQuestion)> make_reference_source = {};
-	/// There to be copied, not to be measured: the error report skips it unless it is named.
+	/// True: a template to copy. The error report skips it unless it is named.
 	bool is_example = false;
-	/// Shadows fall on instances alone that their node declares planar; of no use to a host whose
-	/// nodes cannot (InstanceSnapshot::is_planar_receiver).
+	/// True: only instances whose node declares them planar receive shadows
+	/// (InstanceSnapshot::is_planar_receiver). Useless in a host whose nodes cannot declare it.
 	bool needs_planar_receivers = false;
 };
 
-/// All techniques there are.
+/// All registered techniques.
 class ShadowRegistry : public Registry<ShadowTechniqueInfo> {
 public:
-	/// As find; absent: an Error that lists the ids there are.
+	/// As find, but throws an Error that lists the registered ids when p_id is not one.
 	static const ShadowTechniqueInfo &get(std::string_view p_id);
-	/// Null where no candidate is registered.
+	/// The next three return null when no such technique is registered.
 	static const ShadowTechniqueInfo *find_default();
 	static const ShadowTechniqueInfo *find_fallback();
 	static const ShadowTechniqueInfo *find_reference();
 
 	static void add(ShadowTechniqueInfo p_info);
 	static void remove(std::string_view p_id);
-	/// The settings of a technique that must exist: how it computes, for all lights alike; no value
-	/// changes what its masks should be. project.cfg has them as [technique.ID], the command line
-	/// as --set technique.ID.NAME=value.
+	/// The settings of a technique, which must be registered: how it computes, for all lights. No
+	/// value changes the mask that it approximates. Set in project.cfg under [technique.ID], or on
+	/// the command line with --set technique.ID.NAME=value.
 	static const PropertyList &get_settings(std::string_view p_id);
-	/// All of them, as set or by default.
+	/// The values of all settings of a technique, as set or by default.
 	static const PropertyValues &get_setting_values(std::string_view p_id);
-	/// From the next frame on. p_text as parse_property reads it; an id, name or value that does
-	/// not exist is an Error that lists those that do.
+	/// Sets a value from the next frame on. p_text: see parse_property. Throws an Error that lists
+	/// the valid choices for an id, name or value that does not exist.
 	static void set_setting(
 			std::string_view p_id, std::string_view p_name, std::string_view p_text);
 };
 
-/// Settings for tests, benchmarks and comparisons: their group. No page and no list shows them.
+/// The property group of settings for tests, benchmarks and comparisons. No page or list shows it.
 extern const char *const TEST_SETTINGS_GROUP;
 
-/// Applies the [technique.ID] sections of a project. What another build knows and this one does not
-/// only warns: the project must open everywhere.
+/// Applies the [technique.ID] sections of a project. Unknown techniques or settings, which another
+/// build may have, only cause a warning: the project must open in every build.
 void apply_technique_settings(const Project &p_project);
 
-/// Which technique a light gets, and why another than it requests.
+/// The technique that a light gets, and why it is not the requested one.
 struct TechniqueChoice {
 	const ShadowTechniqueInfo *info = nullptr; // null: no shadow, v = 1
 	std::string warning;					   // empty when the light gets what it requests

@@ -13,44 +13,44 @@
 #include <utility>
 #include <vector>
 
-// All that a host needs to get shadow masks (doc/embedding.md).
+// The interface for hosts that need shadow masks (doc/embedding.md).
 
 namespace gnomon {
 
 class ShadowFrame;
 
-/// What one host caches from frame to frame: the techniques of its lights with their maps, and the
-/// meshes' buffers. One for each camera that is drawn in turn, so that each finds its maps again;
-/// they may share the meshes.
+/// The state that a host keeps from frame to frame: the techniques of its lights with their maps,
+/// and the meshes' buffers. A host that draws several cameras in turn needs one per camera, so that
+/// the cached maps stay valid; these may share the meshes.
 class ShadowSystem {
 public:
-	/// p_meshes: empty = of its own.
+	/// p_meshes: empty = creates its own store.
 	explicit ShadowSystem(RenderingDevice &p_device, std::shared_ptr<MeshStore> p_meshes = {});
 
 	RenderingDevice &get_device() { return device; }
 	MeshStore &get_meshes() { return *meshes; }
-	/// Of the light's mask of the last frame; see ShadowTechnique.
+	/// Standard error of the light's mask in the last frame, see ShadowTechnique.
 	float get_standard_error(const std::string &p_light_name) const;
-	/// Techniques start again, as after shaders were replaced.
+	/// Destroys all techniques and their caches, for example after shaders were replaced.
 	void forget_cached() { slots.clear(); }
 
 private:
 	friend class ShadowFrame;
-	/// Of one light, or of one group of its translucent casters.
+	/// The technique of one light, or of one group of the light's translucent casters.
 	struct Slot {
 		std::string technique_id;
 		std::unique_ptr<ShadowTechnique> technique;
 		LightLimits limits;
-		uint64_t last_frame = 0; // in which it was used
+		uint64_t last_frame = 0; // the last frame that used the slot
 	};
-	/// Of a light: 0, and 1 + i for its group i of translucent casters.
+	/// The light's name, and 0 for its opaque casters or 1 + i for its group i of translucent ones.
 	using SlotKey = std::pair<std::string, size_t>;
 	Slot &get_slot(const SlotKey &p_key, const ShadowTechniqueInfo &p_info);
 	void warn_once(const std::string &p_warning); // empty: nothing
-	/// Not again for the same key, whatever the warning states.
+	/// Warns only once per key, whatever the warning states.
 	void warn_once(const std::string &p_key, const std::string &p_warning);
-	/// Drops techniques of lights that are gone or were not used in many frames, and all when
-	/// a registry changed. Once a frame.
+	/// Drops the techniques of lights that no longer exist or were unused for many frames, and all
+	/// techniques when a registry changed. Called once a frame.
 	void begin_frame(const SceneSnapshot &p_scene);
 
 	RenderingDevice &device;

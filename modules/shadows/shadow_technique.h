@@ -28,11 +28,12 @@ struct CasterList {
 	bool has_receivers = true;
 };
 
-/// What a technique decides before any pass is recorded. Names the light in the frame's plan.
+/// What a technique decides before any pass is recorded: lines of the frame's plan, and light views
+/// to skip. It prefixes pass names; the light is named by FramePlan::set_light.
 class TechniquePlan {
 public:
-	/// p_prefix: distinguishes the runs of one technique for one light, see
-	/// sees_translucent_casters.
+	/// p_prefix is put before each pass name, to distinguish the runs of one technique for one
+	/// light, see sees_translucent_casters.
 	explicit TechniquePlan(FramePlan &p_plan, std::string p_prefix = {}) :
 			plan(p_plan), prefix(std::move(p_prefix)) {}
 
@@ -40,7 +41,7 @@ public:
 	void skip(const std::string &p_pass, const std::string &p_reason) {
 		plan.skip(prefix + p_pass, p_reason);
 	}
-	/// None of the view's three hooks is called then.
+	/// None of the view's three hooks is called for a skipped view.
 	void skip_light_view(uint32_t p_view_index, const std::string &p_reason);
 	bool is_light_view_skipped(uint32_t p_view_index) const {
 		return skipped_views.count(p_view_index) != 0;
@@ -52,13 +53,13 @@ private:
 	std::set<uint32_t> skipped_views;
 };
 
-/// Where the answer stays sensible, measured by the stability sweeps (doc/stability.md). Beyond it
-/// there is light where all is dark, or shadow where all is lit.
+/// Limits within which a technique's masks are usable, measured by the stability sweeps
+/// (doc/stability.md). Beyond them there is light in the umbra, or shadow where all is lit.
 struct ShadowLimits {
-	/// From the light's centre to the nearest caster, over R; placed lights of some size only.
-	/// Within 1 the light's sphere touches the caster, and part of it is inside.
+	/// Minimum distance from the light's centre to a caster, as a multiple of R. For spot and omni
+	/// lights with R > 0 only. Below 1 the caster reaches into the light's sphere.
 	double least_caster_distance_radii = 1.0;
-	/// Of r, over S; and of t.
+	/// Maximum of the outer penumbra width r, and of the inner width t, as fractions of S.
 	double most_outer_width_sizes = std::numeric_limits<double>::infinity();
 	double most_inner_width_sizes = std::numeric_limits<double>::infinity();
 };
@@ -77,27 +78,29 @@ public:
 		MeshStore &meshes; // GPU buffers of the casters
 		const SceneSnapshot &scene;
 		const LightSnapshot &light;
-		/// Of the technique's light properties, with defaults filled in and every value in range.
+		/// The technique's properties of the light, with defaults filled in and every value in
+		/// range.
 		const PropertyValues &properties;
-		const PropertyValues &settings; // of the technique, complete; see get_settings
+		const PropertyValues &settings; // the technique's, complete; see get_settings
 		std::span<const LightView> views;
 		std::span<const CasterList> casters; // one list per view
 		glm::uvec2 size_px;
 		RGTexture depth;			// D32_SFLOAT, reversed; 0 = background
-		RGTexture geometric_normal; // R32_UINT, normal_inc.glsl; of the face, towards the viewer
-		/// RGBA16_SFLOAT: scatter, its distance in metres. Empty where the host draws no materials:
-		/// nothing scatters then.
+		RGTexture geometric_normal; // R32_UINT, packed by normal_inc.glsl; faces the viewer
+		/// RGBA16_SFLOAT: scatter in 0..1, scatter distance in metres. Empty when the host draws no
+		/// materials: then nothing scatters.
 		RGTexture material;
 		RGTexture receivers; // R8_UNORM: 1 where the light can reach; the mask counts only there
 		RGBuffer frame;		 // FrameConstants
 		RGBuffer light_constants; // LightConstants
 		/// False: nothing may be skipped (for the test that compares both bit for bit).
 		bool may_skip = true;
-		/// False: what was cached of earlier frames must not be used, as if everything had moved.
+		/// False: nothing cached in earlier frames may be used, as if everything had moved.
 		bool may_reuse = true;
 		/// True while one of the technique's debug views is shown.
 		bool wants_debug_views = false;
-		/// What the camera sees of the instances that the light may reach: all receivers are there.
+		/// Bounds of what the camera sees of the instances that the light may reach. They contain
+		/// all receivers.
 		std::span<const VisibleReceiver> lit_receivers;
 	};
 	/// An intermediate image of the last resolve().
@@ -109,53 +112,54 @@ public:
 		/// Above 0: values are classes 0 .. class_count - 1 (at most 8), shown in colours.
 		uint32_t class_count = 0;
 		bool is_color = false; // values are sRGB colours, shown as they are
-		/// Values are depths of light views as maps hold them. The shadow system chooses
-		/// shown_range: black the farthest caster, white a third of its distance; directional: all
-		/// depths.
+		/// Values are depths as the light view's map stores them. The shadow system then sets
+		/// shown_range: black is the distance of the farthest caster, white a third of it
+		/// (directional: the whole depth range).
 		bool is_light_depth = false;
 	};
 
 	virtual ~ShadowTechnique() = default;
 
-	/// Within what the technique's results hold, see its page. Called once a frame, with
-	/// p_properties as in Inputs; beyond a limit there is a warning.
+	/// The limits within which the technique's results hold, see its page. Called once a frame,
+	/// with p_properties as in Inputs; a light beyond a limit is warned about.
 	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on
 	/// any instance, at any time; always the same list.
 	virtual void get_light_properties(PropertyList & /*r_list*/) const {}
-	/// Settings of the technique for all lights alike: how it computes, not what, so no property of
-	/// a light. Names without the id. Called on any instance, at any time; always the same list.
+	/// Settings that the technique uses for all lights: they change how it computes, not what, so
+	/// they are not light properties. Names do not contain the id. Called on any instance, at any
+	/// time; always the same list.
 	virtual void get_settings(PropertyList & /*r_list*/) const {}
-	/// Settings worth comparing for that light, whose r and t are derived from its size. Cheapest
-	/// first; empty: the defaults alone. Called on any instance, at any time.
+	/// Quality settings worth comparing for the light, whose r and t are derived from its size.
+	/// Cheapest first; empty: only the defaults. Called on any instance, at any time.
 	virtual void get_quality_settings(const LightSnapshot & /*p_light*/,
 			std::vector<QualitySetting> & /*r_settings*/) const {}
 	/// Called once a frame with p_properties as in Inputs. Leave empty when nothing is rendered
 	/// from the light.
 	virtual void get_light_views(const LightSnapshot & /*p_light*/, const LightScene & /*p_scene*/,
 			const PropertyValues & /*p_properties*/, std::vector<LightView> & /*r_views*/) const {}
-	/// True: directional views may be narrowed to what the camera sees and what is a penumbra
-	/// from it, since the technique queries its maps for receivers only.
+	/// True: the technique queries its maps for receivers only, so directional views may be
+	/// narrowed to what the camera sees plus the reach of the penumbras.
 	virtual bool queries_receivers_only() const { return false; }
 	/// Called once a frame before any pass: what will run, what is skipped and why.
 	virtual void plan(const Inputs & /*p_inputs*/, TechniquePlan & /*r_plan*/) {}
-	/// Around each light view that was not skipped, in this order; record passes only.
+	/// Called in this order for each light view that was not skipped; may only record passes.
 	virtual void before_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
 	virtual void at_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
 	virtual void after_light_view(RenderGraph &, const Inputs &, uint32_t /*p_view_index*/) {}
 	/// Returns the visibility mask: R16_SFLOAT (R32_SFLOAT where the precision is needed), 0 =
 	/// hidden, 1 = fully lit, one texel per camera pixel, ready to be sampled. Never NaN.
 	virtual RGTexture resolve(RenderGraph &r_graph, const Inputs &p_inputs) = 0;
-	/// True: resolve() sees translucent casters itself and returns a mask of three colours where
-	/// there are any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: it runs once for the opaque ones
-	/// and once more for each group of others, as if they were opaque, and the mask is coloured
-	/// behind it.
+	/// True: resolve() handles translucent casters itself and returns an RGB mask when there are
+	/// any (RGBA16_SFLOAT or RGBA32_SFLOAT). False: the technique runs once for the opaque casters
+	/// and once more for each group of translucent ones, as if they were opaque; the shadow system
+	/// then combines the masks into a coloured one (shadows/tint.comp).
 	virtual bool sees_translucent_casters() const { return false; }
 	/// Called after resolve() while a debug view is shown.
 	virtual void get_debug_views(std::vector<DebugView> & /*r_views*/) const {}
-	/// Called after the frame ran: the standard error of its mask where the technique takes samples
-	/// at random and knows it, else 0.
+	/// Called after the frame ran: the standard error of its mask for a technique that samples at
+	/// random and knows it, else 0.
 	virtual float get_standard_error() const { return 0.0f; }
 	/// Entry points under shaders/; compiled by the tests and watched for hot reload.
 	virtual std::vector<std::string> get_shader_files() const = 0;

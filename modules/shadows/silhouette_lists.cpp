@@ -10,7 +10,7 @@ namespace gnomon {
 
 namespace {
 
-// Twelve vertices an edge still have 32-bit indices.
+// With up to twelve vertices per edge, vertex indices still fit into 32 bits.
 constexpr uint32_t MAX_EDGE_COUNT = 300'000'000;
 
 uint32_t divide_up(uint32_t p_value, uint32_t p_divisor) {

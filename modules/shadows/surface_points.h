@@ -9,22 +9,22 @@
 
 namespace gnomon {
 
-/// What the camera sees in one pixel.
+/// The surface that the camera sees in one pixel.
 struct SurfacePoint {
 	bool is_there = false;						  // false: background
-	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative: the world's axes, in metres
+	glm::vec3 position = glm::vec3(0.0f);		  // camera-relative, world axes, metres
 	glm::vec3 geometric_normal = glm::vec3(0.0f); // unit, towards the viewer
 	SurfaceMaterial material;
-	float pixel_size_m = 0; // how wide a pixel is there, across the view
+	float pixel_size_m = 0; // width of a pixel at that distance, across the view
 };
 
-/// The texels of a host's textures on the CPU, see HostSurfaces; rows from the top.
+/// CPU copies of the texels of a host's textures, see HostSurfaces; rows from the top.
 struct SurfaceTexels {
 	const uint8_t *depth = nullptr;
 	const uint8_t *geometric_normal = nullptr;
 	const uint8_t *material = nullptr; // null: nothing scatters
 };
-/// What the camera sees in each pixel, for passes that run on the CPU.
+/// Decodes the surface of each pixel, for passes that run on the CPU.
 std::vector<SurfacePoint> read_surfaces(
 		const shader::FrameConstants &p_frame, glm::uvec2 p_size_px, const SurfaceTexels &p_texels);
 

@@ -7,13 +7,14 @@ namespace gnomon {
 
 namespace {
 
-/// What the light sees of a caster: a cone from its centre, or a cylinder along its direction.
+/// Bounds of a caster as seen from the light: a cone from the light's centre, or a cylinder along
+/// its direction.
 struct Shade {
 	glm::dvec3 position = glm::dvec3(0.0); // unit, from the light; directional: the caster's centre
 	double radius_m = 0;				   // of the caster
 	double cosine = 1;					   // of the cone's half angle
 	double sine = 0;
-	bool is_everywhere = false; // the cone is wider than a right angle, or the light inside
+	bool is_everywhere = false; // the cone's half angle is 90 degrees, or the light is inside
 };
 
 Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
@@ -30,7 +31,7 @@ Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
 	shade.is_everywhere = !(shade.radius_m + disc_radius < distance);
 	if (!shade.is_everywhere) {
 		shade.position = to_caster / distance;
-		// From the disc's edge a caster is seen past the centre's cone by as much again.
+		// Seen from the light's rim, the caster exceeds the cone of the centre by the second angle.
 		const double half_rad = std::asin((shade.radius_m + disc_radius) / distance) +
 				std::asin(std::min(1.0, disc_radius / (distance - shade.radius_m)));
 		shade.is_everywhere = half_rad >= 1.57;
@@ -40,7 +41,7 @@ Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {
 	return shade;
 }
 
-/// May a ray of the light meet both? False only where it is certain.
+/// False only when it is certain that no light ray hits both.
 bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade &p_right) {
 	if (p_left.is_everywhere || p_right.is_everywhere) {
 		return true;
@@ -49,7 +50,7 @@ bool may_overlap(const LightSnapshot &p_light, const Shade &p_left, const Shade 
 		const glm::dvec3 way = p_left.position - p_right.position;
 		const double along = glm::dot(way, p_light.get_direction_world());
 		const double across2 = std::max(glm::dot(way, way) - along * along, 0.0);
-		// Rays lean by half the light's angle at most between the two.
+		// Between the two, rays deviate by at most half the light's angle.
 		const double radii_m = p_left.radius_m + p_right.radius_m;
 		const double reach_m = radii_m + p_light.get_disc_radius() * (std::abs(along) + radii_m);
 		return across2 <= reach_m * reach_m;

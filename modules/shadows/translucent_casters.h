@@ -7,19 +7,19 @@
 
 namespace gnomon {
 
-/// Casters that leave the same part of the light, and of which no ray of the light meets two: their
-/// shadow is one technique's, in one colour.
+/// Casters with the same transmittance of which no light ray hits two: one run of the technique
+/// computes their shadow, which has one colour.
 struct TranslucentGroup {
 	std::vector<uint32_t> instances;
-	glm::vec3 transmittance = glm::vec3(0.0f); // 0..1 for each colour, below 1 for one at least
+	glm::vec3 transmittance = glm::vec3(0.0f); // per colour, 0..1, at least one below 1
 };
 
-/// The casters of a light through which some of it goes, in groups. Casters that leave all of the
-/// light are in none: they cast nothing.
+/// The translucent casters of a light, in groups. Casters that transmit all light are in no group:
+/// they cast no shadow.
 struct TranslucentCasters {
 	static constexpr size_t MAX_GROUP_COUNT = 8; // each is one more run of the technique
 	std::vector<TranslucentGroup> groups;
-	/// Casters of a colour of their own that went into the nearest group, as there were too many.
+	/// Casters that were put into the group of the nearest colour because there were too many.
 	uint32_t forced_count = 0;
 	std::vector<uint8_t> is_translucent; // by instance; empty: none is
 
@@ -28,11 +28,11 @@ struct TranslucentCasters {
 TranslucentCasters find_translucent_casters(
 		const SceneSnapshot &p_scene, const LightSnapshot &p_light);
 
-/// By instance: 1 where it casts a shadow.
+/// One value per instance: 1 when it casts a shadow.
 using CasterFlags = std::vector<uint8_t>;
 
-/// What a technique sees that knows opaque casters only: those that are opaque, and the group's as
-/// if they were (null: none). The other translucent ones cast nothing.
+/// The casters of one run of a technique that only handles opaque casters: the opaque ones, and
+/// those of p_group as if they were opaque (null: none). Other translucent casters cast nothing.
 CasterFlags find_opaque_casters(const SceneSnapshot &p_scene, const TranslucentCasters &p_casters,
 		const TranslucentGroup *p_group);
 

@@ -8,8 +8,9 @@ namespace gnomon {
 namespace {
 
 const double LEAST_PART = 1.0 / 1024.0;
-const double STEPS_PER_HALF = 4.0; // in which the view moves
-// Of half the view: a step's rounding takes an eighth of it, a filter's border the rest.
+const double STEPS_PER_HALF = 4.0; // steps per half extent to which the view's centre is snapped
+// Maximum fraction of the view's half extent that the content may fill: rounding to a step takes
+// an eighth of it, a filter's border the rest.
 const double MOST_FILLED = 0.75;
 
 } // namespace

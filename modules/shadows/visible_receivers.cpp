@@ -9,11 +9,14 @@ namespace gnomon {
 
 namespace {
 
-// The shaders' positions are float32: some 1e-7 of the distances that they are made of. Receivers
-// are moved off their surfaces by 5e-5 S (receiver_inc.glsl).
+// ROUNDING bounds the error of float32 positions (about 1e-7 relative) as a fraction of the
+// distances that a position is computed from: to the camera, of the instance's origin and bounds,
+// plus the bounds' diagonal. It also widens the range (relative) and the cone (rad). Receivers are
+// moved off their surfaces by 5e-5 S (receiver_inc.glsl); twice that is allowed for.
 constexpr double ROUNDING = 1e-5;
 constexpr double OFFSET_PER_SCENE_SIZE = 1e-4;
-// The shader compares cosines in float32; near 1 that is an angle of some 3e-4 rad.
+// The shader compares cosines in float32 (rounding error 6e-8). Near a cosine of 1 this margin is
+// an angle of 1.4e-3 rad.
 constexpr double COSINE_MARGIN = 1e-6;
 
 using Polygon = std::vector<glm::dvec3>;
@@ -59,7 +62,7 @@ Polygon clip(const Polygon &p_polygon, const Plane &p_plane) {
 	return clipped;
 }
 
-/// Adds the ends of the ray's part in the box.
+/// Clips the ray to the box and adds both ends of the clipped segment.
 void add_ray(const Bounds &p_box, const glm::dvec3 &p_origin, const glm::dvec3 &p_direction,
 		Bounds &r_bounds) {
 	double first = 0;
@@ -82,8 +85,8 @@ void add_ray(const Bounds &p_box, const glm::dvec3 &p_origin, const glm::dvec3 &
 	}
 }
 
-/// Bounds of what the box and the camera's view have in common: of the box's faces cut off at the
-/// view's planes, and of the view's edges in the box. Empty where they do not meet.
+/// Bounds of the intersection of the box and the camera's view: of the box's faces, clipped by the
+/// view's planes, and of the view's edges inside the box. Empty when they do not intersect.
 Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 		const std::array<Plane, 5> &p_planes, const CameraSnapshot &p_camera) {
 	bool is_inside = true;
@@ -120,7 +123,7 @@ Bounds compute_visible_bounds(const Bounds &p_box, const LightView &p_view,
 	return bounds;
 }
 
-/// What rounding may add to a position of the instance.
+/// Margin for rounding of the instance's positions and for the receivers' offset, metres.
 double compute_margin_m(const SceneSnapshot &p_scene, const InstanceSnapshot &p_instance) {
 	const glm::dvec3 &camera = p_scene.camera.position_world;
 	double distance_m = glm::distance(glm::dvec3(p_instance.world_from_node[3]), camera);
@@ -129,7 +132,7 @@ double compute_margin_m(const SceneSnapshot &p_scene, const InstanceSnapshot &p_
 	return ROUNDING * distance_m + OFFSET_PER_SCENE_SIZE * p_scene.scene_size_m;
 }
 
-/// True when the ball is certainly outside the cone.
+/// True when the bounding sphere is certainly outside the cone.
 bool is_outside_cone(const LightSnapshot &p_light, const glm::dvec3 &p_centre, double p_radius_m) {
 	const glm::dvec3 way = p_centre - p_light.position_world;
 	const double distance_m = glm::length(way);
@@ -152,7 +155,7 @@ VisibleReceivers find_visible_receivers(
 	for (uint32_t index = 0; index < p_scene.instances.size(); ++index) {
 		const InstanceSnapshot &instance = p_scene.instances[index];
 		if (!p_camera_view.may_see(instance.bounds_world)) {
-			continue; // nor does the G-buffer draw it
+			continue; // the G-buffer does not draw it either
 		}
 		const double margin_m = compute_margin_m(p_scene, instance);
 		Bounds box = instance.bounds_world;
@@ -186,8 +189,8 @@ bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world)
 	if (is_outside_cone(p_light, centre, radius_m)) {
 		return false;
 	}
-	// The ball of a large flat box is far larger than the box: test the box itself too, against a
-	// cone that fits into four planes.
+	// The bounding sphere of a large flat box is far larger than the box, so the box itself is also
+	// tested, against the four planes of the pyramid around the cone.
 	LightView cone;
 	const double cone_rad = double(p_light.outer_cone_rad) + std::sqrt(2 * COSINE_MARGIN);
 	if (cone_rad >= 1.5) {
@@ -205,7 +208,7 @@ VisibleReceivers find_lit_receivers(
 		const LightSnapshot &p_light, const VisibleReceivers &p_receivers) {
 	VisibleReceivers lit;
 	if (p_receivers.list.empty() || !may_light_reach(p_light, p_receivers.bounds_world)) {
-		return lit; // most of many lights end here
+		return lit; // most lights of a scene with many end here
 	}
 	for (const VisibleReceiver &receiver : p_receivers.list) {
 		if (may_light_reach(p_light, receiver.bounds_world)) {

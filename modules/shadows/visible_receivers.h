@@ -6,17 +6,17 @@
 
 namespace gnomon {
 
-/// Where the camera may see an instance: all of its pixels' receivers are in these bounds.
+/// The part of an instance that the camera may see: the bounds contain all of its receivers.
 struct VisibleReceiver {
 	uint32_t instance_index = 0;
-	/// Of the part of the instance's box that is in the camera's view, grown by what rounding on
-	/// the GPU and the receiver's offset from its surface may add.
+	/// Bounds of the part of the instance's box that is in the camera's view, grown by a margin for
+	/// rounding on the GPU and for the receiver's offset from its surface.
 	Bounds bounds_world;
 };
 
 struct VisibleReceivers {
 	std::vector<VisibleReceiver> list; // ascending
-	Bounds bounds_world;			   // of all of them
+	Bounds bounds_world;			   // union of the list's bounds
 
 	void add(const VisibleReceiver &p_receiver) {
 		list.push_back(p_receiver);
@@ -28,11 +28,11 @@ struct VisibleReceivers {
 VisibleReceivers find_visible_receivers(
 		const SceneSnapshot &p_scene, const LightView &p_camera_view);
 
-/// False only when nothing in the box receives light: it is certainly out of range, or out of the
-/// cone. The box holds what rounding may add.
+/// False only when the box is certainly outside the light's range or cone, so that nothing in it
+/// receives light. The box must include the margin for rounding.
 bool may_light_reach(const LightSnapshot &p_light, const Bounds &p_bounds_world);
 
-/// Those that the light may reach: without any, the light changes no pixel.
+/// The receivers that the light may reach. When there are none, the light changes no pixel.
 VisibleReceivers find_lit_receivers(
 		const LightSnapshot &p_light, const VisibleReceivers &p_receivers);
 

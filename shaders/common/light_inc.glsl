@@ -1,16 +1,17 @@
-// What light reaches a point, without its shadow.
+// The unshadowed light at a point.
 #ifndef LIGHT_INC_GLSL
 #define LIGHT_INC_GLSL
 
 #include "shared/light_shared.h"
 
-/// From the point towards the light's centre, not unit: its length is the distance (directional: 1).
+/// Vector from the point to the light's centre, not normalized: its length is the distance in
+/// metres (directional: 1).
 vec3 vector_to_light(LightConstants p_light, vec3 p_position) {
 	return p_light.type == LIGHT_TYPE_DIRECTIONAL ? -p_light.direction.xyz
 												  : p_light.position_radius.xyz - p_position;
 }
 
-/// A receiver faces the light and is inside its cone and range (doc/glossary.md).
+/// True for a receiver: it faces the light and is inside its cone and range (doc/glossary.md).
 bool is_receiver(LightConstants p_light, vec3 p_position, vec3 p_normal) {
 	const vec3 to_light = vector_to_light(p_light, p_position);
 	const float distance_m = length(to_light);

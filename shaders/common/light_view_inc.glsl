@@ -1,4 +1,4 @@
-// Points and planes as a light view sees them. See LightViewConstants for the spaces.
+// Projection of points and planes into a light view. See LightViewConstants for the spaces.
 #ifndef LIGHT_VIEW_INC_GLSL
 #define LIGHT_VIEW_INC_GLSL
 
@@ -11,7 +11,7 @@ struct MapPoint {
 	vec2 w_slope; // dw/dx, dw/dy on the receiver's plane: exact, since w is linear on a plane
 };
 
-/// Which of six views holds a direction, in the light's own axes: by its largest component.
+/// Index of the view, of six, that contains a direction in the light's axes: by largest component.
 uint find_view_of_direction(vec3 p_direction_light) {
 	const vec3 r = p_direction_light;
 	const vec3 size = abs(r);
@@ -49,7 +49,7 @@ MapPoint project_to_map(LightViewConstants p_view, vec3 p_position, vec3 p_norma
 	return point;
 }
 
-/// Map coordinates to texels: texel centres are at whole numbers plus a half.
+/// Map coordinates to texel coordinates: texel centres are at integers plus 0.5.
 vec2 texels_from_map(LightViewConstants p_view, vec2 p_xy) {
 	return (p_xy / p_view.half_extent * 0.5 + 0.5) * vec2(p_view.size_px);
 }

@@ -1,28 +1,30 @@
-// Is a receiver lit, as far as one texel of a light's depth map can resolve?
+// The shadow comparison of a receiver with one texel of a light's depth map.
 #ifndef MAP_COMPARE_INC_GLSL
 #define MAP_COMPARE_INC_GLSL
 
 #include "common/light_view_inc.glsl"
 
-// The rasteriser snaps corners to 1/256 texel, so that a stored w may be off by the slope over
-// that much; twice it is allowed for.
+// The rasteriser snaps vertices to 1/256 texel, so a stored w may be off by the slope times that
+// distance; twice that is allowed for.
 const float SNAP_TEXELS = 2.0 / 256.0;
-// Neighbouring facets of a curved surface rise over a receiver's plane by this part of a texel where
-// the light falls straight on it. Against the exact hard shadow (400 x 400, map 1024), mean error of
-// "terrain" .0085 with a constant 0.15, .0035 so; "torus_knot" .0026 and .0025; others alike.
+// Height of neighbouring facets of a curved surface above the receiver's plane, as a fraction of a
+// texel, for light along the normal. Mean error against the exact hard shadow (400 x 400, map
+// 1024): "terrain" .0085 with a constant 0.15, .0035 with this; "torus_knot" .0026 and .0025;
+// others equal.
 const float CURVATURE_TEXELS = 0.08;
 const float MAX_STRETCH = 40.0;
-// Steeper planes leave the map's resolution: w changes by more than this part within the offset.
+// Limits the offset on steep planes, beyond the map's resolution, to this fraction of w.
 const float MAX_RELATIVE_CHANGE = 0.25;
 
-/// How far above its plane a receiver must be hidden to count, in w: what the map cannot resolve.
+/// Minimum difference in w between a blocker and the receiver's plane: what the map cannot resolve.
 float hiding_margin(LightViewConstants p_view, MapPoint p_point) {
 	const vec2 extent = texel_extent(p_view);
 	const float scale = p_view.is_orthographic != 0u ? 1.0 / p_view.depth_scale : p_point.w;
 	const float limit = MAX_RELATIVE_CHANGE * scale;
 	const float snap = min(dot(abs(p_point.w_slope), extent) * SNAP_TEXELS, limit);
 	const float w_unit = p_view.is_orthographic != 0u ? 1.0 : p_point.w;
-	// Grazing light stretches a texel over the surface, and the rise over it once more.
+	// Grazing light stretches the texel's footprint on the surface, and the height grows with it
+	// too.
 	const float steepness = length(p_point.w_slope) / w_unit;
 	const float stretch = min(1.0 + steepness * steepness, MAX_STRETCH);
 	return snap + CURVATURE_TEXELS * stretch * max(extent.x, extent.y) * w_unit;

@@ -1,4 +1,4 @@
-// One tap of a filter that reaches far over a light's maps.
+// One tap of a filter whose radius may exceed a light view.
 #ifndef MAP_TAP_INC_GLSL
 #define MAP_TAP_INC_GLSL
 
@@ -7,12 +7,12 @@
 #include "common/map_compare_inc.glsl"
 #include "common/map_resolve_inc.glsl"
 
-// Taps where the receiver's plane is farther than this part of its own w count as this: beyond the
-// plane's horizon everything is above it.
+// Minimum w of the receiver's plane at a tap, as a fraction of the receiver's w: beyond the plane's
+// horizon everything is above it.
 const float FARTHEST_PLANE = 0.02;
 
-/// The w of what the maps hold along the line from the light through a point of the receiver's view,
-/// as that view has it; 0: nothing.
+/// The stored w along the ray from the light through a point of the receiver's view, in that view's
+/// map space; 0: the maps are empty there.
 float lookup_w(
 		texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, vec2 p_xy) {
 	const ivec2 texel = ivec2(floor(texels_from_map(p_view, p_xy)));
@@ -21,8 +21,9 @@ float lookup_w(
 	const ivec2 fetched = clamp(texel, ivec2(0), ivec2(p_view.size_px) - 1);
 	const float stored = texelFetch(p_map, ivec3(fetched, p_view.layer), 0).r;
 	const bool is_drawn = (p_empty_views & (1u << p_view.layer)) == 0u;
-	// The side of a single view goes on as its last texel: what a spot's cone omits still hides
-	// it, and outside a directional light's map, which holds every caster, that texel is empty.
+	// Beyond the sides of a single view its border texel is used: casters outside a spot's cone
+	// still hide it, and the border of a directional light's map, which holds all casters, is
+	// empty.
 	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
 	// Beyond the side of one of six views another one goes on. A loop and no branch: software drivers
 	// run what a branch skips, but leave a loop.
@@ -43,7 +44,7 @@ float lookup_w(
 	return w;
 }
 
-/// Does what is at a tap hide the receiver? r_w: of what is there.
+/// True when the stored depth at a tap hides the receiver. r_w: the w stored there.
 bool is_hidden_at(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view,
 		MapPoint p_point, float p_margin, vec2 p_xy, out float r_w) {
 	// The receiver's own plane at the texel's centre, not at the tap: no depth bias to tune.

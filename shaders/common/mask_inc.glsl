@@ -1,10 +1,10 @@
-// Masks of one value, and of three: behind casters that colour the light.
+// Masks with one channel, and with three for translucent casters that colour the light.
 #ifndef MASK_INC_GLSL
 #define MASK_INC_GLSL
 
 #include "shared/mask_shared.h"
 
-/// What the eye makes of a coloured mask; metrics are over this.
+/// Luminance of a coloured mask; metrics are computed from it.
 float mask_luminance(vec3 p_mask) {
 	return dot(p_mask, vec3(MASK_LUMINANCE_R, MASK_LUMINANCE_G, MASK_LUMINANCE_B));
 }

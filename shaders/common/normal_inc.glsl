@@ -21,8 +21,8 @@ vec3 unpack_normal(uint p_packed) {
 	return normalize(n);
 }
 
-/// Of a triangle, camera-relative: on the side that is seen, which is the side that is lit. Along z
-/// where it has no area.
+/// Unit normal of a camera-relative triangle on the visible side, which is the lit side. Along z
+/// for a triangle without area.
 vec3 face_normal_to_viewer(vec3 p_a, vec3 p_b, vec3 p_c) {
 	const vec3 ab = p_b - p_a;
 	const vec3 ac = p_c - p_a;

@@ -1,15 +1,15 @@
-// Lists of marked items in their own order, whatever the scheduling: a bit per item, 32 to a word; a
-// work group's words are a block, and blocks know how many bits they hold.
+// Stream compaction that keeps the items' order, whatever the scheduling: one bit per item, 32 per
+// word. The words of a work group form a block, which stores the number of its set bits.
 #ifndef ORDERED_LIST_INC_GLSL
 #define ORDERED_LIST_INC_GLSL
 
-/// The words and the blocks' counts; each entry point has them in buffers of its own.
+/// Accessors of the words and the blocks' counts, which each entry point defines for its buffers.
 uint load_list_word(uint p_index);
 uint load_list_block(uint p_index);
 
 shared uint list_count_before;
 
-/// How many items are marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
+/// Number of items marked in blocks p_first_block .. p_block - 1 and in words p_first_word ..
 /// p_word - 1, those of the work group's own block. Called by a whole work group, of p_group_size
 /// invocations (gl_WorkGroupSize is 1 in what is before the entry point's layout).
 uint find_list_index(uint p_group_size, uint p_first_block, uint p_block, uint p_first_word,

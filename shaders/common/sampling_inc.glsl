@@ -1,4 +1,4 @@
-// Sets of points, and how they turn from pixel to pixel.
+// Sample point sets, and their rotation per pixel.
 #ifndef SAMPLING_INC_GLSL
 #define SAMPLING_INC_GLSL
 
@@ -12,8 +12,8 @@ vec2 vogel_disc(uint p_index, uint p_count, float p_angle_rad) {
 	return radius * vec2(cos(angle_rad), sin(angle_rad));
 }
 
-/// 0..1, as different as can be between neighbouring pixels: interleaved gradient noise (Jimenez
-/// 2014, Next generation post processing in Call of Duty).
+/// Noise in 0..1 that differs strongly between neighbouring pixels: interleaved gradient noise
+/// (Jimenez 2014, Next generation post processing in Call of Duty).
 float interleaved_noise(ivec2 p_pixel) {
 	return fract(52.9829189 * fract(dot(vec2(p_pixel), vec2(0.06711056, 0.00583715))));
 }

@@ -1,15 +1,16 @@
-// Is an edge a silhouette as seen from the light? One expression for every shader and for the CPU
-// (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h): float32, each product and sum rounded once,
-// corners in an order that does not depend on the caller. So all find the same edges, bit for bit.
+// Test whether an edge is a silhouette as seen from the light. One expression for all shaders and
+// the CPU (find_silhouette_edges in mesh_tools/tests/silhouette_edges.h): float32, each product and
+// sum rounded once, vertices in an order that does not depend on the caller. So all find the same
+// edges, bit for bit.
 #ifndef SILHOUETTE_INC_GLSL
 #define SILHOUETTE_INC_GLSL
 
 #include "shared/topology_shared.h"
 
 /// True when the light is strictly in front of the triangle. Node space. p_light.xyz / w is a point;
-/// w = 0: the direction towards a light at infinity. p_ids: the corners' vertex indices.
+/// w = 0: the direction towards a light at infinity. p_ids: the triangle's vertex indices.
 bool is_light_facing(vec4 p_light, uvec3 p_ids, vec3 p_a, vec3 p_b, vec3 p_c) {
-	// The corner of the least index first: the same order for the face and for each neighbour.
+	// The vertex of least index comes first: the same order for the face and for each neighbour.
 	vec3 p = p_a;
 	vec3 q = p_b;
 	vec3 r = p_c;
@@ -57,9 +58,9 @@ bool is_edge_record_silhouette(
 			(p_edge.opposite1 & TOPOLOGY_EDGE_INCONSISTENT) != 0u);
 }
 
-/// Which edges of a face are silhouettes of its own, bit i for edge i, for a geometry shader:
-/// vertices and their indices as triangles with adjacency have them, flags as in topology_shared.h.
-/// Each edge of the mesh belongs to one face, so that it is not drawn twice.
+/// Bit mask of the edges that a face owns and that are silhouettes, bit i for edge i, for a
+/// geometry shader: vertices and their indices as triangles with adjacency have them, flags as in
+/// topology_shared.h. Each edge of the mesh belongs to one face, so that it is not drawn twice.
 uint find_own_silhouettes(vec4 p_light, uint p_flags, uint p_ids[6], vec3 p_positions[6]) {
 	if ((p_flags & 7u) == 0u) {
 		return 0u;

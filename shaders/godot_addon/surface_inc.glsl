@@ -12,7 +12,7 @@ float fetch_inside(texture2D depth_texture, ivec2 pixel) {
 	return any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size)) ? 0.0 : texelFetch(depth_texture, pixel, 0).r;
 }
 
-// How near / z changes from pixel to pixel on the surface at a pixel, along x and y.
+// Change of near / z per pixel along x and y, on the surface at a pixel.
 vec2 find_slope(texture2D depth_texture, ivec2 pixel) {
 	const float here = texelFetch(depth_texture, pixel, 0).r;
 	const float left = fetch_inside(depth_texture, pixel - ivec2(1, 0));

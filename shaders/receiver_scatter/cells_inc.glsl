@@ -10,7 +10,7 @@ uint count_rings(float p_scatter) {
 	return uint(ceil(SCATTER_RADIUS_PX * p_scatter));
 }
 
-/// A point of a cell, in pixels from the middle. p_random: two numbers in 0..1.
+/// A point of a cell, in pixels from the disc's centre. p_random: two numbers in 0..1.
 vec2 find_cell_point(
 		uvec2 p_ring_and_sector, uvec2 p_counts, float p_radius_px, vec2 p_random) {
 	const vec2 position = (vec2(p_ring_and_sector) + p_random) / vec2(p_counts);
@@ -18,7 +18,7 @@ vec2 find_cell_point(
 	return p_radius_px * position.x * vec2(cos(angle_rad), sin(angle_rad));
 }
 
-/// Falls with the distance, 1 in the middle.
+/// Weight that falls with the distance; 1 at the disc's centre.
 float find_disc_weight(float p_distance_px, float p_radius_px) {
 	return exp(-SCATTER_FALLOFF * p_distance_px / p_radius_px);
 }

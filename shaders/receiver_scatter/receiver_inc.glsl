@@ -1,4 +1,4 @@
-// What the passes of receiver_scatter know of a pixel.
+// The data of a pixel that the passes of receiver_scatter read.
 #ifndef RECEIVER_SCATTER_RECEIVER_INC_GLSL
 #define RECEIVER_SCATTER_RECEIVER_INC_GLSL
 
@@ -47,7 +47,7 @@ struct Receiver {
 	uint material_key;
 	float scatter; // s in 0..1
 	float scatter_distance_m;
-	float pixel_size_m; // how wide a pixel is there, across the view
+	float pixel_size_m; // width of a pixel at that distance, across the view
 	float radius_m;		// of the disc from which the light comes, see DipoleSpread; finite
 };
 

@@ -4,7 +4,7 @@
 #include "receiver_scatter/dipole_inc.glsl"
 #include "receiver_scatter/disc_inc.glsl"
 
-// The mask's mean about each translucent receiver.
+// Computes the mask's mean around each translucent receiver.
 layout(local_size_x = SCATTER_GROUP_SIZE, local_size_y = SCATTER_GROUP_SIZE) in;
 
 void main() {

@@ -1,11 +1,12 @@
-// What one edge adds to a receiver, and the visibility from all: compute_count_visibility in float32.
+// The contribution of one edge to a receiver, and the resulting visibility:
+// compute_count_visibility in float32.
 #ifndef COUNT_EDGE_INC_GLSL
 #define COUNT_EDGE_INC_GLSL
 
 #include "shadow_edge_count/count_classify_inc.glsl"
 #include "shadow_edge_count/count_masks_inc.glsl"
 
-/// What was counted so far.
+/// The counts so far.
 struct CountState {
 	int solid_count; // between the receiver and the light's centre
 	float area;		 // twice the signed area of the disc behind edges, in R^2
@@ -32,7 +33,7 @@ CountState make_count_state(int p_solid_count) {
 	return state;
 }
 
-/// A part of the disc: beyond a line, from one direction on to another.
+/// A region of the disc: beyond a line, from one direction counter-clockwise to another.
 struct CountSector {
 	float area;		  // twice, signed, in R^2
 	uint mask_index;  // of the points beyond the line

@@ -1,4 +1,5 @@
-// 64 points of the light as two words, and 64 counters as nine planes of such words: DiscMasks.
+// Masks of 64 points of the light, two words each, and 64 counters as nine bit planes: see
+// DiscMasks.
 #ifndef COUNT_MASKS_INC_GLSL
 #define COUNT_MASKS_INC_GLSL
 
@@ -58,7 +59,7 @@ int find_count_sector(float p_angle, uint p_turn) {
 	return int(p_angle - (float(p_turn) + 0.5) / float(COUNT_TURN_COUNT)) & (EDGE_COUNT_SAMPLE_COUNT - 1);
 }
 
-/// The points before one, by its index 0..63.
+/// Mask of the points below an index, 0..63.
 uvec2 count_points_before(int p_index) {
 	const uint part = (1u << (p_index & 31)) - 1u;
 	return p_index < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);

@@ -1,5 +1,6 @@
-// Light space, and what a receiver sees of it: CountReceiver and count_offset of count_in_double.h in
-// float32. Light space: metres, the light's centre at the origin (directional: its view's origin).
+// Light space, and the light's disc as seen from a receiver: CountReceiver and count_offset of
+// count_in_double.h in float32. Light space: metres, the light's centre at the origin (directional:
+// its view's origin).
 #ifndef COUNT_SPACE_INC_GLSL
 #define COUNT_SPACE_INC_GLSL
 

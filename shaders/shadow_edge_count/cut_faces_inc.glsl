@@ -5,7 +5,7 @@
 
 #include "shadow_edge_count/shadow_edge_count_shared.h"
 
-/// True where the face's bounds come as near to the light's centre as R.
+/// True when the face's bounds come within R of the light's centre.
 bool is_cut_face(CountLightConstants p_light, CountFaceRecord p_face) {
 	const float WIDENED = 1.001; // for rounding
 	const vec3 a = uintBitsToFloat(p_face.a_kind.xyz);

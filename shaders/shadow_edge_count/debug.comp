@@ -10,7 +10,7 @@
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2DArray
 		debug_image;
 
-// What was counted, for debug views.
+// Writes the counts for the debug views.
 void main() {
 	load_count_constants();
 	const CountPixel pixel = count_pixel();

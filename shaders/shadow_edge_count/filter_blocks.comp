@@ -4,7 +4,7 @@
 #include "common/pcss_inc.glsl"
 #include "shadow_edge_count/count_blocks_inc.glsl"
 
-// Percentage-closer soft shadows in the blocks that have more edges than the budget.
+// Resolves blocks that have more edges than the budget by percentage-closer soft shadows.
 layout(set = 0, binding = COUNT_BINDING_DEPTH_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = COUNT_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 

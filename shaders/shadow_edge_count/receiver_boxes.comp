@@ -9,7 +9,7 @@
 #include "shadow_edge_count/count_box_inc.glsl"
 #include "shadow_edge_count/count_pixels_inc.glsl"
 
-// The parts of each block's receivers, and their bounds. One subgroup deals with one block.
+// Splits each block's receivers into parts and computes their bounds. One subgroup per block.
 layout(local_size_x_id = EDGE_COUNT_CONSTANT_GROUP_SIZE) in;
 layout(std430, set = 0, binding = COUNT_BINDING_BOXES) writeonly buffer Boxes {
 	CountBlockBox boxes[];

@@ -4,8 +4,9 @@
 
 #include "common/map_compare_inc.glsl"
 
-/// Percentage-closer filter: the mean over a box of p_width texels about the receiver. Each texel
-/// counts by the part of it that the box covers, so that the result has no steps.
+/// Percentage-closer filter: the mean over a box of p_width x p_width texels around the receiver.
+/// Each texel is weighted by the fraction of it that the box covers, so that the result is
+/// continuous.
 float lookup_filtered(
 		texture2DArray p_map, LightViewConstants p_view, MapPoint p_point, int p_width) {
 	const vec2 low = texels_from_map(p_view, p_point.xy) - 0.5 * float(p_width);

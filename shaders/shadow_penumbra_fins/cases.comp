@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/resolve_inc.glsl"
 
-// Debug view: which of the six cases each pixel is; 0 where it receives no light at all.
+// Debug view: the case, 1 to 6, of each pixel; 0 for pixels that are not receivers.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D case_image;
 
 void main() {

@@ -1,11 +1,12 @@
-// The corners of one fin, the same for the geometry shader and the compute variant.
+// The vertices of one fin, the same for the geometry shader and the compute variant.
 #ifndef FIN_INC_GLSL
 #define FIN_INC_GLSL
 
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 
 // Sun et al. 2010, section 2.1.1: triangles BCC', C'B'B (outer), CBB'', B''C''C (inner), where
-// X' = X + r N and X'' = X - t N. Corner: bit 0 C instead of B, bits 1-2 where along the normal.
+// X' = X + r N and X'' = X - t N. Vertex code: bit 0: C instead of B; bits 1-2: offset along the
+// normal.
 const uint FIN_ON_EDGE = 0u;
 const uint FIN_OUTSIDE = 2u;
 const uint FIN_INSIDE = 4u;
@@ -22,8 +23,8 @@ float fin_theta(uint p_corner) {
 	return side == FIN_OUTSIDE ? 1.0 : side == FIN_INSIDE ? 0.0 : 0.5;
 }
 
-/// The vertex's one normal in the light's view, unit; zero stays zero. Normals transform by the
-/// cofactors of the matrix, which are finite for every transform.
+/// The unit vertex normal in light view space; a zero normal stays zero. Normals are transformed by
+/// the cofactor matrix, which is finite for every transform.
 vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
 	const vec3 x = p_push.view_from_node[0].xyz;
 	const vec3 y = p_push.view_from_node[1].xyz;
@@ -31,13 +32,13 @@ vec3 fin_normal_view(FinsPush p_push, vec3 p_normal_node) {
 	precise const vec3 n = cross(y, z) * p_normal_node.x + cross(z, x) * p_normal_node.y +
 			cross(x, y) * p_normal_node.z;
 	const float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
-	// By its largest part first: the square of a tiny scale's cofactors would be 0.
+	// First divided by the largest component: squares of a tiny scale's cofactors would underflow.
 	precise const vec3 scaled = n / size;
 	precise const float length2 = dot(scaled, scaled);
 	return size > 0.0 ? scaled * (p_push.normal_sign / sqrt(length2)) : vec3(0.0);
 }
 
-/// A corner in the light's clip space: LightView::compute_clip_from_view.
+/// A vertex in the light's clip space: LightView::compute_clip_from_view.
 vec4 fin_position_clip(FinsViewConstants p_view, FinsPush p_push, uint p_corner,
 		vec3 p_position_node, vec3 p_normal_node) {
 	precise vec3 position = (p_push.view_from_node * vec4(p_position_node, 1.0)).xyz;

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_penumbra_fins/bindings_inc.glsl"
 
-// r = t = 0: there are no fins, and cases 2 and 3 are all that is left, a plain shadow map.
+// Resolve for r = t = 0: without fins only cases 2 and 3 remain, a plain shadow map.
 layout(set = 0, binding = RESOLVE_BINDING_OUTPUT, r16f) uniform writeonly image2D mask_image;
 
 void main() {

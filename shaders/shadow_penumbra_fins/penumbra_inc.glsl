@@ -1,4 +1,4 @@
-// What the penumbra maps hold: pure functions, tested against C++ in tests/shaders.
+// Encoding of the penumbra maps: pure functions, tested against C++ in tests/shaders.
 #ifndef PENUMBRA_INC_GLSL
 #define PENUMBRA_INC_GLSL
 

@@ -28,14 +28,14 @@ struct FinsResult {
 	uint case_number;
 };
 
-/// What is in the 3 x 3 texels about an undecided pixel, whose class was interpolated.
+/// Content of the 3 x 3 texels around an undecided pixel, one whose class was interpolated.
 struct Neighbourhood {
 	bool has_outer;
 	bool has_inner;
 	bool has_hiding; // a texel outside every outer fin hides the receiver
 };
 
-/// Looks only where p_is_needed; elsewhere everything is false.
+/// Reads texels only when p_is_needed; else everything is false.
 Neighbourhood search_neighbourhood(
 		LightViewConstants p_view, MapPoint p_point, ivec2 p_texel, bool p_is_needed) {
 	Neighbourhood found = Neighbourhood(false, false, false);

@@ -5,7 +5,7 @@
 #include "common/map_resolve_inc.glsl"
 #include "shadow_template/shadow_template_shared.h"
 
-// One comparison with one texel of the light's depth: replace it by your own idea.
+// Compares the receiver with one texel of the light's depth map: replace it by your own technique.
 layout(set = 0, binding = DEPTH_MAP_BINDING_MAP) uniform texture2DArray map_texture;
 layout(set = 0, binding = DEPTH_MAP_BINDING_MASK, r16f) uniform writeonly image2D mask_image;
 layout(push_constant) uniform Push {

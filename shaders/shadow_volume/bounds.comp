@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_volume/bounds_inc.glsl"
 
-// One texel of a level from its 4 x 4 of the level before. Level 1 also copies level 0 from the map.
+// Reduces 4 x 4 texels of a level to one texel of the next. Level 1 also copies level 0 from the
+// map.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = CULLING_BINDING_DEPTH) uniform texture2D depth_map;
 layout(std430, set = 0, binding = CULLING_BINDING_BOUNDS) buffer Bounds {

@@ -1,4 +1,4 @@
-// Where a texel of a view's level is among the bounds.
+// Index of a texel of a view's level in the array of bounds.
 #ifndef BOUNDS_INC_GLSL
 #define BOUNDS_INC_GLSL
 

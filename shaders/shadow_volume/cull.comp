@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadow_volume/bounds_inc.glsl"
 
-// Which casters may have a shadow of their own? One workgroup per subtree: is its box hidden from the
-// light, so are all its casters; otherwise each is looked at.
+// Tests which casters are not hidden from the light. One workgroup per subtree: if its box is
+// hidden, so are all its casters; otherwise each caster is tested.
 layout(local_size_x = CULLING_CASTERS_PER_SUBTREE) in;
 layout(std140, set = 0, binding = CULLING_BINDING_CONSTANTS) restrict readonly buffer Constants {
 	CullingConstants constants;
@@ -18,12 +18,13 @@ layout(std430, set = 0, binding = CULLING_BINDING_WORDS) writeonly buffer Words 
 	uint words[]; // after the header one per caster, 0 = hidden
 };
 
-// Boxes are grown by this part of their distance, for the rounding of float32.
+// Boxes are grown by this fraction of their distance, for rounding in float32.
 const float GROWTH = 1e-5;
 const float GROWTH_PX = 0.01;
-// A box must be behind the bound by this part of its distance; orthographic: of the view's depth.
+// A box must be behind the bound by this fraction of its distance (orthographic: of the view's
+// depth).
 const float LEAST_GAP = 1e-3;
-const int MOST_TEXELS = 6; // of a level along a box
+const int MOST_TEXELS = 6; // maximum texels of a level along a box's side
 
 const uint SEEN = 0u;
 const uint HIDDEN = 1u;
@@ -100,7 +101,7 @@ uint look_at(uint p_view, CullingBox p_box) {
 	}
 	const bool is_within = all(greaterThanEqual(least, vec2(-1.0))) && all(lessThanEqual(greatest, vec2(1.0)));
 	if (constants.view_count == 1u && !is_within) {
-		return SEEN; // what is outside the view nothing is known of
+		return SEEN; // nothing is known outside the view
 	}
 	return is_behind(p_view, least, greatest, depth) ? HIDDEN : SEEN;
 }

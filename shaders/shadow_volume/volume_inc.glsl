@@ -1,5 +1,5 @@
-// Where the corners of a shadow volume are, the same for every way to make one, so that sides and
-// caps meet without a crack.
+// Positions of a shadow volume's vertices, the same for every way to extrude it, so that sides and
+// caps meet without cracks.
 #ifndef VOLUME_INC_GLSL
 #define VOLUME_INC_GLSL
 
@@ -26,9 +26,8 @@ vec4 volume_position_clip(vec3 p_position_node, bool p_is_far) {
 	return position;
 }
 
-// Corners of a side along an edge a -> b of the light-facing surface: bit 0 b instead
-// of a, bit 1 at infinity. Seen from outside the volume they turn counter-clockwise, as the surface
-// does.
+// Vertices of a side along an edge a -> b of the light-facing surface: bit 0: b instead of a, bit
+// 1: at infinity. Seen from outside the volume they are counter-clockwise, like the surface.
 const uint VOLUME_SIDE_CORNERS[VOLUMES_VERTICES_PER_SIDE] = uint[VOLUMES_VERTICES_PER_SIDE](0u, 2u, 1u, 1u, 2u, 3u);
 const uint VOLUME_AT_B = 1u;
 const uint VOLUME_AT_INFINITY = 2u;

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/deform_inc.glsl"
 
-// Positions and normals of a mesh at a pose, one vertex an invocation.
+// Computes positions and normals of a mesh at a pose, one vertex per invocation.
 layout(std430, set = 0, binding = DEFORM_BINDING_POSITIONS) readonly buffer Positions {
 	float rest_positions[];
 };

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/shadows_shared.h"
 
-// Vertices of a mesh that was cut out of a deformed one: each where the corners of its triangle take it.
+// Computes vertices of a mesh that was cut out of a deformed one, from the vertices of their
+// triangles.
 layout(local_size_x = DEFORM_GROUP_SIZE) in;
 layout(std430, set = 0, binding = MOVE_BINDING_POSITIONS) readonly buffer Positions {
 	float corner_positions[];
@@ -29,7 +30,7 @@ void main() {
 	}
 	const DeformPoint point = points[vertex];
 	const vec3 a = load_corner(point.corners.x);
-	// From a corner, so that what does not move stays exactly where it is.
+	// Relative to a vertex, so that a point that does not move keeps its position exactly.
 	const vec3 position = a + point.shares.y * (load_corner(point.corners.y) - a) +
 			point.shares.z * (load_corner(point.corners.z) - a);
 	positions[3u * vertex] = position.x;

@@ -6,7 +6,7 @@
 #include "common/normal_inc.glsl"
 #include "shadows/shadows_shared.h"
 
-// Marks the pixels that the light can reach at all; every technique answers for these alone.
+// Marks the receivers: pixels that the light can reach. Masks are only valid there.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(std140, set = 0, binding = SURFACE_BINDING_FRAME) restrict readonly buffer Frame {
 	FrameConstants frame;

@@ -4,10 +4,10 @@
 #include "shadows/shadows_shared.h"
 #include "shared/mask_shared.h"
 
-// Colours a mask by casters that leave a part of the light. Of the light that the opaque casters leave,
-// the group hides the share by which the mask with both is darker than that of the opaque ones; a part
-// of that comes through. Exact for one group. Several multiply, as if they hid independently of each
-// other: exact where each hides all or nothing.
+// Colours a mask by a group of translucent casters. The group hides the fraction by which the mask
+// of opaque casters plus group is darker than that of the opaque casters alone; its transmittance
+// times that fraction comes through. Exact for one group. Several groups are multiplied as if they
+// hid light independently: exact where each hides all of it or nothing.
 layout(local_size_x = SURFACE_GROUP_SIZE, local_size_y = SURFACE_GROUP_SIZE) in;
 layout(set = 0, binding = TINT_BINDING_OPAQUE) uniform texture2D opaque_texture;
 layout(set = 0, binding = TINT_BINDING_BOTH) uniform texture2D both_texture;

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// Thrown where the process would be killed; no part of the report may catch it.
+/// Thrown in place of killing the process; no code of the report may catch it.
 struct Killed {};
 
 /// Answers without a GPU: the reference is a ramp, a technique's error its own constant.
@@ -20,7 +20,7 @@ public:
 	std::map<std::string, float> errors = { { "hard", 0.25f }, { "soft", 0.125f } };
 	std::string failing_technique;
 	bool fails_reference = false;
-	bool runs_out_of_memory = false;	// what fails, fails so
+	bool runs_out_of_memory = false;	// failures are out-of-memory errors
 	size_t lose_after_count = SIZE_MAX; // calls of measure, before the device is lost
 	size_t kill_after_count = SIZE_MAX; // calls of measure
 	std::string device = "scripted";
@@ -28,7 +28,7 @@ public:
 	size_t draw_count = 0;
 	std::vector<std::string> warnings; // that drawing gives
 	unsigned validation_message_count = 0;
-	std::optional<float> spoiled_value; // of a pixel of what is drawn
+	std::optional<float> spoiled_value; // written to one pixel of drawn masks
 	size_t reference_count = 0;
 	size_t measure_count = 0;
 	std::vector<PropertyValues> requested; // properties of the light, as measure got them

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-// edge_count in double, without lists or boxes: each receiver looks at all faces and all edges.
-// What the shaders are tested against.
+// edge_count in double precision, without lists or boxes: each receiver tests all faces and all
+// edges. The shaders are tested against it.
 
 namespace gnomon {
 
@@ -21,7 +21,7 @@ struct CountSpace {
 	double nearer_tolerance = 2e-5; // see CountLightConstants
 	double scene_size_m = 1;		// S
 
-	/// Above 0 where the face n.r + d = 0 is light-facing.
+	/// Above 0 when the face with plane n.r + d = 0 is light-facing.
 	double get_light_side(const glm::dvec4 &p_plane) const {
 		return is_directional ? -p_plane.z : p_plane.w;
 	}
@@ -36,7 +36,7 @@ struct CountEdge {
 	glm::dvec4 plane0 = glm::dvec4(0.0);
 	glm::dvec4 plane1 = glm::dvec4(0.0);
 	bool has_face1 = false;
-	bool is_double_sided = false; // of a part of a mesh that is not closed
+	bool is_double_sided = false; // it belongs to a mesh part that is not closed
 
 	/// Signed weight as seen from a point.
 	int compute_weight(const glm::dvec3 &p_r) const;
@@ -52,17 +52,17 @@ struct CountedCasters {
 	std::vector<CountEdge> edges;
 	std::vector<CountFace> faces;
 
-	/// Edges that are between faces which the whole light sees from one side are not there.
+	/// Edges whose faces the whole light sees from the same side are left out.
 	void add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
 			const CountSpace &p_space);
 };
 
-/// Faces between a receiver and the light's centre, as solids.
+/// Number of solids between a receiver and the light's centre.
 int count_solids_in_double(
 		const CountSpace &p_space, const glm::dvec3 &p_r, std::span<const CountFace> p_faces);
 
-/// The share of the light that a receiver sees, 0..1. p_r: moved off its surface already.
-/// p_edges: all that may matter to it. p_masks: of 64 points of the light each.
+/// The fraction of the light that a receiver sees, 0..1. p_r: already moved off its surface.
+/// p_edges: all edges that may matter to it. p_masks: one per turn of 64 points of the light.
 double compute_count_visibility(const CountSpace &p_space, const glm::dvec3 &p_r,
 		std::span<const CountEdge> p_edges, std::span<const CountFace> p_faces,
 		std::span<const DiscLookup> p_masks);

@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// A globe of p_rings x 2 p_rings patches.
+/// A sphere of p_rings x 2 p_rings patches.
 inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p_rings) {
 	std::vector<glm::vec3> positions;
 	std::vector<uint32_t> indices;
@@ -40,7 +40,7 @@ inline std::shared_ptr<const Mesh> make_count_sphere(double p_radius, uint32_t p
 	return make_mesh("sphere", std::move(positions), {}, std::move(indices));
 }
 
-/// Meshes, a light, and both ways to compute what a point sees: counted, and by rays.
+/// Meshes, a light, and two ways to compute a point's visibility: by counting and by rays.
 class CountScene {
 public:
 	glm::dvec3 light = glm::dvec3(1.8, 6.0, 1.2);
@@ -82,7 +82,7 @@ public:
 		}
 	}
 
-	/// In light space, moved off its surface.
+	/// The receiver in light space, moved off its surface.
 	glm::dvec3 make_receiver(const glm::dvec3 &p_position, const glm::dvec3 &p_normal) const {
 		return glm::dvec3(
 				view_from_world * glm::dvec4(p_position + p_normal * (5e-5 * scene_size), 1.0));
@@ -95,7 +95,7 @@ public:
 		return count(make_receiver(p_position, p_normal));
 	}
 
-	/// The share of p_count points of the disc that faces the point which no triangle hides.
+	/// The fraction of p_count points, of the disc that faces the point, that no triangle hides.
 	double trace(const glm::dvec3 &p_position, const glm::dvec3 &p_normal, uint32_t p_count) const {
 		const glm::dvec3 from = p_position + p_normal * (5e-5 * scene_size);
 		const glm::dvec3 way = is_directional ? glm::normalize(light - target) : light - from;

@@ -4,22 +4,22 @@
 
 namespace gnomon {
 
-/// What the shaders do with the masks, in double: count_masks_inc.glsl in C++.
+/// Lookups in the masks in double precision: the C++ version of count_masks_inc.glsl.
 class DiscLookup : public DiscMasks {
 public:
 	explicit DiscLookup(uint32_t p_turn = 0, uint32_t p_turn_count = 1) :
 			DiscMasks(p_turn, p_turn_count), turn(p_turn), turn_count(p_turn_count) {}
 
-	/// Points beyond the line that is p_offset (0..1) from the centre in that direction, which need
-	/// not be unit.
+	/// Mask of the points beyond the line at p_offset (0..1) from the centre in the direction,
+	/// which need not be unit.
 	uint64_t get_mask(const glm::dvec2 &p_direction, double p_offset) const {
 		return get_table()[size_t(find_direction(p_direction)) * OFFSET_COUNT +
 				find_offset(p_offset)];
 	}
-	/// Points from one direction on to another, less than half a circle the way that angles grow:
-	/// neighbours that share a direction share no point and leave none.
+	/// Mask of the points in the sector from one direction counter-clockwise to another, less than
+	/// half a circle. Adjacent sectors have no point in common and miss none between them.
 	uint64_t get_wedge(const glm::dvec2 &p_from, const glm::dvec2 &p_to) const;
-	/// The first point whose angle is not below the direction's.
+	/// Index of the first point whose angle is not below the direction's.
 	uint32_t find_sector(const glm::dvec2 &p_direction) const;
 
 private:

@@ -10,8 +10,8 @@
 
 #include <algorithm>
 
-// Whole frames of the technique, and what they are compared with: the same light counted in double,
-// and the reference.
+// Whole frames of the technique, and their two references: the same light counted in double
+// precision, and the traced reference.
 
 namespace gnomon {
 
@@ -37,7 +37,7 @@ inline MaskResult render_frame(
 	return result;
 }
 
-/// A fine globe over the scene's box, whose shadow overlaps that of the box in part.
+/// A finely tessellated sphere over the scene's box; their shadows overlap in part.
 inline MeshInstance3D &add_globe(
 		SmallScene &r_scene, double p_scale = 1.0, const glm::dvec3 &p_origin = glm::dvec3(0.0)) {
 	return add_mesh(r_scene.scene, "Globe", make_count_sphere(0.4 * p_scale, 16),
@@ -90,14 +90,14 @@ private:
 	std::vector<DiscLookup> masks;
 };
 
-/// How far a mask is from what it should be.
+/// Difference of a mask from its reference.
 struct MaskDifference {
 	double mean = 0; // over receivers
 	double greatest = 0;
 	double penumbra_mean = 0; // where the reference is neither 0 nor 1
 	size_t receiver_count = 0;
 	size_t penumbra_count = 0;
-	size_t apart_count = 0; // by more than 0.01
+	size_t apart_count = 0; // receivers that differ by more than 0.01
 };
 
 inline MaskDifference compare_masks(
@@ -122,7 +122,7 @@ inline MaskDifference compare_masks(
 	return difference;
 }
 
-/// What the mask would be in double. p_frame: with surfaces.
+/// The mask computed in double precision. p_frame must have surfaces.
 inline MaskResult count_in_double(const SmallScene &p_scene, const MaskResult &p_frame) {
 	const std::shared_ptr<const SceneSnapshot> scene = p_scene.snap();
 	const CountedLight light(*scene, scene->lights[0]);

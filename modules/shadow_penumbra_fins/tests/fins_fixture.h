@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// Runs the passes of this module by themselves and reads what they leave.
+/// Runs only the passes of this module and reads back their textures.
 struct FinsFixture : MaskFixture {
 	using MaskFixture::MaskFixture;
 

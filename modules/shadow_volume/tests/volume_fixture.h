@@ -34,12 +34,12 @@ inline MaskResult render_volumes(MaskFixture &r_fixture, SmallScene &r_scene,
 	return result;
 }
 
-/// A mesh of test_meshes as the scene holds it.
+/// A mesh of test_meshes as a scene mesh.
 inline std::shared_ptr<const Mesh> share_mesh(const std::string &p_name, const Mesh &p_mesh) {
 	return make_mesh(p_name, p_mesh.positions_node, {}, p_mesh.indices);
 }
 
-/// Meshes of every class about the box, some of which shade each other.
+/// Meshes of every class around the box; some cast shadows on each other.
 inline void add_meshes(SmallScene &r_scene) {
 	const auto add = [&](const char *p_name, const Mesh &p_mesh, const glm::dvec3 &p_position,
 							 double p_scale) {
@@ -77,7 +77,7 @@ inline MeshInstance3D &add_mirrored_box(SmallScene &r_scene) {
 	return node;
 }
 
-/// p_most_wrong: of so many receivers one may be wrong, at the shadow's border.
+/// p_most_wrong: one in so many receivers may be wrong, at the shadow's border.
 inline void check_against_rays(
 		const SmallScene &p_scene, const MaskResult &p_frame, size_t p_most_wrong = 1000) {
 	const HardDifference difference = HardReference(p_scene).compare(p_frame);

@@ -1,4 +1,4 @@
-// What tests require of each registered technique, without naming one.
+// Requirements that tests check for each registered technique, without naming one.
 
 #pragma once
 
@@ -27,8 +27,8 @@ template <typename Function> void for_each_technique_and_type(Function p_functio
 	});
 }
 
-/// Few reference rays and small maps, where tests check rules and not precision: cheap
-/// settings for properties that make a technique slow; by name's ending, not by technique.
+/// Cheap settings for properties that make a technique slow, for tests that check rules and not
+/// precision: few reference rays, small maps. Selected by the name's ending, not by technique.
 inline void make_cheap(Light3D &r_light) {
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {
 		for (const PropertyInfo &property :

@@ -5,17 +5,17 @@
 
 #include <functional>
 
-// What a hard shadow is compared with.
+// Reference for hard shadows.
 
 namespace gnomon {
 
-/// How a mask differs from what rays to the light's centre find, over receivers.
+/// Difference of a mask from the result of rays to the light's centre, over all receivers.
 struct HardDifference {
 	size_t receiver_count = 0;
 	size_t hidden_count = 0;
 	size_t wrong_count = 0;
-	/// Of the wrong ones: no point within two offsets of what a 64th of the pixel covers would make
-	/// them right.
+	/// Number of wrong receivers that no nearby point would make right: no point within two
+	/// offsets of the surface that a 64th of the pixel covers.
 	size_t unexplained_count = 0;
 };
 
@@ -31,7 +31,7 @@ public:
 		}
 	}
 
-	/// p_counts: of a surface relative to the camera, does it count? Empty: every receiver does.
+	/// p_counts: whether a camera-relative surface point counts. Empty: every receiver counts.
 	HardDifference compare(const MaskResult &p_frame,
 			const std::function<bool(const SurfacePoint &)> &p_counts = {}) const {
 		HardDifference difference;

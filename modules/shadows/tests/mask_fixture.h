@@ -43,7 +43,7 @@ inline glm::dmat4 look_at(const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 	return glm::inverse(glm::lookAt(p_from, p_to, glm::dvec3(0.1, 1.0, 0.07)));
 }
 
-/// A box above a ground plate that is declared to be flat, one light of the given type, a camera
+/// A box above a ground plate that is declared planar, one light of the given type, a camera
 /// that sees the shadow. All lengths are multiplied by p_scale and everything is moved by p_origin.
 struct SmallScene {
 	Scene scene;
@@ -93,14 +93,14 @@ struct MaskRequest {
 	std::shared_ptr<const SceneSnapshot> scene;
 	glm::uvec2 size_px = glm::uvec2(64);
 	std::string technique_override;
-	/// Empty: all lights, and the result's own values are the last one's.
+	/// Empty: all lights; the result's own values are those of the last one.
 	std::string light;
-	/// Of that light's technique, of R16_SFLOAT; absent: an Error.
+	/// Debug view of that light's technique, in R16_SFLOAT; an Error when there is none.
 	std::string debug_view;
 	bool wants_surfaces = false;
 	bool may_skip = true;
 	bool may_reuse = true;
-	/// What the host does not give.
+	/// Surfaces that the host does not provide.
 	bool has_normals = true;
 	bool has_materials = true;
 };
@@ -112,7 +112,7 @@ struct MaskResult : MaskValues {
 	float standard_error = 0;
 	std::map<std::string, MaskValues> masks; // by light
 	std::vector<SurfacePoint> surfaces;		 // one per pixel
-	std::vector<float> debug_values;		 // of the view, one per texel
+	std::vector<float> debug_values;		 // of the debug view, one per texel
 };
 
 /// A device under validation and the smallest host, with a cache folder of their own.

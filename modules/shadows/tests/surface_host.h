@@ -3,12 +3,12 @@
 #include "modules/shadows/camera_view.h"
 #include "modules/shadows/shadow_frame.h"
 
-// The smallest host that shadows can have: it draws depth, normals and materials, and no light.
+// A minimal host of the shadow system: it draws depth, normals and materials, but no lighting.
 
 namespace gnomon {
 
-/// Adds the pass that draws what the camera sees. Normals only where they are needed and the device
-/// knows the primitive's index in fragment shaders.
+/// Adds the pass that draws what the camera sees. Draws normals only when they are needed and the
+/// device supports the primitive's index in fragment shaders.
 inline HostSurfaces add_surface_pass(RenderGraph &r_graph, ShadowSystem &r_shadows,
 		const SceneSnapshot &p_scene, glm::uvec2 p_size_px, RGBuffer p_frame,
 		bool p_wants_normals = true) {
