@@ -113,7 +113,7 @@ struct EditorContext {
 	/// The last failure or action, for the status bar.
 	std::string status;
 	bool is_status_error = false;
-	std::vector<std::string> messages;				  // errors and warnings, oldest first
+	std::vector<std::string> messages; // errors and warnings, oldest first
 	/// By shader: why its last change is not in use.
 	std::map<std::string, std::string> shader_errors;
 	std::string inspector_filter;

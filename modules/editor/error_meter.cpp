@@ -190,7 +190,8 @@ void ErrorMeter::compare(ErrorState &r_state) {
 	const MaskImage exact = { r_state.reference->size_px, r_state.reference->visibility,
 		r_state.reference->receiver };
 	r_state.metrics = compute_mask_metrics(exact, r_state.mask);
-	reference_texture = upload_texture("reference mask", exact.size_px, 1, compute_mask_pixels(exact));
+	reference_texture =
+			upload_texture("reference mask", exact.size_px, 1, compute_mask_pixels(exact));
 	error_texture =
 			upload_texture("error", exact.size_px, 3, compute_error_pixels(exact, r_state.mask));
 }

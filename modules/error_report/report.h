@@ -155,10 +155,9 @@ struct ReportSceneImage {
 
 struct Report {
 	std::string project;
-	std::string program;	   // version and hash of the program that measured
-	uint32_t sample_count = 0; // of the references
-	double precision_percent =
-			0; // requested precision of median times; 0: that of 20 frames
+	std::string program;		  // version and hash of the program that measured
+	uint32_t sample_count = 0;	  // of the references
+	double precision_percent = 0; // requested precision of median times; 0: that of 20 frames
 	std::vector<ReportMachine> machines;
 	std::vector<ReportTechnique> techniques;
 	std::vector<ReportSceneImage> scene_images;

@@ -32,7 +32,7 @@ const uint64_t GLTF_MAX_JSON_VALUE_COUNT = 20000000; // about 1 GB once parsed
 
 /// Receives the messages about one file.
 struct GltfMessages {
-	std::string file;			 // as the user named it
+	std::string file; // as the user named it
 	/// Lines and kinds already logged, so that a value read twice is reported once.
 	std::set<std::string> shown;
 
