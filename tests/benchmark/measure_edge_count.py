@@ -159,7 +159,7 @@ def measure_wrong(images, folder, _rounds):
         if count_wrong(found) > 0:
             rows.append((image.name, count_wrong(found), found["pixels"]))
     wrong.add_goals(goals)
-    return [*goals.format(), "", *(format_table(("image", "wrong", "receivers"), rows) if rows else ["No receiver."])]
+    return [*goals.format(), "", *(format_table(("image", "wrong", "receivers"), rows) if rows else ["No image has a receiver that is off by more than 0.2."])]
 
 
 def measure_hard(images, folder, _rounds):
@@ -179,7 +179,7 @@ def measure_hard(images, folder, _rounds):
             if count > 0:
                 rows.append((image.name, technique, count, found["pixels"]))
         goals.add("hard shadow: wrong receivers in %d, %s" % (PER, technique), most, wrong / pixels * PER, "%.2f")
-    return [*goals.format(), "", *(format_table(("image", "technique", "wrong", "receivers"), rows) if rows else ["No receiver."])]
+    return [*goals.format(), "", *(format_table(("image", "technique", "wrong", "receivers"), rows) if rows else ["No image has a receiver that is off by more than 0.2."])]
 
 
 def measure_maps(images, folder, _rounds):
