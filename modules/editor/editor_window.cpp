@@ -249,7 +249,7 @@ private:
 		stream << written;
 		stream.close();
 		if (std::error_code code; stream) {
-			std::filesystem::rename(made, options.items, code); // else the next one is
+			std::filesystem::rename(made, options.items, code); // if this fails, the next one is
 		}
 		context.items.clear();
 	}

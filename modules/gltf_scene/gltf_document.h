@@ -51,7 +51,8 @@ public:
 	std::map<size_t, std::set<std::string>> part_names;
 	std::map<size_t, LightSettings> lights;			   // by index of their node
 	std::map<size_t, std::pair<float, float>> cameras; // the same: field of view, near plane
-	/// Where a light's properties are in addition to its node: see find_blender_owner.
+	/// By index of a light's node: the index of its parent, if that has properties of the light too
+	/// (find_blender_owner).
 	std::map<size_t, size_t> blender_owners;
 	std::map<SurfaceKey, size_t> mesh_indices;
 	std::map<const Skin *, size_t> skin_indices;
@@ -61,7 +62,8 @@ public:
 	std::map<const Material *, size_t> material_indices;
 	/// For each mesh, the index of its primitive in the file's mesh.
 	std::map<const Mesh *, size_t> primitive_indices;
-	/// Whether nodes that the scene does not have may show the file's materials too.
+	/// Whether some node of the file that is not loaded has a mesh, and so may use the same
+	/// materials: a changed material is then appended, not replaced.
 	bool shares_materials = false;
 	/// Keeps alive the meshes whose pointers are stored above.
 	std::vector<std::vector<MeshInstance3D::Surface>> retained_surfaces;

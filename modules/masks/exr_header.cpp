@@ -138,7 +138,8 @@ private:
 		}
 	}
 	/// Sizes beyond what masks may have are refused by the caller, and by OpenEXR before it takes
-	/// memory for them; here all are below 2^32, so that only the last product may overflow.
+	/// memory for them. Here all sizes are at most 2^32, and products of them could overflow, so
+	/// limits are divided instead.
 	void check_memory() const {
 		const bool has_tiles = tile_width > 0 && tile_height > 0;
 		const int64_t columns = std::max(width, tile_width);

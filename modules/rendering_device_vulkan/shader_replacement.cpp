@@ -30,14 +30,15 @@ const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p
 	return nullptr;
 }
 
-/// The program gives a shader what it declared when the program was built: it may use less of that,
-/// and no more.
+/// The program provides what the shader declared when the program was built. A new version must
+/// declare all of those bindings; it may use fewer of them, and no others.
 void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
 	const ReflectedShader built = reflect_spirv(p_name, find_built_shader(p_name), {});
 	const ReflectedShader now = reflect_spirv(p_name, p_words, {});
 	const auto refuse = [&](const std::string &p_what) {
 		fail("Shader \"", p_name, "\" ", p_what,
-				", which the program does not know of. Build the program and start it again.");
+				"; the running program was built for another interface. Build it and start it "
+				"again.");
 	};
 	for (const ReflectedBinding &binding : now.bindings) {
 		const ReflectedBinding *known = find_binding(built, binding.binding);
@@ -51,7 +52,7 @@ void check_interface(const std::string &p_name, std::span<const uint32_t> p_word
 	}
 	for (const ReflectedBinding &binding : built.bindings) {
 		if (find_binding(now, binding.binding) == nullptr) {
-			refuse(text("declares binding ", binding.binding, " no more"));
+			refuse(text("no longer declares binding ", binding.binding));
 		}
 	}
 	if (built.push_constant_bytes != now.push_constant_bytes) {

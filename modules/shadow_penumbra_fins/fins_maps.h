@@ -26,7 +26,7 @@ public:
 	const std::vector<RGTexture> &get_layers() const { return frame_layers; }
 	/// layer_2 is empty when it was not peeled.
 	FinTargets get_targets() const;
-	/// The third depth layer, or the first when it was not peeled.
+	/// The third depth layer. When it was not peeled: the first, only to fill the binding.
 	RGTexture get_layer_3() const;
 
 private:

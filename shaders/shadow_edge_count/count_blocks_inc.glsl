@@ -18,7 +18,8 @@ layout(push_constant) uniform Push {
 	CountBlockPush push;
 };
 
-/// Every other block first, see find_work_row: blocks that are close in the image are close in the list.
+/// The list's even entries first, then the odd ones, see interleave_work: neighbours in the list are neighbours in the image
+/// and cost about the same, so both halves of the dispatch do.
 uint load_block_entry() {
 	const uint index = interleave_work(gl_WorkGroupID.x, gl_NumWorkGroups.x);
 	return blocks[push.first_block + index];

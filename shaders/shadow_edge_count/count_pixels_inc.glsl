@@ -16,7 +16,8 @@ void load_count_constants() {
 	light_from_camera = light_views.views[0].view_from_camera_relative;
 }
 
-/// A block's pixels so that those that follow one another are close together: the position of each in the block.
+/// The position in its 8 x 8 block of the pixel with this index in Morton order, so that pixels of consecutive indices are
+/// close together.
 uvec2 find_pixel_in_block(uint p_index) {
 	const uint x = (p_index & 1u) | ((p_index >> 1) & 2u) | ((p_index >> 2) & 4u);
 	const uint y = ((p_index >> 1) & 1u) | ((p_index >> 2) & 2u) | ((p_index >> 3) & 4u);

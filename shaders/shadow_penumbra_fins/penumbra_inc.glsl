@@ -5,9 +5,9 @@
 #include "shadow_penumbra_fins/shadow_penumbra_fins_shared.h"
 
 const float PI = 3.14159265358979;
-// Second channel of the penumbra colour (the paper's B): 0.5 outer, 0 inner or nothing.
+// The class, in g of the penumbra colour (the paper stores it in B): 0.5 outer, 0 inner or nothing.
 const float PENUMBRA_CLASS_OUTER = 0.5;
-// Bilinear weights may sum to a little less than 1, and give a trace where all four texels are 0.
+// Slack for inexact bilinear filtering: four outer texels may give slightly less than the class, others more than 0.
 const float PENUMBRA_CLASS_TOLERANCE = 1e-3;
 const float PENUMBRA_INNER_SHARE = 0.3; // visibility on the silhouette: inner below, outer above
 
