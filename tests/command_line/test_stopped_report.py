@@ -45,7 +45,11 @@ class StoppedReports(ReportCase):
         half_count = len(whole["cells"]) // 2
         self.stop_half_way("report", whole["cells"][half_count - 1]["record"])
         before = {name: data for name, data in self.load_records("report").items() if not name.endswith(".tmp")}
-        self.assertFalse(os.path.exists(self.path("report/index.html")))
+        self.assertFalse(os.path.exists(self.path("report/report.json")))
+        # The page of what was measured before is there and whole.
+        self.assertEqual(check_page(self.path("report/index.html")), [])
+        with open(self.path("report/index.html"), encoding="utf-8") as file:
+            self.assertNotIn('"missing_count":0', file.read())
         result = self.small("report", "--resume")
         self.assertIn("Resuming: %d cells are there, %d are left" % (half_count, len(whole["cells"]) - half_count), result.stderr)
         resumed = self.load_done("report", result)
