@@ -8,7 +8,7 @@ import subprocess
 PROJECT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "godot")
 TIMEOUT_S = 1200
 DEVICE_OPTIONS = ["--rendering-method", "forward_plus", "--rendering-driver", "vulkan", "--audio-driver", "Dummy"]
-# Godot's SPIR-V optimizer logs the first of shaders that it then hands on unchanged. The second is a race of its threads:
+# Godot's SPIR-V optimizer logs the first, about shaders that it then hands on unchanged. The second is a race of its threads:
 # each changes the folder of the whole process for a moment (its issue 115321).
 HARMLESS = re.compile(r"is not supported yet\.$|Parameter \"getcwd\(real_current_dir_name, \d+\)\" is null\.$")
 
@@ -27,7 +27,7 @@ def prepare(project=PROJECT):
 
 
 def start_godot(arguments, variables={}):
-    """Return (exit code, output), under a virtual display unless $GODOT_DISPLAY names another. 124: it timed out."""
+    """Return (exit code, output), under a virtual display unless $GODOT_DISPLAY is not "virtual". 124: it timed out."""
     return _start([os.environ["GODOT"]] + arguments, variables)
 
 

@@ -32,9 +32,9 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=$root/demo_project/out
 jobs=$(nproc 2>/dev/null || echo 1)
 wants_window=yes
-skipped=
 wants_build=yes
 report_options=()
+skipped=
 scenes=sphere,three_lights,torus_knot,clutter,open_sheets,kitbash,fence,leaf,courtyard,package_duck
 extent=(--sizes own --settings default --scaling none --change none --stability none)
 while [ $# -gt 0 ]; do

@@ -16,7 +16,7 @@
 
 namespace gnomon {
 
-/// Tests run from the repository's root; an Error reports when they do not.
+/// Tests run from the repository's root; an Error reports if the scene is not found from there.
 inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	const std::filesystem::path path =
 			std::filesystem::path("demo_project/scenes") / (p_name + ".gltf");
@@ -29,8 +29,8 @@ inline std::unique_ptr<Scene> load_demo_scene(const std::string &p_name) {
 	return load_gltf(path, options);
 }
 
-/// Sets the properties of every light. A name that no class declares, or a value out of its range,
-/// is an Error.
+/// Sets the properties of every light. A name that neither Light3D nor a technique of this build
+/// declares, or a value out of its range, is an Error.
 inline void apply_light_settings(const Scene &p_scene, const nlohmann::json &p_settings) {
 	for (const auto &[name, value] : p_settings.items()) {
 		const PropertyInfo *info = Light3D::get_property_list().find(name);

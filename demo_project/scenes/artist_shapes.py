@@ -134,7 +134,7 @@ def find_rail(x, side):
 
 
 def make_hull(strake_count=6, station_count=24):
-    """Strakes that are side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
+    """Strakes side by side without sharing vertices, a deck with hatches and bulwarks: none of it closed."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     stations = [HULL_HALF_LENGTH * 0.985 * (2.0 * i / station_count - 1.0) for i in range(station_count + 1)]
 
@@ -214,7 +214,7 @@ BLADE_ROOT_DEPTH = 0.04
 
 
 def make_grass(generator, blade_count):
-    """Bent blades of two quads and a tip, each an open mesh that begins below the ground."""
+    """Bent blades of two quads and a tip, each an open surface that begins below the ground."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     for _ in range(blade_count):
         distance, angle = GRASS_RADIUS * math.sqrt(generator.random()), 2.0 * math.pi * generator.random()

@@ -105,7 +105,7 @@ def get_plant(side, step):
 
 
 def get_foot(side, phase):
-    """Return (position of the ankle, heading, how far the toes are raised)."""
+    """Return (position of the ankle, heading, pitch in radians: above 0 the toes are raised, below 0 the heel)."""
     sign, offset = SIDES[side]
     step = math.floor(phase - offset + 0.5 * STANCE)
     since = phase - offset - step

@@ -94,7 +94,7 @@ def add_turned_card(mesh, card, center, normal, up_angle_rad):
 
 
 def make_leaves(generator, count, half_size_m, center, radius_m):
-    """Return cards in a sphere, denser towards its surface, that face up and outwards."""
+    """Return cards in an ellipsoid 0.8 as high as wide that face up and outwards; density falls as distance ** -0.5."""
     mesh = Mesh(is_closed=False, is_manifold=False)
     card = make_card(half_size_m, half_size_m)
     for _leaf in range(count):

@@ -1,6 +1,6 @@
 """Triangles and a small glTF 2.0 writer for the demo scenes. Standard library only.
 
-A mesh is checked before it is written: float32 positions, no degenerate triangle, unless it is marked as such an
+A mesh is checked before it is written: float32 positions, no degenerate triangle; unless is_manifold is False, an
 oriented 2-manifold after welding by position, and, where it should be closed, one with outward faces.
 """
 
@@ -271,7 +271,7 @@ class Document:
         return len(self.root["materials"]) - 1
 
     def add_texture(self, file_name, png):
-        """Add the texture of a file next to the scene, with repeat wrapping and linear filtering."""
+        """Add a texture whose image is a file next to the scene. Default sampler: repeated, and linear in gnomon."""
         self.images[file_name] = png
         for members, value in (("samplers", {}), ("images", {"uri": file_name})):
             self.root.setdefault(members, []).append(value)
@@ -363,7 +363,7 @@ class Document:
         self.add_node(name, eye, rotation, extensions=extension)
 
     def build_files(self, stem, binary_stem=None):
-        """Map the names of the .gltf and the .bin to their bytes; scenes with the same meshes may share the .bin."""
+        """Map the names of the .gltf, the .bin and the images to their bytes; scenes of the same meshes may share the .bin."""
         binary = (binary_stem or stem) + ".bin"
         self.root["buffers"] = [{"uri": binary, "byteLength": len(self.binary)}]
         text = json.dumps(self.root, indent="\t", allow_nan=False) + "\n"
@@ -371,7 +371,7 @@ class Document:
 
 
 def save_files(files, folder):
-    """Each file is written next to its target and renamed, so that none is ever half there."""
+    """Each file is written next to its target and renamed, so that no file is ever incomplete."""
     os.makedirs(folder, exist_ok=True)
     for name, data in sorted(files.items()):
         path = os.path.join(folder, name)

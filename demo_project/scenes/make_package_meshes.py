@@ -26,7 +26,7 @@ TIMEOUT_S = 120
 MOST_HEIGHT_M, MOST_WIDTH_M = 1.9, 2.6  # about what the study's casters fill
 LIFT_M = 0.002  # a flat sole in the ground's plane: which of both is seen would be left to rounding
 CREASE_COSINE = math.cos(math.radians(50.0))  # flatter edges are shaded smoothly
-LEAST_AREA_SQUARED_M4 = 1e-18  # float32 does not distinguish the corners of a smaller triangle of some metres
+LEAST_AREA_SQUARED_M4 = 1e-18  # float32 does not distinguish the corners of a smaller triangle some metres from the origin
 
 TEST_MODELS, BENCHMARK_MODELS = "assimp-testmodels", "glmark2-data"
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)

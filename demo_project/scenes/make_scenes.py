@@ -189,7 +189,7 @@ def make_three_lights_scene():
 
 
 def make_wall():
-    """Upright, behind the things in front of it."""
+    """Return an upright wall, to be put behind the objects."""
     return make_box((4.2, 2.4, 0.1))
 
 

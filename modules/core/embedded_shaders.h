@@ -15,8 +15,9 @@ struct EmbeddedShader {
 
 /// Every entry point of the modules in this build, ordered by module and name.
 std::span<const EmbeddedShader> get_embedded_shaders();
-/// Adds entry points to those of the build, such as the kernels of the test runner. They must stay
-/// valid until the program ends. Call it before any pipeline is made.
+/// Adds entry points to those of the build, such as the kernels of the test runner; of equal names
+/// that of the build is used. They must stay valid until the program ends. Call it before any
+/// pipeline is made.
 void add_embedded_shaders(std::span<const EmbeddedShader> p_shaders);
 /// Replaces the SPIR-V of an entry point; an empty span restores that of the build. Existing
 /// pipelines do not change, see RenderingDevice::replace_shaders. Call it from one thread only.

@@ -27,7 +27,7 @@ public:
 };
 
 /// Returns the message of a caught exception. For std::bad_alloc, which has no useful message, it
-/// says what the user can do.
+/// states what the user can do.
 std::string describe_failure(const std::exception &p_failure);
 
 /// Throws Error with the arguments joined by text().

@@ -74,8 +74,8 @@ std::vector<uint8_t> build_cache_entry(std::span<const uint8_t> p_bytes);
 std::optional<std::span<const uint8_t>> parse_cache_entry(std::span<const uint8_t> p_entry);
 /// Stores bytes under a name in the cache folder with a checksum. A failure to write only warns.
 void save_cache_entry(const std::string &p_name, std::span<const uint8_t> p_bytes);
-/// Returns the stored bytes, or nothing when the entry is absent or damaged (a damaged entry is
-/// logged and removed).
+/// Returns the stored bytes, or an empty vector when the entry is absent or damaged (a damaged
+/// entry is logged and removed).
 std::vector<uint8_t> load_cache_entry(const std::string &p_name);
 
 } // namespace gnomon

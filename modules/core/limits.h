@@ -12,7 +12,7 @@ inline constexpr uint32_t MAX_IMAGE_SIZE_PX = 16384;
 inline constexpr uint32_t MAX_ANTIALIASING = 4;
 /// Largest length that a user may set, in metres: light sizes, penumbra widths, material distances.
 inline constexpr double MAX_LENGTH_M = 1e4;
-/// The range of such a length as a PropertyInfo::hint: minimum, maximum and step.
+/// The range of such a length as a PropertyInfo::hint: minimum, maximum and step (1 cm), in metres.
 inline constexpr const char *LENGTH_HINT = "0,10000,0.01";
 /// Resources that were not used for this many frames are freed. A camera or light that turns away
 /// often turns back soon; one that stays away should hold no memory.

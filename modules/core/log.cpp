@@ -20,6 +20,19 @@ LogSink set_log_sink(LogSink p_sink) {
 	return std::exchange(log_sink, std::move(p_sink));
 }
 
+LogFilterScope::LogFilterScope(std::function<bool(LogLevel, const std::string &)> p_passes) {
+	before = set_log_sink(
+			[this, passes = std::move(p_passes)](LogLevel p_level, const std::string &p_line) {
+				if (passes(p_level, p_line)) {
+					forward_log(before, p_level, p_line);
+				}
+			});
+}
+
+LogFilterScope::~LogFilterScope() {
+	set_log_sink(std::move(before));
+}
+
 void set_log_level(LogLevel p_level) {
 	lowest_level = p_level;
 }

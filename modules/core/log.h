@@ -17,6 +17,18 @@ using LogSink = std::function<void(LogLevel, const std::string &)>;
 LogSink set_log_sink(LogSink p_sink);
 /// Passes a line to a previous sink, or to the default output when that sink is empty.
 void forward_log(const LogSink &p_sink, LogLevel p_level, const std::string &p_line);
+/// Sees every line while it exists; the sink from before gets those that pass.
+class LogFilterScope {
+public:
+	/// p_passes: true: the line goes on to the sink from before.
+	explicit LogFilterScope(std::function<bool(LogLevel, const std::string &)> p_passes);
+	~LogFilterScope();
+	LogFilterScope(const LogFilterScope &) = delete;
+	LogFilterScope &operator=(const LogFilterScope &) = delete;
+
+private:
+	LogSink before;
+};
 /// Lines below this level are dropped. Default INFO.
 void set_log_level(LogLevel p_level);
 void write_log(LogLevel p_level, const std::string &p_line);

@@ -15,7 +15,8 @@ public:
 	std::string name;
 	std::filesystem::path start_scene;		   // absolute; empty = none named
 	std::vector<std::filesystem::path> scenes; // absolute paths of the listed scenes that exist
-	/// Absolute paths of the existing scenes that a report draws in its stability sweeps only.
+	/// Absolute paths of the listed scenes that exist and that a report draws in its stability
+	/// sweeps, in addition to `scenes`.
 	std::vector<std::filesystem::path> stability_scenes;
 	/// Absolute paths of listed scenes that do not exist, without duplicates.
 	std::vector<std::filesystem::path> missing_scenes;

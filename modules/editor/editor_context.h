@@ -102,7 +102,7 @@ struct EditorContext {
 	EditorDocument &document;
 	const DeviceInfo &device;
 	ViewportState viewport;
-	/// Result of the last frame.
+	/// Result of the last image.
 	RenderResult shown;
 	double shown_ms = 0; // wall time
 	bool is_image_coarse = false;
@@ -118,7 +118,7 @@ struct EditorContext {
 	std::map<std::string, std::string> shader_errors;
 	std::string inspector_filter;
 	EditorCommand command = EditorCommand::NONE;
-	/// For EditorCommand::READ_PAGE, relative to the program's folder.
+	/// For EditorCommand::READ_PAGE, relative to the folder above the program's bin.
 	std::string requested_page;
 	bool shows_open_menu = false;	 // opens the menu of scenes
 	std::filesystem::path open_path; // for EditorCommand::OPEN

@@ -35,7 +35,7 @@ public:
 	const Project &get_project() const { return project; }
 	const std::filesystem::path &get_path() const { return path; }
 	UndoHistory &get_history() { return history; }
-	/// Returns which animation is shown; it is not a change of the scene.
+	/// Returns which of the scene's animations is shown, and when; it is not a change of the scene.
 	Timeline &get_timeline() { return timeline; }
 	const Timeline &get_timeline() const { return timeline; }
 	/// Returns why the file could not be read; empty: it was read. Such a document cannot be saved,
@@ -51,12 +51,13 @@ public:
 	/// Null: nothing is selected.
 	Node3D *get_selected() const { return selected; }
 	void select(Node3D *p_node) { selected = p_node; }
-	/// Returns the bounds of the selected node, or a small box around it if it has no geometry; if
-	/// nothing is selected, those of the scene's casters.
+	/// Returns the bounds of the selected node, enlarged to at least a small box around its centre;
+	/// if nothing is selected, those of the scene's casters.
 	Bounds compute_selected_bounds() const;
 
-	/// Sets a property as one undoable step. An invalid value is an Error and changes nothing.
-	/// p_is_drag: steps of the same property are merged until end_drag().
+	/// Sets a property, or resets it if p_value is empty, as one undoable step. An invalid value is
+	/// an Error and changes nothing. p_is_drag: steps of the same property are merged until
+	/// end_drag().
 	void set_property(Node3D &r_node, const std::string &p_name,
 			const std::optional<PropertyValue> &p_value, bool p_is_drag = false);
 	void end_drag() { history.close(); }
@@ -80,15 +81,15 @@ public:
 	/// Path of the recovery file, next to the scene, that autosave writes.
 	std::filesystem::path get_recovery_path() const;
 	/// Writes the recovery file if the changes are old enough. Returns false on failure; it retries
-	/// later.
+	/// after another interval.
 	bool autosave(Clock::time_point p_now);
 	void set_autosave_interval(std::chrono::seconds p_interval) { autosave_interval = p_interval; }
-	/// Writes the recovery file now, before the program ends.
+	/// Writes the recovery file now if there are changes, before the program ends.
 	void save_aside();
 	/// Whether an earlier program left a recovery file with unsaved changes.
 	bool has_recovery() const;
 	/// Loads the recovery file; the document then counts as changed. If it cannot be read, it is
-	/// kept under another name, and an Error is thrown.
+	/// preserved under another name, and an Error is thrown.
 	void recover();
 	/// Deletes the recovery file, even one of another program.
 	void discard_recovery();

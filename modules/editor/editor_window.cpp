@@ -249,7 +249,8 @@ private:
 		stream << written;
 		stream.close();
 		if (std::error_code code; stream) {
-			std::filesystem::rename(made, options.items, code); // if this fails, the next one is
+			// If renaming fails, the next frame writes the file again.
+			std::filesystem::rename(made, options.items, code);
 		}
 		context.items.clear();
 	}
@@ -308,7 +309,7 @@ void run_editor(const EditorOptions &p_options) {
 		path = Editor(p_options, path, settings).run();
 		for (const ModuleInfo &module : ModuleRegistry::get_modules()) {
 			if (!module.is_enabled && module.can_disable) {
-				ModuleRegistry::set_enabled(module.name, true); // each project lists which it wants
+				ModuleRegistry::set_enabled(module.name, true); // each project disables its own
 			}
 		}
 	}

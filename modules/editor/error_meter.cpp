@@ -37,7 +37,7 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 	const bool is_playing = r_context.document.get_timeline().is_playing();
 	if (!is_watched || state.is_stopped || is_playing) {
 		if (background_reference.is_running()) {
-			traced_sample_count = 0; // goes on when somebody looks again; what is known stays
+			traced_sample_count = 0; // restarts when it is watched again; the result stays
 		}
 		background_reference.stop();
 	}
@@ -65,7 +65,8 @@ void ErrorMeter::update(EditorContext &r_context, uint32_t p_image_count) {
 					std::exchange(requested_reference, nullptr), state.sample_count);
 		}
 		std::optional<ReferenceRound> round = background_reference.take();
-		// After a restart, a round is used only if it is better than the known reference.
+		// After a restart, a round is used only if it has at least as many rays per pixel as the
+		// known reference.
 		if (round && !(state.reference && round->sample_count < state.round.sample_count)) {
 			state.round = std::move(*round);
 			state.reference = std::make_shared<const ReferenceMask>(ReferenceMask{

@@ -8,7 +8,7 @@ namespace gnomon {
 
 /// Updates the error panel: the mask of the light in question as the viewport sees it, its
 /// reference (traced in the background), and the mask's cost, one measured frame at a time. Works
-/// only while the panel is visible.
+/// only while the panel or the viewport's error view is visible.
 class ErrorMeter {
 public:
 	ErrorMeter(RenderingDevice &p_device, Renderer &p_renderer) :

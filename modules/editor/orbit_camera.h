@@ -24,7 +24,8 @@ public:
 	void move(const glm::dvec3 &p_way_m);
 	/// Moves so that the whole bounds are visible.
 	void frame(const Bounds &p_bounds_world);
-	/// Writes position and field of view into a camera whose parent is the root.
+	/// Writes position, orientation, field of view and near plane into a camera whose parent is the
+	/// root.
 	void apply(Camera3D &r_camera) const;
 
 	double get_distance_m() const { return distance_m; }

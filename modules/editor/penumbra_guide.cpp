@@ -61,8 +61,10 @@ public:
 			rays(r_rays), scene(p_scene), light(p_light),
 			is_directional(p_light.type == LightType::DIRECTIONAL) {}
 
-	/// Finds the end of a ray from the rim, p_width_m outwards (r) or inwards (-t) of the centre's,
-	/// past an end of the edge.
+	/// Returns where the ray from the rim past an end of the edge hits a receiver: outwards of the
+	/// ray from the centre for p_width_m = r, inwards for -t. Returns nothing if it hits none, if
+	/// the end is hidden from the light, or if the hit is out of the light's reach or hidden from
+	/// the camera.
 	std::optional<glm::dvec3> find_end(
 			const CasterEdge &p_edge, const glm::dvec3 &p_end, double p_width_m) {
 		const glm::dvec3 way = get_way(p_end);
@@ -86,7 +88,8 @@ public:
 																	: std::nullopt;
 	}
 
-	/// Whether an edge's image on the receiver is at most LONGEST_LINE times as long as the edge.
+	/// Whether the line is at most LONGEST_LINE times as long as the edge's image at that distance
+	/// from the light.
 	bool is_one_line(const CasterEdge &p_edge, const glm::dvec3 &p_from, const glm::dvec3 &p_to) {
 		const double grown = is_directional ? 1.0
 											: glm::length(get_way(p_from)) /

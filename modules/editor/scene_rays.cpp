@@ -19,8 +19,7 @@ void SceneRays::follow(const Scene &p_scene) {
 			try {
 				add_surface(*node, surface, world_from_node, world_from_nodes);
 			} catch (const Error &) {
-				// A pose that is refused: the scene cannot be drawn either, and the image shows
-				// why.
+				// A pose that is refused: drawing the scene fails too, and reports why.
 			}
 		}
 	}

@@ -17,9 +17,8 @@ public:
 	struct Instance {
 		MeshInstance3D *node = nullptr;
 		std::shared_ptr<const Mesh> mesh; // its visible part, see CutMesh; as posed
-		glm::dmat4 world_from_node =
-				/// For a skinned mesh: the transform from mesh space, see compute_skin_transforms.
-				glm::dmat4(1.0);
+		/// For a skinned mesh: the transform from mesh space, see compute_skin_transforms.
+		glm::dmat4 world_from_node = glm::dmat4(1.0);
 		glm::dmat4 node_from_world = glm::dmat4(1.0);
 		Bounds bounds_world;
 		bool casts_shadow = true;

@@ -13,7 +13,7 @@ namespace gnomon {
 
 namespace {
 
-// Names of nodes and files: Latin with accents, Greek, Cyrillic; signs that texts use.
+// For names of nodes and files: Latin with accents, Greek, Cyrillic; and symbols of messages.
 const ImWchar GLYPH_RANGES[] = { 0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2044, 0x20ac, 0x20ac, 0x2190,
 	0x21ff, 0x2200, 0x22ff, 0xfffd, 0xfffd, 0 };
 

@@ -18,7 +18,7 @@ bool is_same_state(const Node3D &p_left, const Node3D &p_right) {
 			return false;
 		}
 	}
-	// Fields list one of several materials; all of them may have changed.
+	// Fields cover only one of several materials; all of them may have changed.
 	if (const auto *left = dynamic_cast<const MeshInstance3D *>(&p_left)) {
 		const auto &right = dynamic_cast<const MeshInstance3D &>(p_right);
 		if (!std::equal(left->surfaces.begin(), left->surfaces.end(), right.surfaces.begin(),

@@ -35,7 +35,8 @@ public:
 	/// Marks the current state as saved.
 	void set_saved() { saved_serial = get_serial(); }
 	bool is_saved() const { return saved_serial == get_serial(); }
-	/// Changes whenever the scene changes.
+	/// Identifies the state of the scene: changes whenever the scene changes, and undo and redo
+	/// restore it.
 	uint64_t get_serial() const { return step_index == 0 ? 0 : steps[step_index - 1].serial; }
 
 private:

@@ -6,8 +6,8 @@ namespace gnomon {
 
 namespace {
 
-// Most silhouette edges that are traced while the light moves, so that it does not have to wait for
-// them.
+// Maximum numbers of silhouette edges that are traced: fewer while something moves, so that it does
+// not have to wait for them.
 const size_t MOVING_EDGE_COUNT = 150;
 const size_t EDGE_COUNT = 1500;
 
@@ -54,7 +54,7 @@ void ViewportGuides::update(EditorContext &r_context, uint32_t p_drawn_count) {
 					rays, *scene, *light, is_moving ? MOVING_EDGE_COUNT : EDGE_COUNT);
 		}
 	} catch (const std::exception &) {
-		// The scene cannot be drawn either, and the viewport reports why.
+		// Drawing the scene fails too, and reports why.
 	}
 }
 

@@ -13,7 +13,7 @@ class ViewportProjection {
 public:
 	ViewportProjection(const OrbitCamera &p_camera, ImVec2 p_least, ImVec2 p_size);
 
-	/// Returns nothing for a point behind the camera.
+	/// Returns nothing for a point behind the camera or nearer than its near plane.
 	std::optional<ImVec2> project(const glm::dvec3 &p_world) const;
 	bool is_inside(const ImVec2 &p_point) const;
 	/// World size of a pixel at that point, metres per pixel perpendicular to the view axis.

@@ -17,7 +17,8 @@ const uint32_t GREATEST_DIVISOR = 4;
 const double QUICK_MS = 25;
 const double SLOW_MS = 70;
 
-/// Makes the request for a debug view of the light in question, if that view exists.
+/// Makes the request for a debug view of the light in question, or for the lit image if
+/// p_debug_view is empty or does not exist.
 RenderRequest make_request(
 		const EditorContext &p_context, glm::uvec2 p_size_px, const std::string &p_debug_view) {
 	RenderRequest request;
@@ -140,7 +141,8 @@ RenderResult ViewportRenderer::draw_into(
 	return result;
 }
 
-/// Techniques make their intermediate images only when one is requested: a tiny frame requests it.
+/// Techniques make their intermediate images only when one is requested, so a tiny frame requests
+/// one.
 void ViewportRenderer::list_debug_views(EditorContext &r_context) {
 	const glm::uvec2 LIST_SIZE_PX(32);
 	r_context.viewport.wants_debug_views = false;

@@ -68,7 +68,7 @@ void change_type(Light3D &r_light, const LightSnapshot &p_before, const SceneSna
 	const glm::dmat4 world_from_parent =
 			r_light.parent ? r_light.parent->compute_world_from_node() : glm::dmat4(1.0);
 	const glm::dmat4 parent_from_light = glm::inverse(world_from_parent) * world_from_light;
-	// Child nodes of the light, such as a lampshade or a camera, keep their place.
+	// Child nodes of the light, such as a lampshade or a camera, keep their world transform.
 	const glm::dmat4 new_from_old = glm::inverse(parent_from_light) * r_light.parent_from_node;
 	for (const std::unique_ptr<Node3D> &child : r_light.children) {
 		child->parent_from_node = new_from_old * child->parent_from_node;

@@ -30,7 +30,7 @@ struct TracedReference {
 	std::vector<uint8_t> sees_whole_light; // per pixel, see sees_whole_disc; 0 where no receiver
 	std::vector<glm::vec3> positions;	   // per pixel, camera-relative, metres
 	std::vector<glm::vec3> normals;		   // per pixel, of the face; 0 where nothing is
-	bool is_double = false;				   // traced in double precision
+	bool is_double = false;				   // in double precision, as float32 was not enough
 	double standard_error = 0;
 	double wall_ms = 0;
 };

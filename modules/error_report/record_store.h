@@ -15,7 +15,7 @@ namespace gnomon {
 /// record is complete or absent: a damaged one is reported and counts as absent.
 class RecordStore {
 public:
-	/// Creates the folder. Throws an Error when it cannot be created or written.
+	/// Creates the folder. Throws an Error when it cannot be created, or is not a folder.
 	explicit RecordStore(std::filesystem::path p_folder);
 
 	/// p_image: bytes of a PNG that belongs to the record; may be empty.

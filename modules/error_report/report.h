@@ -40,7 +40,7 @@ const char *get_name(ReportStatus p_status);
 /// The exact mask of a configuration, as far as the report keeps it.
 struct ReportReference {
 	double standard_error = 0;
-	bool is_double = false; // traced in double precision; only in stability sweeps
+	bool is_double = false; // of a stability sweep: in double, as float32 was not enough
 	double wall_ms = 0;		// time to trace it, or to load it from the cache
 	std::string image;		// grey and alpha (0 = no receiver); empty where there is none
 	uint64_t receiver_pixel_count = 0;
@@ -106,7 +106,7 @@ struct VisibilityCondition {
 	/// Condition number: change of v divided by the relative change of the receiver's position P,
 	/// |dv| rho / |dP|, with rho the distance to the light (directional: S).
 	double number = 0;
-	double rounding = 0;		// change of v when P is rounded to float32
+	double rounding = 0;		// change of v when P moves by the rounding of float32
 	double reference_error = 0; // |v in double - v of the reference|
 	double error = 0;			// |v of the technique - v of the reference|
 	ErrorCause cause = ErrorCause::METHOD;
@@ -114,8 +114,9 @@ struct VisibilityCondition {
 
 /// Additional results of a point of a stability sweep or an animation, filled in by a ReportPart.
 struct ReportStability {
-	/// RMS error of the change over penumbra pixels when the light moves by R / 1000, or an
-	/// animation advances by a frame: see TemporalMetrics. None when the light has no position.
+	/// RMS error of the change over penumbra pixels when the light moves by R / 1000 (directional:
+	/// turns by a thousandth of its angular radius), or an animation advances by a frame: see
+	/// TemporalMetrics. None when the image is too large to trace twice, or the receivers change.
 	std::optional<double> temporal_rmse;
 	/// Fraction of the receivers whose reference visibility is 0 or 1 and whose error exceeds 0.5.
 	double wrong_share = 0;
@@ -168,7 +169,8 @@ struct Report {
 	std::vector<size_t> find_cells(size_t p_configuration) const;
 	/// The baseline's cell in the same configuration; null when it was not measured.
 	const ReportCell *find_baseline(const ReportCell &p_cell) const;
-	/// Cost as a multiple of the baseline's; none when either was not measured.
+	/// Cost as a multiple of the baseline's; none when either was not measured, or by another
+	/// machine.
 	std::optional<double> compute_time_ratio(const ReportCell &p_cell) const;
 	/// Number of cells, references and scene images with that status.
 	size_t count(ReportStatus p_status) const;

@@ -29,7 +29,8 @@ Key make_key(const Report &p_report, const ReportCell &p_cell) {
 	return { at.id, p_cell.technique, p_cell.setting, at.size_px.x, at.size_px.y };
 }
 
-/// The 90th percentile minus the median, as a fraction of it, of the largest part of the cost.
+/// The 90th percentile minus the median, as a fraction of the median, of the GPU time where that is
+/// at least half of the cost, else of the wall time.
 double compute_spread(const ReportCell &p_cell) {
 	const FrameCost &total = p_cell.time.total;
 	const bool is_on_gpu = total.gpu_ms >= 0.5 * p_cell.time.cost_ms && total.gpu_ms > 0;

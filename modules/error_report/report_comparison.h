@@ -28,24 +28,24 @@ struct ReportDifference {
 struct ReportComparison {
 	std::vector<ReportDifference> differences; // worse ones first
 	size_t compared_count = 0;				   // cells that both have measured
-	size_t only_old_count = 0;				   // cells that this report does not measure
+	size_t only_old_count = 0;				   // cells that only the old report has
 	size_t only_new_count = 0;
 	bool has_same_machine = true;
 
-	/// True when an error grew, or a cell that was measured before now fails.
+	/// True when an error grew, or a cell that was measured now fails or is unusable.
 	bool has_regression() const;
 };
 
 /// Cells are the same when configuration, technique and setting have the same names, and the
 /// images the same size.
 ///
-/// An error differs when the change exceeds 0.0005 + 1 % and, if the references have different
-/// numbers of samples, also both standard errors. Errors are compared over penumbra pixels, and
-/// over all receivers, which also shows leaks in lit areas. A time is compared as a ratio to the
+/// An error differs when the change exceeds 0.0005 + 1 %, plus both standard errors if the
+/// references have different numbers of samples. Errors are compared over penumbra pixels, and over
+/// all receivers, which also shows leaks in lit areas. A time is compared as a ratio to the
 /// baseline of its own report, so that a slower machine alone is no difference. It differs when the
-/// change exceeds 15 % and also the spread (median to 90th percentile) of all times involved. The
-/// baseline, and cells without one, are compared in milliseconds, only on the same machine, and
-/// differ beyond 30 %.
+/// change exceeds 15 % and also the sum of the spreads (median to 90th percentile) of all times
+/// involved. The baseline, and cells without one, are compared in milliseconds, only on the same
+/// machine, and differ when the change exceeds 30 % and also that sum.
 ReportComparison compare_reports(const Report &p_old, const Report &p_new);
 
 nlohmann::ordered_json to_json(const ReportComparison &p_comparison);

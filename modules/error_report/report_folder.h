@@ -21,7 +21,8 @@ void save_plan(const std::filesystem::path &p_folder, const Report &p_plan);
 void check_resumable(const std::filesystem::path &p_folder, const Report &p_plan);
 
 /// The report of a plan with the records that the store holds; the others stay missing. p_machine:
-/// take only records that this machine measured; null = those of all machines.
+/// take only cells that this machine measured; null = those of all machines. References and
+/// images are taken from any machine.
 Report collect_report(
 		const Report &p_plan, const RecordStore &p_store, const ReportMachine *p_machine = nullptr);
 

@@ -305,7 +305,8 @@ Report read_report(Json p_json) {
 	return report;
 }
 
-/// Reads a cell or configuration; leaves it unchanged when it cannot be read.
+/// Reads the results of a cell, configuration or scene image. When they cannot be read, throws an
+/// Error and leaves it unchanged.
 template <typename Owner> void read_result(Json p_json, Owner &r_owner) {
 	try {
 		upgrade(p_json);

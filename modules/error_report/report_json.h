@@ -17,7 +17,7 @@ inline constexpr int REPORT_VERSION = 2;
 /// curves.
 nlohmann::ordered_json to_json(const Report &p_report);
 /// Reads report.json or plan.json, without the derived values. Throws an Error that names the file
-/// when it is missing, damaged, or of another format or version.
+/// when it is missing, damaged, of another format, or not of version 1..REPORT_VERSION.
 Report load_report(const std::filesystem::path &p_path);
 
 /// A header row and one row per cell; RFC 4180, but with LF line ends. Absent numbers are empty.
@@ -34,10 +34,10 @@ nlohmann::ordered_json cell_result_to_json(
 /// record of another format.
 ReportMachine read_cell_machine(const nlohmann::ordered_json &p_json);
 void read_cell_result(const nlohmann::ordered_json &p_json, Report &r_report, ReportCell &r_cell);
-/// The same for the image of a scene.
+/// The same for the image of a scene, without a machine.
 nlohmann::ordered_json scene_image_result_to_json(const ReportSceneImage &p_image);
 void read_scene_image_result(const nlohmann::ordered_json &p_json, ReportSceneImage &r_image);
-/// The same for the reference of a configuration.
+/// The same for the reference of a configuration, without a machine.
 nlohmann::ordered_json reference_result_to_json(const ReportConfiguration &p_configuration);
 void read_reference_result(
 		const nlohmann::ordered_json &p_json, ReportConfiguration &r_configuration);

@@ -31,7 +31,8 @@ public:
 	virtual std::vector<TracedReference> trace_references(MaskSource &r_source,
 			const MaskQuestion &p_question, uint32_t p_sample_count) const = 0;
 	/// Draws a cell and fills in its error and its own results. p_references: those of its
-	/// configuration. Returns the image to keep, or an empty one. Throws an Error on failure.
+	/// configuration. Returns the image to keep, or an empty one. Throws an Error when
+	/// drawing fails or gives an invalid result.
 	virtual MaskImage run_cell(MaskSource &r_source, const MaskQuestion &p_question,
 			std::span<const TracedReference> p_references, Report &r_report,
 			size_t p_cell) const = 0;

@@ -140,7 +140,7 @@ private:
 				[p_message](const PropertyValues &) -> MaskQuestion { fail(p_message); });
 	}
 
-	/// Data of a scene that all its configurations share.
+	/// Adds a failed configuration for a scene that cannot be measured at all.
 	void add_failure(const std::string &p_scene, const std::string &p_message) {
 		ReportConfiguration configuration;
 		configuration.id = p_scene;
@@ -160,16 +160,19 @@ private:
 				sizes_m.push_back(size * scene_size_m);
 			}
 		}
+		const auto get_sizes = [&](const Light3D &p_light) {
+			return options.has_own_sizes ? std::vector{ compute_own_size(p_light, scene_size_m) }
+										 : sizes_m;
+		};
 		if (options.light_types.empty()) {
 			for (Light3D *light : view.lights) {
 				add_sizes(p_scene.name, p_scene.scene, *view.camera, *light, light->type,
-						options.has_own_sizes
-								? std::vector{ compute_own_size(*light, scene_size_m) }
-								: sizes_m);
+						get_sizes(*light));
 			}
 		}
 		for (const LightType type : options.light_types) {
-			add_sizes(p_scene.name, p_scene.scene, *view.camera, *view.lights[0], type, sizes_m);
+			add_sizes(p_scene.name, p_scene.scene, *view.camera, *view.lights[0], type,
+					get_sizes(*view.lights[0]));
 		}
 	}
 

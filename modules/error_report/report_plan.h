@@ -32,9 +32,9 @@ ReportView find_report_view(const ReportScene &p_scene);
 
 struct ReportOptions {
 	std::string project;
-	std::string program;			   // version and hash of this program: others measure again
+	std::string program;			   // version and hash; other programs measure again
 	std::vector<double> sizes_m;	   // R in metres; empty: 0.02, 0.1 and 0.3 S of each scene
-	bool has_own_sizes = false;		   // true: each light keeps its size instead
+	bool has_own_sizes = false;		   // instead of those: the size that each light has
 	bool has_default_settings = false; // true: only each technique's default quality level
 	/// Types that the first shadow-casting light of each scene takes in turn. Empty: all lights
 	/// that cast shadows, as they are.

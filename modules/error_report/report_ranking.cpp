@@ -28,7 +28,7 @@ double get_mae(const ReportCell &p_cell) {
 	return p_cell.error->all.penumbra.mae;
 }
 
-/// The sum of both; absent when either is absent.
+/// The sum plus p_share of the value; absent when either is absent.
 std::optional<double> add_share(
 		const std::optional<double> &p_sum, const std::optional<double> &p_value, double p_share) {
 	return p_sum && p_value ? std::optional(*p_sum + *p_value * p_share) : std::nullopt;

@@ -22,7 +22,7 @@ namespace {
 
 const size_t MOST_SHOWN_PIXELS = size_t(1) << 20; // of a mask of a part
 
-/// The mask restricted to the receivers in the list.
+/// The mask with only those receivers whose pixel is not 0 in p_is_included.
 MaskImage restrict_mask(const MaskImage &p_mask, const std::vector<uint8_t> &p_is_included) {
 	MaskImage restricted = p_mask;
 	for (size_t index = 0; index < restricted.receiver.size(); ++index) {
@@ -45,7 +45,8 @@ std::vector<uint8_t> encode_reference_png(const MaskImage &p_mask) {
 	return encode_png(p_mask.size_px, 2, pixels);
 }
 
-/// Runs a task that may fail; returns its error message, or an empty one on success.
+/// Runs a task that may fail; returns its error message, or nothing on success. A lost device is
+/// thrown on.
 template <typename Work> std::optional<std::string> find_failure(Work p_work) {
 	try {
 		p_work();
@@ -86,13 +87,13 @@ private:
 					configuration.light_type, compute_text_hash(configuration.sweep, 1));
 			return hash % options.shard_count == options.shard_index;
 		}
-		// Shards are diagonals of the matrix: sizes are adjacent, and the middle ones have the
-		// expensive settings.
+		// Shards are diagonals of the matrix: a light's sizes follow each other in the plan, and
+		// the middle ones have the expensive settings.
 		return (p_configuration + p_configuration / options.shard_count) % options.shard_count ==
 				options.shard_index;
 	}
 
-	/// Loads or removes existing records, and counts the remaining tasks.
+	/// Loads the existing records or removes those of this shard, and counts the remaining cells.
 	void load_earlier() {
 		if (options.resumes) {
 			report = collect_report(plan.report, store, &machine);
@@ -111,7 +112,7 @@ private:
 		}
 	}
 
-	/// Records of other shards are kept, even when both shards have the same question.
+	/// Removes this shard's reference and cell records, except those that other shards need too.
 	void remove_own_records() {
 		std::set<std::string> own;
 		std::set<std::string> others;
@@ -128,7 +129,7 @@ private:
 		}
 	}
 
-	/// Removes failed records: the cause of the failure may be gone.
+	/// Resets what failed to its planned state, so that it runs again: the cause may be gone.
 	void retry_failures() {
 		const auto retry = [](auto &r_items, const auto &p_planned) {
 			for (size_t index = 0; index < r_items.size(); ++index) {
@@ -142,7 +143,7 @@ private:
 		retry(report.cells, plan.report.cells);
 	}
 
-	/// Called once per scene, before its first configuration.
+	/// Draws the missing images of a scene. Called before each configuration of the scene.
 	void run_scene_images(const std::string &p_scene) {
 		for (size_t index = 0; index < report.scene_images.size(); ++index) {
 			ReportSceneImage &shown = report.scene_images[index];

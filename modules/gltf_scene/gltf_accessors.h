@@ -33,8 +33,8 @@ public:
 
 private:
 	struct Layout; // of one accessor or its sparse part; all bounds are checked
-	/// p_fewest, p_most: components of an element.
 	enum class Components { NUMBERS, INDICES }; // floats or small integers; unsigned integers
+	/// p_fewest, p_most: allowed numbers of components of an element.
 	Layout read_layout(size_t p_index, int p_fewest, int p_most,
 			Components p_components = Components::NUMBERS);
 	/// Finds the elements in a buffer view. p_path: JSON path of the view's index and byte offset.

@@ -74,8 +74,8 @@ tinygltf::FsCallbacks make_callbacks() {
 	return callbacks;
 }
 
-/// Removes what tinygltf writes against the specification: null for an object without members, 0
-/// for an infinite far plane.
+/// Corrects what tinygltf writes against the specification: null for an object without members (in
+/// an array it becomes {}, elsewhere it is removed), and 0 for an infinite far plane (removed).
 void tidy(Json &r_json) {
 	if (r_json.is_array()) {
 		for (Json &element : r_json) {

@@ -94,11 +94,13 @@ public:
 
 	/// Returns a whole number of at least 0; nothing if absent or of another type.
 	std::optional<uint64_t> find_whole_number(std::string_view p_key) const;
-	/// Returns a whole number in p_minimum..p_maximum; fails on any other value.
+	/// Returns a whole number in p_minimum..p_maximum; fails on any other value. If it is absent,
+	/// find_ returns nothing and require_ fails.
 	std::optional<uint64_t> find_integer(
 			std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
 	uint64_t require_integer(std::string_view p_key, uint64_t p_minimum, uint64_t p_maximum) const;
-	/// Returns an index into an array of p_count elements; fails on any other value.
+	/// Returns an index into an array of p_count elements; fails on any other value. If it is
+	/// absent, find_ returns nothing and require_ fails.
 	std::optional<size_t> find_index(std::string_view p_key, size_t p_count) const;
 	size_t require_index(std::string_view p_key, size_t p_count) const;
 	/// Returns an element of the array p_key as an index; fails on any other value.
@@ -113,9 +115,11 @@ public:
 	/// returned.
 	double read_number(std::string_view p_key, double p_default, double p_minimum, double p_maximum,
 			std::string_view p_unit = "") const;
-	/// Reads three numbers in 0..p_maximum; any other value is reported.
+	/// Reads the first three of 3 or 4 numbers, in 0..p_maximum. Any other value is reported; then,
+	/// or if absent, r_color is unchanged and the result is false.
 	bool read_color(std::string_view p_key, double p_maximum, std::span<float, 3> r_color) const;
-	/// Returns true, false, 1 or 0 (Blender writes flags as numbers); any other value is reported.
+	/// Reads true, false, 1 or 0 (Blender writes flags as numbers); any other value is reported and
+	/// the default returned.
 	bool read_bool(std::string_view p_key, bool p_default) const;
 
 	[[noreturn]] void fail_at(std::string_view p_key, std::string_view p_problem) const;

@@ -75,7 +75,7 @@ void read_transmission(const tinygltf::Material &p_written, Material &r_material
 	}
 }
 
-/// Returns the distance in metres if the extras do not state it.
+/// Returns the scatter distance, in metres, that is used if the extras do not state one.
 float derive_scatter_distance(const Material &p_material) {
 	return p_material.scatter > 0 ? p_material.attenuation_distance_m : 0.0f;
 }
@@ -95,7 +95,8 @@ void read_extras(const GltfObject &p_extras, Material &r_material) {
 	}
 }
 
-/// Writes a number if it differs from that of the file. A default is not written.
+/// Writes a number if it differs from p_before: that of the file, or the default if the material is
+/// new.
 void write_number(float p_value, float p_before, const char *p_key, Value::Object &r_object) {
 	if (p_value != p_before) {
 		r_object[p_key] = to_value(p_value);

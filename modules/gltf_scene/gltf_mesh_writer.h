@@ -23,7 +23,7 @@ public:
 	size_t append_mesh(
 			const std::string &p_name, const std::vector<MeshInstance3D::Surface> &p_surfaces);
 	/// Like append_mesh, for a mesh that differs from one of the document only in its materials:
-	/// its vertices, and all data that the program does not understand, are kept. If the material
+	/// its vertices, and all data that the program does not understand, stay. If the material
 	/// indices do not change either, the existing mesh is returned. Nothing: the document has no
 	/// such mesh.
 	std::optional<size_t> change_materials(const std::vector<MeshInstance3D::Surface> &p_surfaces);
@@ -39,7 +39,8 @@ private:
 	int append_accessor(
 			std::span<const uint8_t> p_data, tinygltf::Accessor p_accessor, int p_target);
 	/// Returns the index of the material. A changed material replaces the one it was copied from if
-	/// the scene no longer uses that; otherwise it is appended.
+	/// neither the scene nor a node that is not loaded may use that (shares_materials) and no
+	/// different copy has replaced it; otherwise it is appended.
 	size_t put_material(const Material &p_material);
 
 	std::optional<size_t> find_loaded_mesh(

@@ -99,8 +99,8 @@ std::optional<size_t> GltfNodeWriter::find_or_append_mesh(
 	return mesh_indices.emplace(p_key, meshes.append_mesh(name, surfaces)).first->second;
 }
 
-/// Replaces a definition by a changed one at the same index, or appends it if another node has
-/// replaced the old one differently. Returns its index.
+/// Replaces the definition at p_index by a changed one, or appends it if there is no index or if
+/// another node has put a different definition there. Returns its index.
 template <typename T>
 size_t GltfNodeWriter::put_definition(std::vector<T> &r_list, Written<T> &r_written,
 		std::optional<size_t> p_index, T p_definition) {

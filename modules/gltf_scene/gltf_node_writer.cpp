@@ -133,7 +133,8 @@ void GltfNodeWriter::write_name(
 	}
 }
 
-/// Removes a mesh, light or camera that was loaded with a node and deleted, while the node remains.
+/// Removes a mesh, light or camera that was loaded with a node and has been deleted since, while
+/// the node remains.
 void GltfNodeWriter::drop_lost_parts() {
 	for (const size_t index : taken) {
 		tinygltf::Node &node = model.nodes[index];

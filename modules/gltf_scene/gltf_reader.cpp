@@ -131,7 +131,7 @@ std::vector<size_t> GltfReader::choose_scene(const GltfTree &p_tree, Scene &r_sc
 		const size_t index = static_cast<size_t>(scene.nodes[i]);
 		if (p_tree.parents[index] != GltfTree::NONE || !seen.insert(index).second) {
 			messages.fail(text(path, ".nodes[", i, "]"),
-					text("is ", index, ", which is elsewhere in the tree too. Export it again."));
+					text("is ", index, ", which already has another parent. Export it again."));
 		}
 		roots.push_back(index);
 	}

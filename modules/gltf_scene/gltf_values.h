@@ -14,7 +14,7 @@ namespace gnomon {
 Json to_json(const tinygltf::Value &p_value);
 tinygltf::Value to_value(const Json &p_json);
 
-/// Returns a member of extras or extensions as an object for checked access; nothing if it is none.
+/// Returns a value of extras or extensions as an object for checked access; nothing if it is none.
 std::optional<GltfObject> find_object(
 		const tinygltf::Value &p_value, std::string p_path, GltfMessages &p_messages);
 /// Returns an extension of an element, or null.

@@ -69,7 +69,7 @@ void AddonServer::before_draw() {
 	for (ShadowNode *node : nodes) {
 		const std::vector<ShadowNode *> &alive = get_shadow_nodes();
 		if (std::find(alive.begin(), alive.end(), node) == alive.end()) {
-			continue; // somebody's callback removed it
+			continue; // a callback removed it
 		}
 		node->call_back();
 		if (is_editor) {

@@ -26,7 +26,7 @@ bool reaches(const godot::Light3D &p_light, const std::vector<Receiver> &p_recei
 class ReceiverReader {
 public:
 	explicit ReceiverReader(ReceiverMaterials &r_materials) : materials(r_materials) {}
-	/// A surface of a mesh, which shows p_material or nothing instead.
+	/// Reads a surface of a mesh that shows p_material; an empty one: the surface has no material.
 	void read(const SceneBody &p_body, const godot::Material &p_material, const godot::Mesh &p_mesh,
 			int64_t p_surface, const Bounds &p_bounds_world);
 	/// Sprites, labels and particles, whose triangles are not read.

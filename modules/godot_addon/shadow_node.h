@@ -20,7 +20,7 @@ struct ReadMask {
 	godot::Transform3D camera;
 };
 
-/// Masks of one light that somebody waits for. Filled on the render thread.
+/// Masks of one light that a caller waits for. Filled on the render thread.
 struct MaskRequest {
 	std::string light;
 	std::mutex mutex; // of what follows

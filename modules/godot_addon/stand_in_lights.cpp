@@ -22,7 +22,7 @@ RenderingServer find_server() {
 	return RenderingServer(godot::find_singleton("RenderingServer"));
 }
 
-/// Shows the node's own light, or hides it, whatever the node states.
+/// Shows the node's own light, or hides it, whatever the node's visibility is.
 void set_own_visible(
 		const RenderingServer &p_server, const godot::Light3D &p_node, bool p_is_visible) {
 	p_server.instance_set_visible(p_node.get_instance(), p_is_visible);

@@ -127,27 +127,21 @@ void finish_report(const Report &p_report, const fs::path &p_folder,
 /// end.
 class WarningCounter {
 public:
-	WarningCounter() {
-		before = set_log_sink([this](LogLevel p_level, const std::string &p_line) {
-			if (p_level != LogLevel::WARNING || ++counts[p_line] == 1) {
-				forward_log(before, p_level, p_line);
-			}
-		});
-	}
 	~WarningCounter() {
-		set_log_sink(std::move(before));
+		scope.reset();
 		for (const auto &[line, count] : counts) {
 			if (count > 1) {
 				log_warning(count, " times: ", line);
 			}
 		}
 	}
-	WarningCounter(const WarningCounter &) = delete;
-	WarningCounter &operator=(const WarningCounter &) = delete;
 
 private:
-	LogSink before;
 	std::map<std::string, size_t> counts;
+	std::optional<LogFilterScope> scope{ std::in_place,
+		[this](LogLevel p_level, const std::string &p_line) {
+			return p_level != LogLevel::WARNING || ++counts[p_line] == 1;
+		} };
 };
 
 std::vector<ReportScene> load_scenes(

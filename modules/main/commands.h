@@ -34,10 +34,10 @@ glm::uvec2 parse_size(const std::string &p_text);
 glm::uvec2 choose_size(
 		const std::optional<std::string> &p_text, const std::filesystem::path &p_scene_path);
 /// Reads [defaults] of the project at the path, or of the project that contains the scene; nothing
-/// if the key is absent.
+/// if there is no project or the key is absent.
 std::optional<std::string> find_default(
 		const std::filesystem::path &p_scene_path, const std::string &p_key);
-/// Returns the antialiasing, 1..4, in the same way, else 2.
+/// Returns the antialiasing of the command line, else that of [defaults], 1..4, else 2.
 uint32_t choose_antialiasing(
 		const std::optional<uint32_t> &p_option, const std::filesystem::path &p_scene_path);
 
@@ -52,20 +52,21 @@ void add_animation_options(CLI::App &r_command, CommonOptions &r_common);
 void pose_as_requested(Scene &r_scene, const CommonOptions &p_common);
 /// Adds `--stage`, for a command that draws scenes.
 void add_stage_option(CLI::App &r_command, CommonOptions &r_common);
-/// Returns the camera of that name, or the first. If there is none: an Error that tells how to add
-/// one.
+/// Returns the camera of that name, or the first. If there is none: an Error that explains how
+/// to add one.
 Camera3D &choose_camera(const Scene &p_scene, const std::string &p_name);
-/// Returns the light of that name, or the first that casts shadows.
+/// Returns the light of that name, or the first that casts shadows. If there is none: an Error.
 Light3D &choose_light(const Scene &p_scene, const std::string &p_name);
-/// Applies "prop=value" (to p_light) or "light.Name.prop=value". Unknown lights and properties and
-/// values out of range are an Error.
+/// Applies "prop=value" (to p_light), "light.Name.prop=value" or "technique.ID.NAME=value". Unknown
+/// lights, properties and settings and values out of range are an Error.
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting);
 /// Creates the device that the command line requests, with the caller's additional options.
 std::unique_ptr<RenderingDevice> create_device(
 		const CommonOptions &p_common, DeviceOptions p_options = {});
 /// Returns the processor's name as the system reports it.
 std::string find_cpu_name();
-/// Returns version and hash of this program, so that results of different builds can be told apart.
+/// Returns version and hash of this program, so that results of different builds can be
+/// distinguished. Without /proc the hash is missing.
 std::string describe_program();
 /// Fails early instead of after minutes of work: the file's folder must exist and be writable.
 void check_writable(const std::filesystem::path &p_path);

@@ -46,6 +46,23 @@ std::string list_properties() {
 	return names;
 }
 
+/// Applies "technique.ID.NAME=value"; returns false if p_setting is not of that kind.
+bool apply_technique_setting(const std::string &p_setting) {
+	constexpr std::string_view PREFIX = "technique.";
+	if (!p_setting.starts_with(PREFIX)) {
+		return false;
+	}
+	const size_t equals = p_setting.find('=');
+	const size_t dot = p_setting.rfind('.', equals);
+	if (equals == std::string::npos || dot <= PREFIX.size()) {
+		throw UsageError(text("--set is \"", p_setting, "\", must be technique.ID.NAME=value."));
+	}
+	const std::string_view all = p_setting;
+	ShadowRegistry::set_setting(all.substr(PREFIX.size(), dot - PREFIX.size()),
+			all.substr(dot + 1, equals - dot - 1), all.substr(equals + 1));
+	return true;
+}
+
 } // namespace
 
 std::optional<std::string> find_default(const fs::path &p_scene_path, const std::string &p_key) {
@@ -190,23 +207,6 @@ Light3D &choose_light(const Scene &p_scene, const std::string &p_name) {
 			". Add a light (KHR_lights_punctual) with extras.shadow_enabled true, or name one "
 			"with ",
 			"--light, or use --stage auto.");
-}
-
-/// "technique.ID.NAME=value": true where p_setting is of that kind.
-static bool apply_technique_setting(const std::string &p_setting) {
-	constexpr std::string_view PREFIX = "technique.";
-	if (!p_setting.starts_with(PREFIX)) {
-		return false;
-	}
-	const size_t equals = p_setting.find('=');
-	const size_t dot = p_setting.rfind('.', equals);
-	if (equals == std::string::npos || dot <= PREFIX.size()) {
-		throw UsageError(text("--set is \"", p_setting, "\", must be technique.ID.NAME=value."));
-	}
-	const std::string_view all = p_setting;
-	ShadowRegistry::set_setting(all.substr(PREFIX.size(), dot - PREFIX.size()),
-			all.substr(dot + 1, equals - dot - 1), all.substr(equals + 1));
-	return true;
 }
 
 void apply_setting(const Scene &p_scene, Light3D *p_light, const std::string &p_setting) {

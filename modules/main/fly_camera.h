@@ -16,7 +16,7 @@ public:
 	void move(const glm::dvec3 &p_direction, double p_seconds, bool p_is_fast);
 	/// Turns by angles in radians; pitch stays short of straight up and down.
 	void turn(double p_yaw_rad, double p_pitch_rad);
-	/// Writes the position into a camera whose parent is the root.
+	/// Writes position and orientation into a camera whose parent is the root.
 	void apply(Camera3D &r_camera) const;
 
 private:

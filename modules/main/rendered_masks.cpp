@@ -18,7 +18,7 @@ namespace gnomon {
 namespace {
 
 // Limits for a cell of the report: 20 frames by default, or 3 s but at least 5 frames. Drawing the
-// mask itself has created the pipelines and warmed up.
+// mask itself has created the pipelines and warmed up; without a mask there is one warm-up frame.
 const MeasureLimits CELL_LIMITS = { 0, 20, 5, 3.0, 0 };
 const char *const SAMPLES_ENDING = "_samples"; // <id>_samples: the reference's rays per pixel
 
@@ -79,7 +79,8 @@ TracedReference RenderedMasks::trace_reference(
 	request.scene = scene;
 	request.wants_surfaces = true;
 	Renderer renderer(device);
-	// The reference technique logs two lines for each mask, which the report keeps.
+	// The reference technique logs two lines for each mask, which are hidden: the report records
+	// their contents.
 	set_log_level(LogLevel::WARNING);
 	const struct Restore {
 		~Restore() { set_log_level(LogLevel::INFO); }
@@ -120,30 +121,6 @@ MeasuredMask RenderedMasks::measure(
 	return measured;
 }
 
-namespace {
-
-/// Collects the program's warnings while it exists; other lines go to the previous sink.
-class WarningCollector {
-public:
-	explicit WarningCollector(std::vector<std::string> &r_warnings) {
-		before = set_log_sink([this, &r_warnings](LogLevel p_level, const std::string &p_line) {
-			if (p_level == LogLevel::WARNING) {
-				r_warnings.push_back(p_line);
-			} else {
-				forward_log(before, p_level, p_line);
-			}
-		});
-	}
-	~WarningCollector() { set_log_sink(std::move(before)); }
-	WarningCollector(const WarningCollector &) = delete;
-	WarningCollector &operator=(const WarningCollector &) = delete;
-
-private:
-	LogSink before;
-};
-
-} // namespace
-
 std::vector<uint8_t> RenderedMasks::draw_scene(
 		const std::shared_ptr<const SceneSnapshot> &p_scene, glm::uvec2 p_size_px) {
 	RenderRequest request;
@@ -158,12 +135,17 @@ DrawnMasks RenderedMasks::draw(
 		std::span<const MaskQuestion> p_questions, const std::string &p_technique) {
 	DrawnMasks drawn;
 	const unsigned message_count = get_validation_message_count();
-	const WarningCollector collector(drawn.warnings);
+	const LogFilterScope scope([&](LogLevel p_level, const std::string &p_line) {
+		if (p_level == LogLevel::WARNING) {
+			drawn.warnings.push_back(p_line);
+		}
+		return p_level != LogLevel::WARNING;
+	});
 	Renderer renderer(device);
 	for (const MaskQuestion &question : p_questions) {
 		RenderRequest request = make_request(question, p_technique);
 		if (question.scene->lights.size() > 1) {
-			// Draws all lights, not only the one that is measured.
+			// All lights are drawn too, not only the one that is measured.
 			RenderRequest whole_frame = request;
 			whole_frame.mask_light.clear();
 			whole_frame.wants_mask = false;
@@ -179,7 +161,7 @@ DrawnMasks RenderedMasks::draw(
 
 namespace {
 
-/// Lists the ids of the techniques and of the mask filters behind them.
+/// Lists the ids of the techniques, then those of the mask filters.
 std::vector<std::string> list_ids() {
 	std::vector<std::string> ids;
 	for (const ShadowTechniqueInfo &info : ShadowRegistry::get_all()) {

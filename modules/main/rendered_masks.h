@@ -26,8 +26,8 @@ public:
 	DrawnMasks draw(
 			std::span<const MaskQuestion> p_questions, const std::string &p_technique) override;
 
-	/// Returns the techniques with those ids; empty: all but the reference and examples. An unknown
-	/// id is a UsageError.
+	/// Returns the techniques and mask filters with those ids; empty: all but the reference and
+	/// examples. An unknown id is a UsageError.
 	static std::vector<TechniqueSource> find_techniques(const std::vector<std::string> &p_ids);
 
 private:

@@ -8,6 +8,8 @@
 #include "modules/main/commands.h"
 #include "modules/shadows/mask_filter.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -65,24 +67,6 @@ void read_stability_options(const ReportArguments &p_arguments, ReportOptions &r
 	}
 	r_options.stability = parse_extent(extent);
 	check_known("--sweeps", r_options.sweeps, part->list_sweeps());
-}
-
-/// * in the pattern is any text.
-bool matches_pattern(std::string_view p_text, std::string_view p_pattern) {
-	const size_t star = p_pattern.find('*');
-	if (star == std::string_view::npos) {
-		return p_text == p_pattern;
-	}
-	if (!p_text.starts_with(p_pattern.substr(0, star))) {
-		return false;
-	}
-	const std::string_view rest = p_pattern.substr(star + 1);
-	for (size_t first = star; first <= p_text.size(); ++first) {
-		if (matches_pattern(p_text.substr(first), rest)) {
-			return true;
-		}
-	}
-	return false;
 }
 
 } // namespace
@@ -187,8 +171,10 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	std::vector<std::string> names;
 	for (const auto &[name, file] : all) {
 		names.push_back(name);
-		const bool is_skipped = std::ranges::any_of(p_arguments.skipped_scenes,
-				[&](const std::string &p_pattern) { return matches_pattern(name, p_pattern); });
+		const bool is_skipped =
+				std::ranges::any_of(p_arguments.skipped_scenes, [&](const std::string &p_pattern) {
+					return fnmatch(p_pattern.c_str(), name.c_str(), 0) == 0;
+				});
 		if (!is_skipped &&
 				(requested.empty() ||
 						std::find(requested.begin(), requested.end(), name) != requested.end())) {
@@ -198,7 +184,8 @@ SelectedScenes select_scenes(const ReportArguments &p_arguments) {
 	check_known("--scenes", requested, names);
 	if (selected.scenes.empty()) {
 		fail("Project ", selected.folder,
-				" names no scene that exists. Set scenes in its project.cfg.");
+				all.empty() ? " names no scene that exists. Set scenes in its project.cfg."
+							: " has no scene that --skip leaves. Skip fewer.");
 	}
 	return selected;
 }

@@ -18,7 +18,7 @@ struct ReportArguments {
 	std::vector<std::string> sizes; // metres, or only "own"
 	std::string settings = "all";
 	uint32_t frame_count = 20;
-	std::vector<std::string> skipped_scenes; // names; * matches any text
+	std::vector<std::string> skipped_scenes; // names or patterns, as of fnmatch
 	std::vector<std::string> light_types;
 	std::string size = "256x256";
 	std::string scaling = "quick";
@@ -37,7 +37,7 @@ struct ReportArguments {
 /// Throws a UsageError for that option if a requested name is not known.
 void check_known(const char *p_option, const std::vector<std::string> &p_requested,
 		const std::vector<std::string> &p_known);
-// Each function throws a UsageError that names the option, the value and the allowed range.
+// Each function throws a UsageError that names the option, the value and what is allowed.
 ReportRunOptions parse_run_options(const ReportArguments &p_arguments);
 ReportOptions make_report_options(const ReportArguments &p_arguments, const std::string &p_project);
 

@@ -35,8 +35,8 @@ struct MaskTiming {
 	uint32_t frame_count = 0;
 	std::vector<PassMedians> passes; // in execution order
 	FrameCost total;				 // sums over the passes of a frame
-	/// The time for comparing techniques, in ms: the sum of each pass's GPU time, or of its wall
-	/// time if it runs on the CPU.
+	/// The time for comparing techniques, in ms: the median over the frames of the sum of each
+	/// pass's GPU time, or of its wall time if it runs on the CPU.
 	double cost_ms = 0;
 };
 
@@ -50,7 +50,8 @@ public:
 	void add_frame(const std::vector<PassCost> &p_passes);
 	uint32_t get_frame_count() const { return static_cast<uint32_t>(costs_ms.size()); }
 	/// Relative standard error of cost_ms, estimated from the frames: 1.2533 times that of the
-	/// mean, with the median absolute deviation as the spread. 1 below two frames.
+	/// mean, with the median absolute deviation as the spread. 1 below two frames or if cost_ms is
+	/// 0.
 	double compute_median_error() const;
 	MaskTiming compute() const;
 

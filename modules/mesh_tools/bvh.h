@@ -10,8 +10,8 @@
 
 namespace gnomon {
 
-/// A bounding volume hierarchy over boxes. Immutable once built; many threads may read it
-/// concurrently.
+/// A bounding volume hierarchy over boxes, to find those in a region without visiting all of them.
+/// Immutable once built; many threads may read it concurrently.
 class Bvh {
 public:
 	struct Node {

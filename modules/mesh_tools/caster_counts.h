@@ -12,7 +12,8 @@ struct CasterCounts {
 	uint64_t edge_count = 0;
 };
 
-/// p_light: cut-out casters use the level of detail for this light; null: they use the base level.
+/// Counts the casters. p_light: only those on the light's layers, cut-outs with the level of detail
+/// for this light; null: all casters, cut-outs with the scene's usual level.
 CasterCounts count_casters(const SceneSnapshot &p_scene, const LightSnapshot *p_light);
 
 } // namespace gnomon

@@ -9,10 +9,11 @@
 
 namespace gnomon {
 
-/// An edge between a face that faces the light and one that does not.
+/// An edge between a light-facing and a back-facing side of the surface. In a part that is not
+/// closed this can be a boundary edge, or one whose two faces have opposite winding.
 struct SilhouetteEdge {
 	uint32_t edge_index = 0; // into MeshTopology::edges
-	/// Welded vertices, in the winding direction of the face that faces the light.
+	/// Welded vertices, in the direction in which the surface winds on its light-facing side.
 	uint32_t from = 0;
 	uint32_t to = 0;
 	/// Multiplicity of the edge in a shadow volume: 1, or 2 for an interior edge of a double-sided
@@ -31,8 +32,8 @@ struct Silhouette {
 std::vector<uint8_t> compute_facing(const MeshTopology &p_topology, const glm::dvec4 &p_light_node);
 
 /// Sum over the edge's faces of (+1 if the face winds a -> b, else -1) x (+1 if it faces the light,
-/// else -1): 0, +-1 or +-2; closed parts halve it. The sign tells whether the silhouette runs a ->
-/// b or b -> a.
+/// else -1): 0, +-1 or +-2; closed parts halve it. The sign is that of the direction in which
+/// the silhouette runs: above 0 a -> b, below 0 b -> a.
 int compute_edge_weight(const MeshEdge &p_edge, const std::vector<uint8_t> &p_is_facing);
 
 /// Returns all edges with a nonzero weight. At every vertex the incoming and outgoing weights are

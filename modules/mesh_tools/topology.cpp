@@ -103,7 +103,7 @@ glm::dvec3 compute_cross(const glm::dvec3 &p_0, const glm::dvec3 &p_1, const glm
 	return has_area ? cross : glm::dvec3(0.0);
 }
 
-/// Computes it for a triangle of a mesh.
+/// Computes that cross product for a triangle of a mesh.
 glm::dvec3 compute_cross(const Mesh &p_mesh, uint32_t p_triangle) {
 	const uint32_t *corner = &p_mesh.indices[3 * size_t(p_triangle)];
 	return compute_cross(p_mesh.positions_node[corner[0]], p_mesh.positions_node[corner[1]],

@@ -115,9 +115,10 @@ struct MeshTopology {
 /// Builds the topology. Vertices are welded if their positions are equal (bit for bit, but -0
 /// equals 0) and, for a mesh with a rig, their joints, weights and morph targets are too. An edge
 /// of more than two faces is split: first faces of opposite winding that enclose a wedge of the
-/// inside are paired, then the rest by angle about the edge; an unpaired face becomes a boundary.
-/// The sum over faces that a silhouette weight is does not depend on this choice. Positions must be
-/// finite and indices valid, as make_mesh guarantees; a bad index is a programming error.
+/// inside are paired, then the rest by angle about the edge; an unpaired face makes its edge a
+/// boundary. The sum over faces that a silhouette weight is does not depend on this choice.
+/// Positions must be finite and indices valid, as make_mesh guarantees; a bad index is a
+/// programming error.
 MeshTopology build_topology(const Mesh &p_mesh);
 
 /// Returns a topology that is cached as long as the mesh lives; for a mesh that poses deform, that

@@ -12,7 +12,7 @@ double compute_triangle_distance(const glm::dvec3 &p_point, const glm::dvec3 &p_
 
 /// Returns whether a triangle of the mesh is nearer to the point, in world space, than the
 /// distance. It visits every triangle, but usually tests only its box: some milliseconds per
-/// million.
+/// million triangles.
 bool has_triangle_within(const Mesh &p_mesh, const glm::dmat4 &p_world_from_node,
 		const glm::dvec3 &p_point_world, double p_distance);
 

@@ -10,7 +10,7 @@ namespace gnomon {
 namespace {
 
 constexpr double REDUCED_ALBEDO = 0.98;	 // of skin and marble; Jensen et al. 2001, figure 5
-constexpr double REFRACTIVE_INDEX = 1.3; // of the same
+constexpr double REFRACTIVE_INDEX = 1.3; // of both; same figure
 constexpr double SHARE_IN_RADIUS = 0.95;
 constexpr uint32_t TABLE_SIZE = 4096; // share 1e-4 is half a step: linear steps are below 1e-3
 constexpr double LARGEST_SHARE = 1.0 - 1e-4;

@@ -18,7 +18,7 @@ struct PassBinding {
 	/// Whether a written resource keeps earlier content.
 	PassBuilder::Content content = PassBuilder::Content::FRESH;
 
-	SamplerRID sampler; // set for a texture that the shader samples with filtering
+	SamplerRID sampler; // set for a texture that the shader samples, not only fetches
 	uint32_t layer = Binding::ALL_LAYERS; // of the texture
 
 	/// The shader samples or fetches the texture.
@@ -50,9 +50,9 @@ void declare_bindings(PassBuilder &r_pass, std::span<const PassBinding> p_bindin
 void bind_compute(PassContext &r_context, PipelineRID p_pipeline,
 		std::span<const PassBinding> p_bindings, std::span<const uint8_t> p_push);
 
-/// Adds a pass that runs one compute shader over the items, with enough workgroups to cover them.
-/// The bindings both declare reads and writes and bind the resources. p_push: the shader's push
-/// constants, copied; empty if it has none.
+/// Adds a pass that runs one compute shader over the items, with enough workgroups of its local
+/// size to cover them. The bindings both declare reads and writes and bind the resources. p_push:
+/// the shader's push constants, copied; empty if it has none.
 void add_compute_pass(RenderGraph &r_graph, const std::string &p_name, PipelineRID p_pipeline,
 		std::vector<PassBinding> p_bindings, glm::uvec3 p_item_count,
 		std::span<const uint8_t> p_push = {});

@@ -51,8 +51,8 @@ private:
 	const RenderGraph &graph;
 };
 
-/// Time of one pass. gpu_ms is between two timestamps; wall_ms is what the CPU's clock saw from
-/// recording to the end of the pass, known only when passes ran one by one.
+/// Time of one pass. gpu_ms is the time between two timestamps; wall_ms is what the CPU's clock saw
+/// from recording to the end of the pass, known only when passes ran one by one.
 struct PassTiming {
 	std::string name;
 	double gpu_ms = 0;

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// The true mask of a light, one value per pixel, rows from the top.
+/// The reference mask of a light, one value per pixel, rows from the top.
 struct ReferenceMask {
 	glm::uvec2 size_px = glm::uvec2(0);
 	std::vector<float> visibility; // 0..1
@@ -29,12 +29,13 @@ struct DebugViewWish {
 	bool has_reference = false;
 };
 
-/// Returns the requested view; an unknown one is an Error that lists the available views. Null:
-/// show the lit image.
+/// Returns the requested view. Null: show the lit image, because none was requested, or one that
+/// does not exist and is not needed. A needed one that does not exist is an Error that lists the
+/// available views.
 const ShadowTechnique::DebugView *choose_debug_view(
 		std::span<const ShadowTechnique::DebugView> p_views, const DebugViewWish &p_wish);
 
-/// Draws a debug view's texture in place of the lit image, as RGBA8_UNORM.
+/// Draws a debug view's texture instead of the lit image, as RGBA8_UNORM.
 RGTexture add_debug_view_pass(const LitImage &p_image, const ShadowTechnique::DebugView &p_view);
 
 } // namespace gnomon

@@ -27,7 +27,8 @@ RGTexture add_ambient_pass(const LitImage &p_image);
 void add_lighting_pass(const LitImage &p_image, const LightShadow &p_shadow, RGTexture p_radiance);
 /// Creates the image that is shown or captured: RGBA8_UNORM, sRGB-encoded.
 RGTexture create_output_image(RenderGraph &r_graph, glm::uvec2 p_size_px);
-/// Tone-maps into such an output image.
+/// Tone-maps the radiance into a new output image, with the texels of each pixel averaged, and
+/// returns it.
 RGTexture add_tone_map_pass(const LitImage &p_image, RGTexture p_radiance);
 
 } // namespace gnomon

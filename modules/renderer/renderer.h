@@ -47,7 +47,7 @@ struct RenderRequest {
 	bool needs_debug_view = true;
 	bool wants_image = false; // RenderResult::image
 	bool wants_graph = false; // RenderResult::dot
-	/// Receives a copy of the image, if valid: RGBA8_UNORM, of the frame's size, COPY_TARGET.
+	/// If valid, also receives a copy of the image: RGBA8_UNORM, of the frame's size, COPY_TARGET.
 	TextureRID image_target;
 	/// Only this light's mask: no lighting, no image. Empty = all lights and the image.
 	std::string mask_light;

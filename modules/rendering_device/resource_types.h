@@ -45,7 +45,8 @@ uint32_t get_texel_size_bytes(Format p_format);
 const char *get_format_name(Format p_format);
 bool is_depth_format(Format p_format);
 bool has_stencil(Format p_format);
-/// Whether it is an integer format. These are render targets; blending has no effect on them.
+/// Whether it is one of the integer formats that can be render targets (not RGBA32_UINT); blending
+/// has no effect on them.
 bool is_uint_format(Format p_format);
 
 /// How a resource may be used; bits are combined with |.

@@ -199,8 +199,8 @@ private:
 	std::vector<BufferRID> stale_uploads;
 	/// For a local device: data that was read back, and the callbacks to call.
 	std::deque<std::pair<std::vector<uint8_t>, ReadBackCallback>> read_backs;
-	/// Shared with the callbacks that Godot stores: false once the recorded commands are abandoned,
-	/// or the device is destroyed.
+	/// Shared with the callbacks that Godot stores: the first is false once the recorded commands
+	/// are abandoned, the second once the device is destroyed.
 	std::shared_ptr<bool> is_submitted_or_recorded = std::make_shared<bool>(true);
 	std::shared_ptr<bool> is_alive = std::make_shared<bool>(true);
 

@@ -16,8 +16,8 @@ struct InjectedFault {
 	std::string pass;			// substring of the name of one of its passes
 	std::filesystem::path file; // file that must exist at submission
 
-	/// Returns the pass that meets the condition, or the last pass; nothing if the fault does not
-	/// apply.
+	/// Returns the pass that meets the condition, or the last pass if `pass` is empty; nothing if
+	/// the fault does not apply.
 	std::optional<std::string> find_pass(const std::vector<std::string> &p_pass_names) const;
 };
 /// Parses $GNOMON_INJECT_FAULT; empty: no fault. An unknown value is an Error that lists the known

@@ -31,7 +31,8 @@ const ReflectedBinding *find_binding(const ReflectedShader &p_shader, uint32_t p
 }
 
 /// The program provides what the shader declared when the program was built. A new version must
-/// declare all of those bindings; it may use fewer of them, and no others.
+/// declare all of those bindings and as many bytes of push constants; it may use fewer of the
+/// bindings, and no others.
 void check_interface(const std::string &p_name, std::span<const uint32_t> p_words) {
 	const ReflectedShader built = reflect_spirv(p_name, find_built_shader(p_name), {});
 	const ReflectedShader now = reflect_spirv(p_name, p_words, {});

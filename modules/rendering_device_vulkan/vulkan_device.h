@@ -102,7 +102,7 @@ struct LiveResource {
 	uint64_t size_bytes = 0;
 };
 
-/// A copy to the CPU that has been recorded but not finished.
+/// A copy to the CPU that has been recorded and whose callback has not been called yet.
 struct PendingReadBack {
 	uint64_t submission_number = 0;
 	BufferResource staging;

@@ -111,7 +111,7 @@ bool VulkanSwapchain::recreate(glm::uvec2 p_window_size_px) {
 			"vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
 	VkExtent2D extent = capabilities.currentExtent;
 	if (extent.width == std::numeric_limits<uint32_t>::max()) {
-		// The window system takes its size from the images.
+		// The window system takes the window's size from the images.
 		extent.width = std::clamp(p_window_size_px.x, capabilities.minImageExtent.width,
 				capabilities.maxImageExtent.width);
 		extent.height = std::clamp(p_window_size_px.y, capabilities.minImageExtent.height,
@@ -192,7 +192,7 @@ std::optional<TextureRID> VulkanSwapchain::acquire(glm::uvec2 p_window_size_px) 
 		const VkResult result = vkAcquireNextImageKHR(
 				device.device, swapchain, ACQUIRE_NS, acquisitions[next], VK_NULL_HANDLE, &index);
 		if (result == VK_TIMEOUT || result == VK_NOT_READY) {
-			return std::nullopt; // some window systems draw no frames of a hidden window
+			return std::nullopt; // some window systems take no frames of a hidden window
 		}
 		if (result == VK_ERROR_OUT_OF_DATE_KHR) {
 			is_out_of_date = true;

@@ -15,7 +15,7 @@ const int32_t CONTOUR_UNITS_PER_TEXEL = 256;
 /// by marching squares. Returns nothing when there are more segments than allowed.
 std::optional<std::vector<PolygonLoop>> find_alpha_contour(
 		const AlphaTest &p_test, size_t p_most_segments);
-/// Finds the same loops along the sides of texels, as a nearest sampler shows them. Texels that
+/// Finds such loops along the sides of texels, as a nearest sampler shows them. Texels that
 /// touch only at a corner are separated there.
 std::optional<std::vector<PolygonLoop>> find_alpha_squares(
 		const AlphaTest &p_test, size_t p_most_segments);

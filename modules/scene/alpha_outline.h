@@ -16,10 +16,9 @@ struct AlphaOutline {
 
 	glm::ivec2 size = glm::ivec2(0); // of the tile in units
 	std::vector<glm::ivec2> points;	 // in units, from the image's upper left corner
-	std::vector<uint32_t>
-			/// Three points each, all with the same winding; empty: the tile is fully transparent.
-			triangles;
-	bool is_whole = false;	 // the whole tile is opaque
+	/// Three points each, all with the same winding; empty: alpha is below the cutoff everywhere.
+	std::vector<uint32_t> triangles;
+	bool is_whole = false;	 // the region is the whole tile
 	uint32_t edge_count = 0; // edges of the region's border
 	/// 0: the outline is the contour itself. Above 0: squares stand for blocks of this many texels
 	/// a side.
@@ -37,7 +36,7 @@ struct AlphaOutline {
 /// A mask with more edges than p_edge_budget is simplified further, to at most a texel. If it still
 /// has more edges, as noise has, it becomes a half-tone: each block of texels gets a square, or a
 /// square hole, of the same area as the mask has there. The blocks are as small as the budget
-/// allows, at least 4 texels a side; a tile that is one hole has 8 edges.
+/// (at least 4 edges) allows; a tile that is one hole has 8 edges.
 AlphaOutline make_alpha_outline(
 		const AlphaTest &p_test, uint32_t p_edge_budget, double p_tolerance_px = 0.125);
 

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-/// An alpha test of a texture: which points of a surface are there. Tests that compare equal keep
+/// An alpha test of a texture: which points of a surface are there. Tests with equal members keep
 /// the same region.
 struct AlphaTest {
 	const Image *image = nullptr;
@@ -20,8 +20,7 @@ struct AlphaTest {
 };
 
 /// Makes the test for the material's base colour texture. The cutoff applies to the product of the
-/// texture's alpha and the material's own. The image is null if there is no
-/// texture.
+/// texture's alpha and the material's own. The image is null if there is no texture.
 AlphaTest make_alpha_test(const Material &p_material);
 /// Hashes everything that affects the test, texels included; without an image, the other fields.
 uint64_t compute_hash(const AlphaTest &p_test, uint64_t p_seed);

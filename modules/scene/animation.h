@@ -51,7 +51,8 @@ struct Animation {
 	std::vector<AnimatedNode> nodes; // the nodes that channels animate
 	double duration_s = 0;			 // the last key time of all channels
 
-	/// Wraps a time into 0..duration_s by looping; returns 0 if the duration is 0.
+	/// Wraps a time into 0..duration_s by looping; returns 0 if the duration is 0 or the time is
+	/// not finite.
 	double wrap_time(double p_time_s) const;
 };
 

@@ -15,7 +15,7 @@ public:
 	bool is_playing = true;
 	bool loops = true; // false: it pauses at its end, or at its start when played backwards
 
-	/// Starts playing; restarts from the other end if it is paused at one.
+	/// Starts playing; if it does not loop and is at its end, it restarts from the other end.
 	void play();
 	/// Advances by p_seconds of real time, times the speed, and poses the scene.
 	void advance(Scene &r_scene, double p_seconds);

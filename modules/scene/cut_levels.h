@@ -24,9 +24,9 @@ public:
 	CutLevels(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_material,
 			const std::shared_ptr<const Mesh> &p_cut);
 
-	/// Returns the coarsest level whose outline error is invisible under a penumbra whose half
-	/// width is p_radius, in metres of the node's space, measured at the caster. Returns the finest
-	/// level if none qualifies, and BASE for a hard shadow (p_radius 0 or less).
+	/// Returns the coarsest level whose outline error is negligible under penumbrae whose half
+	/// width is up to p_radius, in metres of the node's space, measured at the caster. Returns the
+	/// finest level if none qualifies, and BASE for a hard shadow (p_radius 0 or less).
 	uint32_t choose_level(double p_radius) const;
 	/// Returns a level's mesh, built on first use, from any thread. Null if nothing of the mesh is
 	/// left, or if the source mesh was freed.

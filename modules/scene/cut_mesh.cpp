@@ -318,7 +318,7 @@ auto make_key(const Mesh &p_mesh, const Material &p_material) {
 			texture.is_magnified_nearest, texture.uv_set, transform);
 }
 
-/// Hashes what decides which parts of a mesh are kept.
+/// Hashes what decides which parts of a mesh remain.
 uint64_t compute_content_hash(const Mesh &p_mesh, const Material &p_material) {
 	const Texture &texture = p_material.base_color_texture;
 	const std::vector<glm::vec2> &uvs = p_mesh.attributes.uvs[texture.uv_set];

@@ -39,8 +39,8 @@ CutMesh cut_mesh(const std::shared_ptr<const Mesh> &p_mesh, const Material &p_ma
 /// material is not cut out, it returns the mesh itself. Callable from any thread.
 CutMesh get_cut_mesh(const std::shared_ptr<const Mesh> &p_mesh,
 		const std::shared_ptr<const Material> &p_material);
-/// Frees cached cut meshes whose mesh was freed or whose material was freed or changed, unless they
-/// are in use. Call it once a frame, from any thread.
+/// Frees cached cut meshes whose source mesh was freed, and those whose material was freed or
+/// changed unless they are in use. Call it once a frame, from any thread.
 void drop_unused_cut_meshes();
 /// Returns the number of cached cut meshes.
 size_t get_cut_mesh_count();

@@ -39,7 +39,7 @@ bool has_position(const Node3D &p_node) {
 	return to<Light3D>(p_node).type != LightType::DIRECTIONAL;
 }
 
-/// The inner cone is within the outer one.
+/// Keeps the inner cone within the outer one by widening the outer one.
 void write_inner_cone(Node3D &r_node, const PropertyValue &p_value) {
 	write_degrees<Light3D, &Light3D::inner_cone_rad>(r_node, p_value);
 	Light3D &light = to<Light3D>(r_node);
@@ -65,7 +65,7 @@ std::vector<NodeField> make_light_fields() {
 				&read_color, &write_color },
 		{ make_info("intensity", PropertyType::FLOAT, 1.0, "0,1000000,0.1",
 				  "Luminous intensity in candela; of a directional light illuminance in lux. 0 "
-				  "skips the light.",
+				  "switches the light off.",
 				  "", "Light"),
 				&read_number<Light3D, &Light3D::intensity>,
 				&write_number<Light3D, &Light3D::intensity> },

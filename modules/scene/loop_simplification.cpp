@@ -20,7 +20,7 @@ double compute_distance(const glm::ivec2 &p_point, const glm::ivec2 &p_a, const 
 	return glm::length(offset - along * share);
 }
 
-/// One loop, and which of its points are kept.
+/// One loop, and which of its points are retained.
 struct Chain {
 	const PolygonLoop *loop;
 	std::vector<uint8_t> is_left; // per point
@@ -279,7 +279,7 @@ void restore_area(
 	}
 }
 
-/// Returns the points kept in a chain, moved by at most twice p_tolerance so that each line has as
+/// Returns the points left in a chain, moved by at most twice p_tolerance so that each line has as
 /// much of the loop on one side as on the other, because replacing a curve by chords alone would
 /// shrink round shapes. The other lines make up for those that end on the rectangle's border.
 PolygonLoop balance(const Chain &p_chain, double p_tolerance, const glm::ivec2 &p_size) {

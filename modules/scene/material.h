@@ -10,7 +10,7 @@
 namespace gnomon {
 
 /// How opaque surfaces reflect. METALLIC_ROUGHNESS: as glTF defines it (Lambert and GGX). PHONG:
-/// Phong 1975, whose lobe is as wide as the roughness states; for images like those of older
+/// Phong 1975, whose lobe is as wide as the roughness specifies; for images like those of older
 /// papers.
 enum class ShadingModel { METALLIC_ROUGHNESS, PHONG };
 

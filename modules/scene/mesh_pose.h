@@ -43,8 +43,8 @@ private:
 };
 
 /// The pose of one surface of a node. As long as the pose does not change, the MeshPose and
-/// everything derived from it are reused; the deformed meshes live as long as the slot.
-/// Thread-safe.
+/// everything derived from it are reused. The deformed meshes stay the same while the slot lives,
+/// but one that 100 poses did not use is dropped. Thread-safe.
 class PoseSlot {
 public:
 	explicit PoseSlot(std::shared_ptr<const Mesh> p_rest);

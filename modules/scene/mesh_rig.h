@@ -26,7 +26,7 @@ struct MeshRig {
 	size_t vertex_count = 0;
 	uint32_t influence_count = 0; // joints per vertex: 0 (no skin), 4 or 8
 	std::vector<uint32_t> joints; // influence_count per vertex
-	std::vector<float> weights;	  // as many as joints; 0..1, summing to 1 per vertex
+	std::vector<float> weights;	  // as many as joints; 0..1, sum 1 per vertex (see below)
 	/// Weight sums are not normalised: the host draws the mesh with its sums, which rounding made
 	/// less than 1.
 	bool keeps_weight_sums = false;
@@ -64,8 +64,8 @@ struct DeformedVertices {
 /// morph target weights; missing ones are 0. p_mesh must have a rig.
 DeformedVertices deform_vertices(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
-/// Returns bounds that enclose the posed vertices: the union of each joint's rest bounds,
-/// transformed by that joint.
+/// Returns bounds that enclose the posed vertices: the union of each joint's rest bounds, with what
+/// morph targets add, transformed by that joint.
 Bounds bound_deformed_vertices(
 		const Mesh &p_mesh, std::span<const glm::dmat4> p_joints, std::span<const float> p_weights);
 

@@ -86,7 +86,7 @@ bool is_staged(const Node3D &p_node) {
 
 std::vector<NodeField> make_node_fields() {
 	return { { make_info("position", PropertyType::VECTOR3, glm::dvec3(0.0), LENGTHS,
-					   "Transform of the node in its parent.", "m", "Transform"),
+					   "Position of the node in its parent.", "m", "Transform"),
 					 &read_position, &write_position },
 		{ make_info("rotation", PropertyType::VECTOR3, glm::dvec3(0.0), "-360,360,1",
 				  "Turn about y, then x, then z.", "deg", "Transform"),

@@ -97,7 +97,7 @@ PropertyValue get_node_property(const Node3D &p_node, std::string_view p_name) {
 	if (!info) {
 		fail_unknown(p_node, p_name);
 	}
-	// A file may hold anything under a name that no class declared when it was read.
+	// A file may hold anything under a name that nothing declared when it was read.
 	const auto stored = get_stored(p_node).find(p_name);
 	const bool is_used =
 			stored != get_stored(p_node).end() && check_property(*info, stored->second).empty();

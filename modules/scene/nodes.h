@@ -87,8 +87,8 @@ public:
 struct Skin {
 	std::vector<int> joints;
 	std::vector<glm::dmat4> joint_from_mesh; // inverse bind matrices, one per joint
-	/// The closest common ancestor of all joints: when it moves, the mesh moves rigidly. -1: the
-	/// world.
+	/// The closest common ancestor of all joints that is not a joint itself: when it moves, the
+	/// mesh moves with it as a whole. -1: the world.
 	int frame = -1;
 };
 

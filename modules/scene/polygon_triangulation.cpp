@@ -104,7 +104,7 @@ bool Triangulator::IsLeftOf::operator()(uint32_t p_a, uint32_t p_b) const {
 	if (upper_a == upper_b) {
 		return (*this)(p_a, triangulator.get_lower(p_b));
 	}
-	// The one that begins lower decides on which side of the other it begins.
+	// Tests on which side of the other edge the upper end of the one that begins lower is.
 	return is_above(upper_a, upper_b) ? (*this)(p_a, upper_b) : (*this)(upper_a, p_b);
 }
 

@@ -1,3 +1,3 @@
 #pragma once
 
-// Nothing to register: file readers create nodes and find them by class.
+// Nothing to register: file readers create the nodes, which are then found by their class.

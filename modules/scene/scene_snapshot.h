@@ -140,8 +140,8 @@ struct SceneSnapshot {
 	Bounds compute_bounds() const;
 };
 
-/// Builds a snapshot of the tree as p_camera sees it. Nodes with a transform that is not finite are
-/// an Error that names them; singular transforms are allowed (they draw nothing).
+/// Builds a snapshot of the whole tree, with p_camera as its camera. Nodes with a transform that is
+/// not finite are an Error that names them; singular transforms are allowed (they draw nothing).
 std::shared_ptr<const SceneSnapshot> build_snapshot(const Scene &p_scene, const Camera3D &p_camera);
 
 } // namespace gnomon

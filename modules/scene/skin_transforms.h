@@ -14,7 +14,7 @@ namespace gnomon {
 using WorldTransforms = std::map<int, glm::dmat4>;
 WorldTransforms compute_world_transforms(const Node3D &p_root);
 
-/// Where a skin puts a mesh: the frame that moves it rigidly, and a matrix per joint within that
+/// Where a skin puts a mesh: the frame that moves it as a whole, and a matrix per joint within that
 /// frame. A skinned mesh follows its joints, wherever its node is (glTF 2.0, 3.7.3.3).
 struct SkinTransforms {
 	glm::dmat4 world_from_mesh = glm::dmat4(1.0);

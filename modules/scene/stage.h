@@ -6,8 +6,8 @@
 
 namespace gnomon {
 
-/// What is added to a scene that lacks a camera, light or ground. AUTO: what is missing; ON: all of
-/// it, ahead of what exists; OFF: nothing.
+/// Whether stage_scene adds a camera, and a light with a ground. AUTO: what is missing; ON: all of
+/// them, ahead of what exists; OFF: nothing.
 enum class StageMode { AUTO, ON, OFF };
 /// Parses "auto", "on" or "off"; any other text is an Error that begins with p_object.
 StageMode parse_stage_mode(const std::string &p_text, const std::string &p_object);

@@ -44,7 +44,7 @@ struct MeshTriangle {
 	void set_up();
 	/// False: the whole triangle shows one line of texels, or none.
 	bool has_area() const { return std::isfinite(area) && area != 0; }
-	/// Signed distance value for one of the sides, positive inside.
+	/// Twice the signed area of the point with one of the sides, not its distance; above 0 inside.
 	double compute_inside(int p_side, const glm::dvec2 &p_uv) const;
 	glm::vec3 compute_position(const glm::dvec2 &p_uv) const;
 };
@@ -57,7 +57,7 @@ public:
 		glm::dvec2 uv = glm::dvec2(0.0);
 		int corner = -1;  // corner index of the triangle, or -1
 		int side = -1;	  // side of the triangle on which the point lies, or -1
-		double share = 0; // position along that side, 0..1
+		double share = 0; // position along that side; while clipping it may be outside 0..1
 	};
 
 	ClippedPiece(const MeshTriangle &p_triangle, const std::array<glm::dvec2, 3> &p_uvs);

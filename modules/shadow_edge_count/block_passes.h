@@ -43,7 +43,7 @@ RGTexture add_count_passes(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 
 /// Adds a pass that writes a debug image with three array layers: per pixel the number of edges
-/// that were counted, the number of solids before the light's centre, and the block's kind.
+/// that were counted, the number of solids between it and the light's centre, and its block's kind.
 RGTexture add_count_debug_pass(
 		RenderGraph &r_graph, const CountBlockPasses &p_passes, const CountBlocks &p_blocks);
 

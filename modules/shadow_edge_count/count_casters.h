@@ -14,7 +14,9 @@ struct CountCaster {
 	uint64_t mesh_id = 0;
 	uint64_t pose_hash = 0;
 	shader::CountCasterPush push;
-	bool is_moved = true; // it moved after the light's faces and edges were last found
+	/// Its transform in light space, or its pose, changed after the light's faces and edges were
+	/// last found.
+	bool is_moved = true;
 };
 
 /// The casters of all views of a light, each once, and how much room their faces and edges need.
@@ -41,8 +43,8 @@ struct CountCasters {
 /// R in metres; directional: a tangent.
 CountCasters build_count_casters(const ShadowTechnique::Inputs &p_inputs, double p_disc_radius);
 
-/// Clears CountCaster::is_moved of casters that did not move. p_before: earlier casters of the same
-/// light, with the same layout.
+/// Clears CountCaster::is_moved of casters with the same transform and pose as in p_before: earlier
+/// casters of the same light, with the same layout.
 void compare_casters(const CountCasters &p_before, CountCasters &r_casters);
 
 } // namespace gnomon

@@ -23,8 +23,8 @@ CountSettings read_count_settings(const LightSnapshot &p_light, const SceneSnaps
 		const PropertyValues &p_properties);
 
 /// The light's constants that every pass over its views and pixels reads; image sizes and
-/// capacities are left at 0. All views look from the light's centre (directional: there is one), so
-/// they differ from the first only by a rotation.
+/// capacities are left at 0. All views look from the light's centre (directional: one
+/// view), so they differ from the first only by a rotation.
 shader::CountLightConstants make_count_light_constants(
 		const std::vector<LightView> &p_views, double p_disc_radius, double p_scene_size_m);
 

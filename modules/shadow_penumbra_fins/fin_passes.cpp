@@ -125,7 +125,7 @@ void add_fin_pass(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 	const RGBuffer constants = r_graph.upload_constants("fins view",
 			compute_fins_view_constants(p_inputs, p_view_index, p_settings), BufferUsage::UNIFORM);
 	const RGTexture layer_1 = p_targets.layer_1;
-	// When layer 2 was not peeled, layer 1 is bound in its place and not read.
+	// When layer 2 was not peeled, layer 1 is bound instead, and not read.
 	const RGTexture layer_2 = p_targets.layer_2 ? p_targets.layer_2 : layer_1;
 	PassBuilder pass = r_graph.add_pass(text("fins view ", p_view_index));
 	pass.reads(constants, Access::UNIFORM_READ)

@@ -13,13 +13,17 @@ namespace gnomon {
 /// depth layer, with the usages DEPTH_ATTACHMENT, SAMPLED and, for ONE_PASS, COPY_TARGET.
 ///
 /// When no caster is closed and the second layer is empty, the third is not drawn: the second peel
-/// sets a flag on the GPU that predicates it.
+/// sets a flag on the GPU that predicates it. See is_layer_3_conditional.
+///
+/// r_texels: only for ONE_PASS with more than one layer, created when empty; a light's views share
+/// it.
 void add_layer_passes(RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs,
 		uint32_t p_view_index, std::span<const RGTexture> p_layers, Peeling p_peeling,
 		RGBuffer &r_texels);
 
 /// With Peeling::PASSES: true when the GPU decides whether layer 3 is drawn, depending on whether
-/// layer 2 is empty. False for views in which layer 2 is certainly not empty.
+/// layer 2 is empty. False for views in which layer 2 is certainly not empty, when nothing may be
+/// skipped, and on devices without conditional rendering or stores in fragment shaders.
 bool is_layer_3_conditional(const ShadowTechnique::Inputs &p_inputs, uint32_t p_view_index);
 
 } // namespace gnomon

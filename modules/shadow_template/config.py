@@ -6,7 +6,7 @@ def get_layer():
     return 4
 
 
-def is_example():  # a copy is none
+def is_example():  # delete in a copy
     return True
 
 

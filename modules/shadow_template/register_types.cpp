@@ -11,7 +11,7 @@ void initialize_shadow_template_module(ModuleLevel p_level) {
 	}
 	ShadowTechniqueInfo info = { "template", "Template: one hard comparison",
 		"doc/add_a_technique.md", "#bcbd22", [] { return std::make_unique<ShadowTemplate>(); } };
-	info.is_example = true; // a copy is none: the error report measures it
+	info.is_example = true; // delete in a copy: the error report then measures it
 	ShadowRegistry::add(std::move(info));
 }
 

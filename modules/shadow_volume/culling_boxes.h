@@ -16,7 +16,7 @@ struct CullingBoxes {
 };
 
 /// Splits a tree over the boxes into subtrees of at most 64 boxes. CullingBox::first of a caster is
-/// its index in p_boxes_world. Empty and NaN boxes are left out, so these casters are never hidden.
+/// its index in p_boxes_world. Empty and NaN boxes are skipped, so these casters are never hidden.
 /// The result is in float32, metres relative to p_origin_world.
 CullingBoxes build_culling_boxes(
 		std::span<const Bounds> p_boxes_world, const glm::dvec3 &p_origin_world);

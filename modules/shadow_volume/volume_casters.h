@@ -30,7 +30,7 @@ struct VolumeCasters {
 	uint32_t robust_count = 0; // with robust faces
 	uint32_t geometry_shader_count = 0;
 	uint32_t flat_count = 0;		// with a singular transform: no inside
-	uint32_t spared_caps_count = 0; // without caps, since z-pass is safe
+	uint32_t spared_caps_count = 0; // without far caps, since z-pass is safe
 	uint32_t unseen_count = 0;		// with a shadow outside the image
 };
 
@@ -43,8 +43,8 @@ LightView make_volume_camera(const ShadowTechnique::Inputs &p_inputs);
 VolumeCasters build_volume_casters(const ShadowTechnique::Inputs &p_inputs,
 		const VolumeSettings &p_settings, const std::vector<uint32_t> &p_instances);
 
-/// Estimates how many solids of the mesh overlap at most: each convex part counts as one, other
-/// parts count one for every 8 triangles, up to 32.
+/// Estimates how many solids of the mesh overlap at most, 1 to 32: as many as it has parts when all
+/// are convex (see count_convex_parts), else one for every 8 triangles of the mesh.
 uint32_t estimate_layers(const MeshTopology &p_topology);
 
 } // namespace gnomon

@@ -15,7 +15,7 @@ struct BrokenLimit {
 };
 
 /// Finds the limits that a light exceeds. A caster's triangles are searched again only when the
-/// caster or the light moved.
+/// caster, the light or the distance changed.
 class LightLimits {
 public:
 	/// p_technique_id is used in the text. p_limits: ShadowTechnique::get_limits of that technique.
@@ -29,7 +29,7 @@ public:
 private:
 	/// A caster whose triangles were searched, and the result.
 	struct Search {
-		uint64_t hash = 0; // mesh, its transform, the light's transform and the distance
+		uint64_t hash = 0; // of the caster, the light and the distance
 		bool is_near = false;
 	};
 	const InstanceSnapshot *find_near_caster(

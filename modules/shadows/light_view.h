@@ -60,11 +60,11 @@ struct LightScene {
 };
 
 /// Views that together cover everything the light reaches: 1 for a spot with a half angle up to 60
-/// degrees and for a directional light (fitted to the casters), 6 for omni and wider spots (that
-/// the cone misses are included, so that a view's index is its axis). A perspective view has a
-/// border of p_border_px texels around the light's field, so that a filter of that radius stays in
-/// the map. p_caster_margin_m: how far a technique extends the casters; a directional view holds
-/// it.
+/// degrees and for a directional light (fitted to the casters), 6 for omni and wider spots
+/// (including views that the cone misses, so that a view's index is its axis). A perspective view
+/// has a border of p_border_px texels around the light's field, so that a filter of that radius
+/// stays in the map. p_caster_margin_m: how far a technique extends the casters, in metres; a
+/// directional view contains the extended casters.
 std::vector<LightView> build_light_views(const LightSnapshot &p_light, const LightScene &p_scene,
 		uint32_t p_map_size_px, uint32_t p_border_px, float p_caster_margin_m = 0.0f);
 

@@ -31,7 +31,7 @@ float compute_mask_luminance(const glm::vec3 &p_mask);
 /// technique's own bindings start at MAP_RESOLVE_OWN_BINDING.
 std::vector<PassBinding> make_map_resolve_bindings(
 		RenderGraph &r_graph, const ShadowTechnique::Inputs &p_inputs);
-/// As above, with another light position and its views instead of those of the inputs.
+/// As above for a light that was moved: p_light and p_views replace those of the inputs.
 std::vector<PassBinding> make_map_resolve_bindings(RenderGraph &r_graph,
 		const ShadowTechnique::Inputs &p_inputs, const LightSnapshot &p_light,
 		const std::vector<LightView> &p_views);
@@ -44,7 +44,8 @@ RGTexture create_drawn_mask(RenderGraph &r_graph, glm::uvec2 p_size_px);
 RGTexture create_stencil_target(
 		RenderGraph &r_graph, const std::string &p_name, glm::uvec2 p_size_px);
 /// Describes a pipeline that draws one triangle over the whole image into these two attachments,
-/// and changes neither depth nor stencil. The caller sets the stencil state.
+/// and changes neither depth nor stencil. p_fragment_shader writes the mask. The caller sets the
+/// stencil state.
 RasterPipelineDesc make_screen_desc(
 		const std::string &p_name, const std::string &p_fragment_shader);
 

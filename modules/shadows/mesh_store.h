@@ -56,8 +56,8 @@ public:
 	}
 	/// Adds the pass that deforms meshes to the scene's poses. Call it before all passes that read
 	/// vertices; buffers that are requested later in the frame are deformed too. With p_may_reuse,
-	/// vertices whose pose did not change are kept. Returns the number of instances that it
-	/// deforms.
+	/// vertices whose pose did not change stay as they are. Returns the number of instances that
+	/// it deforms.
 	uint32_t add_deform_pass(
 			RenderGraph &r_graph, const SceneSnapshot &p_scene, bool p_may_reuse = true);
 	RenderingDevice &get_device() { return device; }

@@ -70,6 +70,11 @@ void ShadowRegistry::set_setting(
 }
 
 void apply_technique_settings(const Project &p_project) {
+	for (auto &[id, settings] : get_all_settings()) {
+		for (const PropertyInfo &info : settings.list.get_properties()) {
+			settings.values[info.name] = info.default_value; // another project may have changed it
+		}
+	}
 	for (const auto &[id, values] : p_project.technique_settings) {
 		for (const auto &[name, value] : values) {
 			try {

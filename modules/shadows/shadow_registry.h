@@ -63,8 +63,8 @@ public:
 /// The property group of settings for tests, benchmarks and comparisons. No page or list shows it.
 extern const char *const TEST_SETTINGS_GROUP;
 
-/// Applies the [technique.ID] sections of a project. Unknown techniques or settings, which another
-/// build may have, only cause a warning: the project must open in every build.
+/// Resets all settings to their defaults, then applies the [technique.ID] sections of a project. An
+/// id, name or value that this build does not know only warns: the project must open everywhere.
 void apply_technique_settings(const Project &p_project);
 
 /// The technique that a light gets, and why it is not the requested one.

@@ -121,7 +121,7 @@ public:
 	virtual ~ShadowTechnique() = default;
 
 	/// The limits within which the technique's results hold, see its page. Called once a frame,
-	/// with p_properties as in Inputs; a light beyond a limit is warned about.
+	/// with p_properties as in Inputs; a light beyond a limit gets a warning.
 	virtual ShadowLimits get_limits(const PropertyValues & /*p_properties*/) const { return {}; }
 
 	/// Properties this technique adds to a light; names begin with the technique's id. Called on

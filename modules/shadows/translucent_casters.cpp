@@ -14,7 +14,7 @@ struct Shade {
 	double radius_m = 0;				   // of the caster
 	double cosine = 1;					   // of the cone's half angle
 	double sine = 0;
-	bool is_everywhere = false; // the cone's half angle is 90 degrees, or the light is inside
+	bool is_everywhere = false; // half angle of 90 degrees or more, or the light is inside
 };
 
 Shade find_shade(const LightSnapshot &p_light, const Bounds &p_bounds) {

@@ -10,10 +10,11 @@ const float SNAP_TEXELS = 2.0 / 256.0;
 // Height of neighbouring facets of a curved surface above the receiver's plane, as a fraction of a
 // texel, for light along the normal. Mean error against the exact hard shadow (400 x 400, map
 // 1024): "terrain" .0085 with a constant 0.15, .0035 with this; "torus_knot" .0026 and .0025;
-// others equal.
+// the other scenes similar.
 const float CURVATURE_TEXELS = 0.08;
 const float MAX_STRETCH = 40.0;
-// Limits the offset on steep planes, beyond the map's resolution, to this fraction of w.
+// Limit of the change of w within an offset, as a fraction of w (orthographic: of the view's depth):
+// steeper planes exceed the map's resolution.
 const float MAX_RELATIVE_CHANGE = 0.25;
 
 /// Minimum difference in w between a blocker and the receiver's plane: what the map cannot resolve.

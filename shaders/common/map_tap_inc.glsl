@@ -21,9 +21,9 @@ float lookup_w(
 	const ivec2 fetched = clamp(texel, ivec2(0), ivec2(p_view.size_px) - 1);
 	const float stored = texelFetch(p_map, ivec3(fetched, p_view.layer), 0).r;
 	const bool is_drawn = (p_empty_views & (1u << p_view.layer)) == 0u;
-	// Beyond the sides of a single view its border texel is used: casters outside a spot's cone
-	// still hide it, and the border of a directional light's map, which holds all casters, is
-	// empty.
+	// Beyond the sides of a single view its border texel is used: for a spot light it represents
+	// casters outside the cone; the border of a directional light's map, which holds all casters,
+	// is empty.
 	float w = is_drawn ? stored / p_view.depth_scale : 0.0;
 	// Beyond the side of one of six views another one goes on. A loop and no branch: software drivers
 	// run what a branch skips, but leave a loop.

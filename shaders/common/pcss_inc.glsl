@@ -11,7 +11,7 @@
 float pcss(texture2DArray p_map, uint p_empty_views, LightViewConstants p_view, MapPoint p_point,
 		float p_radius, float p_nearest_w, uint p_tap_count, float p_angle_rad) {
 	const float margin = hiding_margin(p_view, p_point);
-	// A blocker at w covers the light's disc at its map offset / (w - w_receiver).
+	// A blocker of w hides the point of the light's disc at its map offset / (w - w_receiver).
 	const vec2 extent = texel_extent(p_view);
 	const float search_radius = min(p_radius * max(p_nearest_w - p_point.w, 0.0),
 			max(p_view.half_extent.x, p_view.half_extent.y));

@@ -25,7 +25,7 @@ struct CountCrossings {
 };
 
 /// Adds a face where it is between the receiver and the light's centre. p_is_before: the receiver is in
-/// front of it, and the light's centre does not, or the other way round.
+/// front of it and the light's centre is not; false: the other way round.
 void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_before, inout CountCrossings r_found) {
 	const vec2 a = count_offset(p_receiver, uintBitsToFloat(p_face.a_kind.xyz)).xy;
 	const vec2 b = count_offset(p_receiver, uintBitsToFloat(p_face.b.xyz)).xy;
@@ -39,7 +39,7 @@ void count_face(CountReceiver p_receiver, CountFaceRecord p_face, bool p_is_befo
 }
 
 /// Solids between a receiver and the light's centre. Where the receiver is inside closed parts, more faces
-/// are light-facing, where the light does, more are back-facing: the larger number is that of
+/// are light-facing; where the light's centre is inside, more are back-facing: the larger number is that of
 /// the parts that hide it.
 int sum_crossings(CountCrossings p_found) {
 	return p_found.both + max(p_found.away, p_found.toward);

@@ -45,7 +45,7 @@ float count_half_angle(vec2 p_direction) {
 	return p_direction.x < 0.0 ? COUNT_PI - angle : angle;
 }
 
-/// The angle of a direction in sectors of the points, and so much that it is not below 0 in any turn.
+/// The angle of a direction in sectors of the points, plus an offset so that it is not below 0 in any turn.
 float find_count_angle(vec2 p_direction) {
 	const float half_angle = count_half_angle(vec2(p_direction.x, abs(p_direction.y)));
 	const float angle = p_direction.y < 0.0 ? 2.0 * COUNT_PI - half_angle : half_angle;
@@ -65,7 +65,7 @@ uvec2 count_points_before(int p_index) {
 	return p_index < 32 ? uvec2(part, 0u) : uvec2(0xffffffffu, part);
 }
 
-/// The points from one point on to another, the way that angles grow. Neighbours that share a direction share no
+/// Mask of a turn's points from one angle (see find_count_angle) counter-clockwise to another. Neighbours that share a direction share no
 /// point and leave none.
 uvec2 find_count_wedge(float p_from, float p_to, uint p_turn) {
 	const int from = find_count_sector(p_from, p_turn);

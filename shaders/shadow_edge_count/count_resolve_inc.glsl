@@ -235,7 +235,7 @@ HeldEdge get_part(HeldRound p_held, uint p_part) {
 	return choose_held(p_part >= 2u, low, high);
 }
 
-/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the slots from p_first_slot on there.
+/// Tests edges p_lane .. p_lane + 3 of a part of a round, which have the slots from p_first_slot + p_lane on.
 void share_four(HeldEdge p_held, uint p_lane, uint p_first_slot, CountReceiver p_receiver, inout CountShare r_share) {
 	share_edge(p_held, p_lane, p_first_slot, p_receiver, r_share);
 	share_edge(p_held, p_lane + 1u, p_first_slot, p_receiver, r_share);

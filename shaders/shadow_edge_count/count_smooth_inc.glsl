@@ -19,7 +19,7 @@ const uint PIXELS_PER_INVOCATION = uint(EDGE_COUNT_BLOCK_PX * EDGE_COUNT_BLOCK_P
 shared float counted[SIDE * SIDE]; // visibility
 shared float coefficients[SIDE * SIDE];
 
-/// 0, 2, 5 and 7: they are even about the middle, and the outermost are among them, so that nothing is extrapolated.
+/// 0, 2, 5 and 7: they are symmetric about the middle, and the outermost are among them, so that nothing is extrapolated.
 uint find_counted_line(uint p_index) {
 	return 2u * p_index + (p_index > 1u ? 1u : 0u);
 }

@@ -7,7 +7,8 @@
 const float PI = 3.14159265358979;
 // The class, in g of the penumbra colour (the paper stores it in B): 0.5 outer, 0 inner or nothing.
 const float PENUMBRA_CLASS_OUTER = 0.5;
-// Slack for inexact bilinear filtering: four outer texels may give slightly less than the class, others more than 0.
+// Slack for inexact bilinear filtering: four outer texels may give slightly less than the class,
+// four texels of 0 slightly more than 0.
 const float PENUMBRA_CLASS_TOLERANCE = 1e-3;
 const float PENUMBRA_INNER_SHARE = 0.3; // visibility on the silhouette: inner below, outer above
 

@@ -5,7 +5,7 @@
 
 // An occluder's edges, as wide as all texels that they touch. Beyond a silhouette light passes: nothing
 // may be hidden there. At another edge the surface goes on, on the two faces' planes: the texel's centre
-// covers one of them only, so that the farther one counts here. A texel that several edges touch gets
+// is on one of them only, so that the farther one counts here. A texel that several edges touch gets
 // the farthest of theirs.
 layout(std430, set = 0, binding = CULLING_BINDING_POSITIONS) readonly buffer Positions {
 	vec4 positions_node[];

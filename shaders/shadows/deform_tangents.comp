@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shadows/deform_inc.glsl"
 
-// Computes tangents of a mesh at a pose, one vertex per invocation; w is kept.
+// Computes tangents of a mesh at a pose, one vertex per invocation; w is copied.
 layout(std430, set = 0, binding = DEFORM_BINDING_POSITIONS) readonly buffer Tangents {
 	vec4 rest_tangents[];
 };

@@ -7,7 +7,7 @@
 #define TOPOLOGY_EDGE_INCONSISTENT 0x80000000u
 // In the same: the edge's part is not closed, or inside out. A boundary's never is closed.
 #define TOPOLOGY_EDGE_NOT_SOLID 0x40000000u
-// Word per face: bit i, the face owns its edge i (corners i and i + 1); bit 3 + i, no face shares
+// Word per face: bit i, the face owns its edge i (corners i and i + 1); bit 3 + i, no other face shares
 // it; bit 6 + i, the face that shares it runs along it in the same direction; bit 9, the face's part
 // is not closed, or inside out.
 #define TOPOLOGY_FACE_OWNS_EDGE 1u

@@ -63,7 +63,8 @@ struct AccuracyScene {
 	}
 };
 
-/// A case may be of another size, where few pixels suffice.
+/// A case may have its own size: a larger one where at the common size too few pixels would show an
+/// error.
 uint32_t read_size_px(const nlohmann::json &p_limits, const nlohmann::json &p_case) {
 	return (p_case.contains("size_px") ? p_case : p_limits).at("size_px").get<uint32_t>();
 }

@@ -1,4 +1,4 @@
-"""Scenes in which one rule of what is skipped has its effect; measure_lean.py renders them."""
+"""Scenes in each of which one rule for skipping work has its effect; measure_lean.py renders them."""
 
 import math
 import os

@@ -65,7 +65,7 @@ def make_knot(triangle_count):
 
 
 def measure(scene, technique, *settings):
-    """Return the output of `visibility --time`, with the wall time of each pass by its name, in ms."""
+    """Return what `visibility --time` writes, with the wall time of each pass by its name, in ms."""
     settings = (*LIGHT, "%s_map_size=%d" % (technique, SIZE_PX), *settings)
     words = [word for setting in settings for word in ("--set", setting)]
     with tempfile.TemporaryDirectory() as folder:

@@ -18,7 +18,7 @@ import lean_scenes
 from driver import PROGRAM, describe_machine, format_table, run, write_table
 
 HIDDEN_COUNT = 252
-MOST_EXTRA = 0.10  # what hidden lights may cost in addition to those in view
+MOST_EXTRA = 0.10  # what hidden lights may cost in addition, as a fraction of the time of those in view
 
 
 class Rule:

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Runs the whole `gnomon report` and writes its ranking, reading figures and plots into doc/benchmarks.md.
+"""Runs the whole `gnomon report`; --write: writes its ranking, reading figures and plots into doc/benchmarks.md.
 
-    measure_report.py [--out DIR] [--resume] [--no-run]
+    measure_report.py [--write] [--out DIR] [--resume] [--no-run]
 
 --no-run takes the report that is in DIR. Every cell draws 20 frames or 3 s and the scaling curves are full: about
 20 minutes on two cores. The plots are taken from the page by headless chromium.
@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import check_report_page  # noqa: E402
 from driver import PROGRAM, describe_machine, format_table, write_table  # noqa: E402
 
-IMAGES = os.path.join(ROOT, "doc", "images")
+IMAGE_FOLDER = os.path.join(ROOT, "doc", "images")
 # The study's scenes and the population of its figures: doc/benchmarks.md.
 STUDY_SCENES = ("sphere", "contact_box", "torus_knot", "stacked_layers", "clutter", "terrain")
 SHOWN_SCENE = "torus_knot"
@@ -126,7 +126,7 @@ def save_images(page, images):
                 "return { x: box.x + scrollX, y: box.y + scrollY, width: box.width, height: box.height, scale: 1 }; })()" % element
             )
             result = browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=box)
-            path = os.path.join(IMAGES, name)
+            path = os.path.join(IMAGE_FOLDER, name)
             # 64 colours are enough for plots, and keep the repository small.
             command = ["convert", "png:-", "-colors", "64", "-strip", "PNG8:" + path]
             subprocess.run(command, input=base64.b64decode(result["data"]), check=True)
@@ -136,6 +136,7 @@ def main():
     parser = argparse.ArgumentParser(description="Measures the whole report for doc/benchmarks.md.")
     parser.add_argument("--out", default=os.path.join(ROOT, "demo_project", "out", "full_report"), help="the report's folder")
     parser.add_argument("--resume", action="store_true", help="goes on with a run that was stopped")
+    parser.add_argument("--write", action="store_true", help="tables and images into doc/benchmarks.md")
     parser.add_argument("--no-run", action="store_true", help="takes the report that is there")
     options = parser.parse_args()
     load_path = os.path.join(options.out, "load.txt")
@@ -154,8 +155,12 @@ def main():
         ("report_study", build_study(report)),
         ("report_scaling", build_scaling(report)),
     ):
-        write_table(part, [*lines, "", where])
-    save_images(os.path.join(options.out, "index.html"), IMAGES)
+        lines += ["", where]
+        print("\n".join(lines), flush=True)
+        if options.write:
+            write_table(part, lines)
+    if options.write:
+        save_images(os.path.join(options.out, "index.html"), IMAGES)
     return 0
 
 

@@ -2,8 +2,8 @@
 """Measures errors and times of techniques and writes them into the tables of doc/techniques/*.md.
 
 A table is between `<!-- begin errors ID [property=value ...] -->` and `<!-- end errors -->`:
-penumbra errors on the six study scenes at three light sizes. `begin times` in the same way: the total of
-`visibility --time` at R = 0.4 m. References are traced once (the program keeps them in its cache).
+penumbra errors on the six study scenes at three light sizes. `begin times` marks one of times: the total of
+`visibility --time` at R = 0.4 m. References are traced once (the program caches them).
 
     measure_techniques.py [--only ID]... [--errors | --times]
 """

@@ -6,7 +6,7 @@
 The error that falls is the MAE over penumbra pixels. From r = t = R/4 the widths are moved one by one, by factors
 that shrink, with 0 among them; then beta is tried over fixed values, then the widths once more. The table also
 shows what the derived widths, r = t = R, give, and the means over the study's six scenes. --write puts it into doc/techniques/penumbra_fins.md.
-References are traced once (the program keeps them in its cache).
+References are traced once (the program caches them).
 """
 
 import argparse

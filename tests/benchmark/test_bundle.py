@@ -33,12 +33,12 @@ def copy_into(root, path):
 
 
 def make_root(root, has_driver):
-    """A root with tools of the shell and, where wanted, Mesa's software driver."""
+    """Make a root with tools of the shell and, if has_driver, Mesa's software driver."""
     files = []
     for tool in TOOLS:
         path = shutil.which(tool)
         files += [path, *list_libraries(path)]
-    # A program that nothing was linked for: the C library itself, which the bundle does not bring.
+    # Parts of the C library that the program needs; the bundle does not contain the C library.
     files += [path for path in list_libraries(PROGRAM) if "/libm." in path or "/libdl." in path or "/libpthread." in path]
     if has_driver:
         for name in os.listdir(DRIVER_FOLDER):

@@ -1,4 +1,4 @@
-"""Scenes that the measurements of shadow volumes make for themselves: too large to be stored."""
+"""Scenes that the measurements of shadow volumes make for themselves: too large to be committed."""
 
 import math
 import os

@@ -48,7 +48,7 @@ def load_gltf(path):
 
 
 def find_lights(scene):
-    """Name of the node -> (its extras, its light). A name may be there twice: the last one."""
+    """Name of the node -> (its extras, its light). If a name occurs twice, the last node counts."""
     found = {}
     for node in scene["nodes"]:
         index = node.get("extensions", {}).get(LIGHTS, {}).get("light")

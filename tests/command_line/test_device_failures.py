@@ -32,7 +32,7 @@ class FailingDevices(CommandLineTest):
         ):
             for fault, words in FAULTS.items():
                 if fault == "hang" and command[0] == "run":
-                    continue  # it takes seconds, and waits in the same way
+                    continue  # it takes seconds, and waits at the same point of the code
                 with self.subTest(command=command[0], fault=fault):
                     result = run(*command, GNOMON_INJECT_FAULT=fault, **FIRST_HANG)
                     self.assertEqual(result.returncode, 1, result.stderr)

@@ -1,4 +1,4 @@
-"""The editor changes materials of meshes, whose shadows then soften, and saves them at their index."""
+"""The editor changes materials of meshes, whose shadows then soften, and saves each at its index in the file."""
 
 import os
 import sys

@@ -102,6 +102,10 @@ class Reports(ReportCase):
         ))  # fmt: skip
         (sun,) = [item for item in report["configurations"] if item["light_type"] == "directional"]
         self.assertAlmostEqual(sun["light_angular_distance_deg"], 6.0, 3)
+        report = self.load_done("types", self.report(
+            "types", "--scenes", "sphere", "--sizes", "own", "--light-types", "omni", "--techniques", self.get_fallback(),
+        ))  # fmt: skip
+        self.assertEqual([item["light_size_m"] for item in report["configurations"]], [0.4])
 
     def test_wrong_sizes_are_refused(self):
         for sizes in ("own,0.4", "large", "-1", "nan"):

@@ -109,7 +109,7 @@ void run(const char *p_out, const char *p_depth, const char *p_normals) {
 	device_options.validation = true;
 	const std::unique_ptr<RenderingDevice> device = create_rendering_device(device_options);
 	TransientPool transients(*device);
-	ShadowSystem shadows(*device); // cached from frame to frame
+	ShadowSystem shadows(*device); // one for all frames
 	OwnedTexture drawn_depth;
 	OwnedTexture drawn_normals;
 

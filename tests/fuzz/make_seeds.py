@@ -291,7 +291,7 @@ def write_textures(folder):
 
 
 def add_skin(card, joint_sets):
-    """Two joints, of which each vertex follows both; as many sets of four as needed."""
+    """Add a skin of two joints, both of which each vertex follows; joint_sets: sets of four joints and weights a vertex."""
     corners = 4
     for number in range(joint_sets):
         joints = struct.pack("<16B", *(0, 1, 0, 1) * corners)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Replays the saved corpus of every fuzz target.
+"""Replays the committed corpus of every fuzz target.
 
     replay_corpus.py SUFFIX        of bin/replay_<target>.SUFFIX, as scons names it: release_address_undefined
 

@@ -11,7 +11,7 @@ def build_chunk(kind, data):
 
 
 def build_header(width, height):
-    """Return the header of a PNG image with 8-bit red, green, blue and alpha."""
+    """Return the IHDR chunk of a PNG image with 8-bit red, green, blue and alpha."""
     return build_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0))
 
 

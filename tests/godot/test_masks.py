@@ -78,7 +78,7 @@ def save_images(name, found, expected):
 
 
 def check_case(light, caster, technique):
-    """Return what is wrong; empty if nothing is. light: or a scene, whose light caster is then used."""
+    """Return what is wrong; empty if nothing is. light may also be a scene; caster then names its light."""
     stem = os.path.join(OUT, "%s_%s" % (light, caster))
     name = "%s_%s" % (stem, technique)
     found, _height = godot_images.load_rows(name + ".f32", SIZE)

@@ -27,7 +27,8 @@ PROCESS_GROWTH = 1.1  # of the process's memory, which the allocator and the dri
 
 
 def find_growth(reports):
-    """Return the counts that are higher at the end than after the first frames."""
+    """Return a message for each count that is higher at the end than after SETTLED frames, and for memory of the process
+    that is more than PROCESS_GROWTH times as much."""
     settled = [report for report in reports if report[0] >= SETTLED]
     first, last = settled[0], settled[-1]
     grown = []

@@ -195,7 +195,7 @@ def check_backends(tree):
 
 
 def check_test_headers(tree):
-    """What is in a folder of tests is included by tests: such as what they may do to a device."""
+    """Headers in a folder of tests, such as what tests may do to a device, are included by tests only."""
     for path in tree.find_sources(CPP):
         if path.startswith("tests/") or "/tests/" in path:
             continue

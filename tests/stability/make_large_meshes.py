@@ -1,4 +1,4 @@
-"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is stored."""
+"""Scenes of well-known meshes that are open or not manifold, from packages that npm downloads. Nothing of them is committed."""
 
 import gzip
 import hashlib

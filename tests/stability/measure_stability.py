@@ -112,7 +112,7 @@ def build_cases(report, sweep):
 
 
 def build_causes(report):
-    """Build the table of how often each technique breaks, and what the path in double finds."""
+    """Build the table of how often each technique breaks, and what the path in double gives as causes."""
     rows = []
     points = [
         (series["technique"], point, report["cells"][point["cell"]].get("stability", {}))

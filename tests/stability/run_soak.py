@@ -27,7 +27,7 @@ def follow(stream, lines):
 
 
 def run(program, frame_count, seed):
-    """Return whether the test passed. Prints the test's output except its frames."""
+    """Return whether the test passed. Prints the test's output except its frames and its summary."""
     environment = {**os.environ, "GNOMON_SOAK_FRAMES": str(frame_count), "GNOMON_SOAK_SEED": str(seed)}
     process = subprocess.Popen(
         [program, "--test-case=" + TEST], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"

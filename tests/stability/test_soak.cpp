@@ -1,5 +1,5 @@
 // Frames of scenes that change at random, again and again: nothing grows, nothing breaks. 150
-// frames; GNOMON_SOAK_FRAMES and GNOMON_SOAK_SEED change them, see run_soak.py.
+// frames unless GNOMON_SOAK_FRAMES is set; GNOMON_SOAK_SEED sets the seed. See run_soak.py.
 //
 // Each block of frames is drawn three times. Only what the process grows by the third time is a
 // leak of ours: Mesa's software driver compiles shaders for each new use of them and keeps them.

@@ -1,7 +1,7 @@
 class_name GltfImport
 extends RefCounted
-## Loads glTF files of `gnomon` while the project runs: what their lights' extras define of the size, and a GnomonShadow3D for
-## each.
+## Loads glTF files of `gnomon` while the project runs: their lights get the sizes that their extras define, and a
+## GnomonShadow3D each.
 
 
 static func load_scene(path: String) -> Node3D:

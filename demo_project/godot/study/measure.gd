@@ -44,7 +44,7 @@ func _measure_file(path: String) -> void:
 		var case := "%s_%s" % [path.get_file().get_basename(), shown.name]
 		await _measure(case, shown)
 		for light: Light3D in lights:
-			light.visible = true  # hidden ones are not written to the file
+			light.visible = true  # `gnomon` reads no files with hidden nodes
 		GltfExport.save(scene, _options.path(case + ".gltf"))
 	await _remove(scene)
 

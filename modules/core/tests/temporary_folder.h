@@ -21,8 +21,8 @@ struct TemporaryFolder {
 };
 
 /// An empty folder in an environment variable, so that no test depends on what another one left.
-/// Afterwards the variable has its previous value, so that a folder chosen by the test script stays
-/// in use and never the user's own.
+/// Afterwards the variable has its previous value, so that a folder that the test script has chosen
+/// is used again, and never the user's own.
 struct TemporaryUserFolder : TemporaryFolder {
 	explicit TemporaryUserFolder(const char *p_variable) : variable(p_variable) {
 		if (const char *value = std::getenv(variable)) {

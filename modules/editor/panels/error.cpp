@@ -37,7 +37,7 @@ void draw_metrics(const MaskMetrics &p_metrics) {
 			double(p_metrics.penumbra.pixel_count), 100.0 * p_metrics.umbra_over);
 }
 
-/// The precision of the reference so far, and the controls of its tracing.
+/// Draws the precision of the reference so far, and the controls of its tracing.
 void draw_reference(EditorContext &r_context) {
 	ErrorState &state = r_context.error;
 	if (ImGui::Button(state.is_stopped ? "Start" : "Stop")) {
@@ -100,7 +100,7 @@ void draw_image(EditorContext &r_context, const char *p_name, void *p_image, ImV
 	r_context.note_item(std::string("image ") + p_name);
 }
 
-/// A click shows it in the viewport, another click the image itself again.
+/// A click shows it in the viewport, another click the lit image again.
 void draw_view(EditorContext &r_context, const char *p_view, void *p_image, ImVec2 p_size) {
 	draw_image(r_context, p_view, p_image, p_size);
 	if (ImGui::IsItemClicked()) {
@@ -125,7 +125,8 @@ void draw_images(EditorContext &r_context) {
 	const ImVec2 size(size_px.x * scale, size_px.y * scale);
 	draw_view(r_context, "mask", state.mask_texture, size);
 	ImGui::SameLine();
-	draw_image(r_context, "reference mask", state.metrics ? state.reference_texture : nullptr, size);
+	draw_image(
+			r_context, "reference mask", state.metrics ? state.reference_texture : nullptr, size);
 	ImGui::SameLine();
 	draw_view(r_context, "error", state.metrics ? state.error_texture : nullptr, size);
 	if (ImGui::IsItemHovered()) {

@@ -13,8 +13,8 @@ const ImU32 MARK_COLOR = IM_COL32(230, 230, 230, 200);
 const ImU32 OUTER_COLOR = IM_COL32(255, 150, 40, 230);
 const ImU32 INNER_COLOR = IM_COL32(70, 150, 255, 230);
 
-/// Returns the radius for the handle of a circle at the mouse's position along the line from the
-/// centre to the handle.
+/// Returns the new radius of a circle whose handle is dragged: the mouse's movement in this frame
+/// counts along the line from the centre to the handle.
 double compute_dragged_radius(double p_radius_m, double p_metres_per_px,
 		const std::optional<ImVec2> &p_center, const ImVec2 &p_handle) {
 	const ImGuiIO &io = ImGui::GetIO();

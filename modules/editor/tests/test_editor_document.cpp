@@ -246,7 +246,7 @@ TEST_CASE("[EditorDocument] so is one to a file that the scene refers to") {
 	CHECK(document.is_file_newer());
 	document.reload();
 	CHECK_FALSE(document.is_file_newer());
-	// While it is away, somebody is writing it.
+	// While it is missing, another program is writing it.
 	fs::rename(project.scene, project.path / "away");
 	CHECK_FALSE(document.is_file_newer());
 }

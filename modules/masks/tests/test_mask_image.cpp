@@ -178,7 +178,8 @@ TEST_CASE("[MaskImage] damaged files give an image of their size or an error, no
 TEST_CASE("[MaskImage] attributes that a mask does not need are skipped, whatever they hold") {
 	const MaskImage image = make_image(5, 3);
 	std::vector<uint8_t> bytes = encode_mask_exr(image, "whole");
-	// Behind the header is where the only block begins, 8 bytes further.
+	// The header is followed by the offset of the only block, which begins right after its 8
+	// bytes.
 	size_t table = 8;
 	uint64_t block = 0;
 	while (block != table + sizeof(block)) {

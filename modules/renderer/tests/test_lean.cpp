@@ -9,7 +9,7 @@ using namespace gnomon;
 
 namespace {
 
-/// The image with the rules and without them, which must be one; returns the former.
+/// Draws the image with the rules and without them, which must be equal; returns the former.
 RenderResult render_both(RenderFixture &r_fixture, const SmallScene &p_scene) {
 	const RenderResult lean = r_fixture.render_image(p_scene);
 	const RenderResult whole = r_fixture.render_image(p_scene, "", false);

@@ -19,11 +19,11 @@ using TestDevice = std::unique_ptr<RenderingDevice, DeviceReturn>;
 enum class DeviceChoice { ANY, NEW };
 
 /// A device under validation. Making pipelines is most of what tests would do, so one that a test
-/// has returned, sound and without resources, goes to the next that needs any.
+/// has returned, sound and without resources, goes to the next that requests ANY.
 /// p_device: as DeviceOptions::device; it and denied features get a new device.
 TestDevice create_test_device(
 		DeviceChoice p_choice, const std::string &p_device = "", const FeatureList &p_denied = {});
-/// Destroys the devices that are kept for further tests.
+/// Destroys the devices that are retained for further tests.
 void close_test_devices();
 
 } // namespace gnomon

@@ -31,7 +31,7 @@ uint32_t get_pipeline_count(RenderingDevice &r_device) {
 	return get_godot_device(r_device).get_pipeline_count();
 }
 
-// Godot logs its messages; whoever runs the tests looks there.
+// Godot logs its messages, where the test runner looks for them.
 ExpectedValidationMessages::ExpectedValidationMessages() = default;
 ExpectedValidationMessages::~ExpectedValidationMessages() = default;
 

@@ -54,7 +54,8 @@ bool is_inside(const AlphaOutline &p_outline, const glm::dvec2 &p_point) {
 	return false;
 }
 
-/// How far from the contour, in alpha, a wrongly decided point may be.
+/// Checks random points: all that are not within about p_tolerance_px texels of the contour must
+/// be on its right side.
 void check_points(const AlphaTest &p_test, const AlphaOutline &p_outline, double p_tolerance_px) {
 	std::minstd_rand random(5);
 	std::uniform_real_distribution<double> uniform(0, 1);

@@ -341,7 +341,7 @@ TEST_CASE("[CutMesh] random masks on random triangles keep their area") {
 		const CutMesh cut = cut_mesh(make_grid(1 + i % 4, repeats, offset), material);
 		const double share =
 				cut.mesh ? compute_area(*cut.mesh) / compute_area(*make_grid(1, 1)) : 0.0;
-		// A line approximates a hyperbola: of masks that change from texel to texel that shows.
+		// A line approximates a hyperbola, which shows in masks that change from texel to texel.
 		const double tolerance = material.base_color_texture.is_magnified_nearest ? 0.02 : 0.08;
 		CHECK(std::abs(share - sample_share(material, repeats, offset)) < tolerance);
 	}

@@ -52,7 +52,7 @@ struct CountedCasters {
 	std::vector<CountEdge> edges;
 	std::vector<CountFace> faces;
 
-	/// Edges whose faces the whole light sees from the same side are left out.
+	/// Edges whose faces the whole light sees from the same side are skipped.
 	void add_mesh(const MeshTopology &p_topology, const glm::dmat4 &p_light_from_node,
 			const CountSpace &p_space);
 };

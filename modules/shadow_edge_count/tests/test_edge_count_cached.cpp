@@ -1,4 +1,4 @@
-// What is cached from frame to frame, what makes it new, and that every frame is the same bit for
+// What is cached from frame to frame, what invalidates it, and that every frame is the same bit for
 // bit.
 
 #include "modules/core/files.h"

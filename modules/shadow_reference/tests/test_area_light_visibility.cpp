@@ -190,7 +190,7 @@ TEST_CASE("[Reference] degenerate receivers have a defined value, never NaN") {
 		{ LIGHT.position, { 0, 0, 0 }, true },				   // 1: on the light
 		{ { 3, 0, 0 }, { 0, 0, 0 }, true },					   // no normal: traced from where it is
 		{ LIGHT.position + glm::vec3(0, 0, 1e-6f), up, true }, // closer than its radius
-		{ { 3, 0, 1e6f }, up, true }, // far behind the light: the renderer would not query
+		{ { 3, 0, 1e6f }, up, true }, // far behind the light: the renderer would not query it
 	};
 	const std::vector<float> visibility =
 			make_scene().build().compute(points, { 8, 1 }, LIGHT, make_options(64)).visibility;

@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// Difference of a mask from the result of rays to the light's centre, over all receivers.
+/// Difference of a mask from the result of rays to the light's centre, over receivers.
 struct HardDifference {
 	size_t receiver_count = 0;
 	size_t hidden_count = 0;

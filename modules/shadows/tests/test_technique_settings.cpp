@@ -84,6 +84,9 @@ TEST_CASE("[TechniqueSettings] a project sets them, and warns of what this build
 	CHECK(std::get<std::string>(ShadowRegistry::get_setting_values("setting_probe").at("way")) ==
 			"short");
 	CHECK(log.lines.size() == 2);
+	apply_technique_settings(Project::parse("[project]\nname=\"other\"\n", "/nowhere/project.cfg"));
+	CHECK(std::get<std::string>(ShadowRegistry::get_setting_values("setting_probe").at("way")) ==
+			"auto");
 }
 
 TEST_CASE(

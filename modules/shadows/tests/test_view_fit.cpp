@@ -7,7 +7,7 @@ using namespace gnomon;
 
 namespace {
 
-/// What a directional view over a ground of 200 m sees of a box about the center.
+/// A directional view over a ground of 200 m, to be fitted to a box about p_center.
 struct FittedScene {
 	SmallScene scene = SmallScene(LightType::DIRECTIONAL);
 	std::shared_ptr<const SceneSnapshot> snapshot;

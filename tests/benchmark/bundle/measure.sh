@@ -7,7 +7,7 @@ usage() {
 Usage: ./measure.sh [--quick | --all] [options]
   --quick         (default) errors and times of every technique in ten scenes, 512 x 512; on two CPU cores 8 minutes at most
   --all           the same, and times at 1920 x 1080 and 3840 x 2160 in the study's scenes and courtyard
-  --out DIR       where the results go (default: results beside this script)
+  --out DIR       where the results go (default: results, next to this script)
   --device NAME   Vulkan device, by name or index
   --scenes A,B    of the ten scenes these only
   --size WxH      of their images

@@ -1,5 +1,5 @@
 extends AddonTest
-## What masks do to the image: each light by its own, next to Godot's own shadows.
+## What masks do to the image: each light by its own mask, together with Godot's own shadows.
 
 const SIZE := Vector2i(160, 120)
 const ROUNDING := 0.004 # of half floats whose values reach 1 and more
@@ -87,7 +87,7 @@ func test_another_light_keeps_the_shadow_of_godot() -> void:
 	other.shadow_enabled = true
 	var viewport := _add_linear(scene)
 	var together := await _draw(viewport)
-	for frame in 3: # it has a size, therefore another light instead
+	for frame in 3: # the other light has a size, therefore a stand-in light
 		check(_find_largest_difference(together, await _draw(viewport, 1)) < ROUNDING, "the image is the same in each frame")
 	other.visible = false
 	var first := await _draw(viewport)
