@@ -41,7 +41,7 @@ RULES = (
          ("penumbra_outer_width=0", "penumbra_inner_width=0")),
     Rule("layers, t = 0", lean_scenes.make_balls, "layers 2 and 3: skipped, t is 0", "penumbra_fins", ("penumbra_inner_width=0",)),
     Rule("scatter without translucent surfaces", lean_scenes.make_balls, "scatter: skipped"),
-    Rule("filter where blocks have few edges", lambda folder: lean_scenes.make_lights(0, folder), "edges: skipped, all casters together", "edge_count",
+    Rule("filter where blocks have few edges", lean_scenes.make_balls, "edges: skipped, all casters together", "edge_count",
          ("edge_count_budget=65536",)),
     Rule("caps where z-pass is safe", lean_scenes.make_knots, "casters: skipped, z-pass is safe", "shadow_volume"),
     Rule("maps at rest", lean_scenes.make_knots, "skipped, cached: neither the light nor a caster moved", "shadow_map", (), True),
@@ -63,7 +63,7 @@ def measure(scene, folder, size_px, technique=None, settings=(), words=()):
     if technique:
         command += ["--technique", technique]
     for setting in settings:
-        command += ["--set", "light.Light." + setting]
+        command += ["--set", setting if setting.startswith("technique.") else "light.Light." + setting]
     plan = run(command)
     with open(times, encoding="utf-8") as file:
         return plan, json.load(file)
