@@ -2,12 +2,13 @@
 # All tests of Gnomon: installs what is missing, builds, runs. Last line: N passed, N failed, N skipped.
 set -uo pipefail
 
-PARTS="layers scenes build docs engine embed command_line demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
+PARTS="layers scenes build docs engine embed command_line editor demo bundle stability removal template sanitized fuzz_replay godot sanitized_all threads fuzz tables editor_repeats large_meshes validator soak kills extremes blender"
 
 usage() {
     cat <<'TEXT'
-Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
-  --full       in addition to the quick tests: sanitizers over everything, removal of every technique in
+Usage: tests/run_tests.sh [--sanitized] [--full] [--godot] [--jobs N] [--only PART]...
+  --sanitized  also the modules that need no GPU under sanitizers, and the stored fuzzing inputs
+  --full       in addition to all of these: sanitizers over everything, removal of every technique in
                turn, a build of the smallest game, tables with 9216 light samples, the editor's tests ten
                times, shadow volumes of large meshes and gltf-validator (installs npm, which downloads them), fuzzing
                (installs clang), 10,000 frames of scenes that change at random, programs killed 200
@@ -16,10 +17,9 @@ Usage: tests/run_tests.sh [--full] [--godot] [--jobs N] [--only PART]...
                build/ (1.2 GB, as root)
   --jobs N     build jobs (default: one a core)
   --only PART  this part only; may be repeated. Parts: layers scenes build docs engine embed
-               command_line demo bundle stability removal template sanitized fuzz_replay; with --godot also godot; with
-               --full also sanitized_all
-               threads tables editor_repeats large_meshes validator fuzz soak kills extremes; only when named:
-               blender (installs Blender, 160 MB)
+               command_line editor demo bundle stability removal template sanitized fuzz_replay; with --godot
+               also godot; with --full also sanitized_all threads tables editor_repeats large_meshes validator
+               fuzz soak kills extremes; only when named: blender (installs Blender, 160 MB)
 FUZZ_SECONDS   how long each fuzz target runs (environment; default 600)
 Exit code: 0 all passed, 1 something failed, 2 wrong usage.
 TEXT
@@ -29,11 +29,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root" || exit 1
 jobs=$(nproc 2>/dev/null || echo 1)
 is_full=no
+is_sanitized=no
 has_godot=no
 only=()
 while [ $# -gt 0 ]; do
     case $1 in
-        --full) is_full=yes ;;
+        --full) is_full=yes is_sanitized=yes ;;
+        --sanitized) is_sanitized=yes ;;
         --godot) has_godot=yes ;;
         --jobs | --only)
             if [ $# -lt 2 ]; then
@@ -62,10 +64,13 @@ while [ $# -gt 0 ]; do
     shift
 done
 
-# is_requested PART: those of Godot are requested together.
+# is_requested PART: whether the part runs. The parts godot_* are requested together, as the part godot.
 is_requested() {
     local requested=$1 name
     case $requested in
+        sanitized | fuzz_replay)
+            [ ${#only[@]} -gt 0 ] || [ "$is_sanitized" = yes ] || return 1
+            ;;
         godot_*)
             [ "$has_godot" = yes ] || return 1
             requested=godot
@@ -96,7 +101,7 @@ fi
 install_packages "${packages[@]}" || exit 1
 
 work=$(mktemp -d) || exit 1
-# Background jobs of a script ignore the interrupt key: they end with it.
+# Background jobs of a script ignore the interrupt key, so they are ended together with the script.
 trap 'kill $(jobs -p) 2>/dev/null; rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 # Never the user's own cache; shared by all parts, so that a reference is traced once.
@@ -105,7 +110,7 @@ export PYTHONDONTWRITEBYTECODE=1
 unset GNOMON_UPDATE_GOLDEN # tests compare; only tests/golden/update.sh writes
 mkdir -p "$GNOMON_CACHE_DIR"
 
-# One file a part, in the order in which they end: "PASSED FAILED SKIPPED" and a line for people.
+# One file per lane, with a line for each part in the order in which they end: "PASSED FAILED SKIPPED" and text for people.
 results=$work/results
 mkdir "$results"
 
@@ -123,7 +128,7 @@ keep_failures() {
     } >>"$work/failures"
 }
 
-# run_part PART COMMAND...: adds up the command's own summary line. No such line, or a bad exit
+# run_part PART COMMAND...: adds the counts of the command's own summary line. No such line, or a bad exit
 # code without a failed test, counts as one failure, so that a crash is never silent.
 run_part() {
     local part=$1 log=$work/log.$lane status summary counts
@@ -161,8 +166,8 @@ run_check() {
     fi
 }
 
-# run_lanes "PART..."...: the parts of a lane one after another, the lanes side by side: most parts leave a core idle now
-# and then. What the lanes after the first print is shown when they end.
+# run_lanes "PART..."...: each argument is a lane. A lane runs its parts one after another, and the lanes run at the same
+# time, because most parts leave a core idle now and then. The output of the lanes after the first is shown when all have ended.
 lane=0
 run_lanes() {
     local part parts first number=0
@@ -259,17 +264,20 @@ part_embed() {
 part_command_line() {
     run_part "command line" python3 tests/run_unittest.py tests/command_line/test_bad_input.py \
         tests/command_line/test_good_commands.py tests/command_line/test_downloaded_models.py tests/command_line/test_animation.py \
-        tests/command_line/test_window.py tests/command_line/test_report.py \
-        tests/command_line/test_stopped_report.py tests/command_line/test_editor.py tests/command_line/test_editor_views.py \
-        tests/command_line/test_editor_safety.py tests/command_line/test_editor_materials.py \
-        tests/command_line/test_editor_staging.py tests/command_line/test_editor_timeline.py \
+        tests/command_line/test_report.py tests/command_line/test_stopped_report.py \
         tests/command_line/test_device_failures.py tests/command_line/test_kills.py
+}
+part_editor() {
+    run_part editor python3 tests/run_unittest.py tests/command_line/test_window.py tests/command_line/test_editor.py \
+        tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
+        tests/command_line/test_editor_materials.py tests/command_line/test_editor_staging.py \
+        tests/command_line/test_editor_timeline.py
 }
 part_blender() {
     run_part blender python3 tests/run_unittest.py tests/blender/test_export.py tests/blender/test_round_trip.py
 }
 part_demo() {
-    # Meshes that no technique was tuned for take three lights each: the stability part draws some of them, "tables" all.
+    # Without --all the demo draws few of the untuned meshes. The part "stability" draws more, and "tables" all of them.
     run_check demo demo_project/run_demo.sh --no-build --size 128x128 --samples 64 --frames 3 --no-window --out "$work/demo"
 }
 part_bundle() {
@@ -303,7 +311,7 @@ part_godot_set_up() {
     run_check "godot set-up" install_godot "$root"
 }
 part_godot_build() {
-    # Quick now, and what it exports is needed here.
+    # Quick, because godot_set_up has run. Its lane is a subshell, so $GODOT and $GODOT_TEMPLATE are exported here.
     install_godot "$root" && run_check "godot build" scons -Q -j"$jobs" compiledb=no godot=yes
 }
 part_godot_device() {
@@ -319,7 +327,7 @@ part_godot_editor() {
     run_part "godot editor" python3 tests/godot/test_editor.py
 }
 part_godot_soak() {
-    run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 200)"
+    run_part "godot soak" python3 tests/godot/test_soak.py --room-frames "$([ "$is_full" = yes ] && echo 2000 || echo 400)"
 }
 part_sanitized_all() {
     run_check "all sanitized build" scons -Q -j"$jobs" compiledb=no sanitize=address,undefined &&
@@ -354,24 +362,22 @@ part_kills() {
         tests/command_line/test_device_failures.py
 }
 part_editor_repeats() {
-    # Windows, mice and other processes: what passes once may fail the next time.
+    # These tests depend on windows, the mouse and other processes, so they may pass once and fail the next time.
     local repeat
     for repeat in 1 2 3 4 5 6 7 8 9 10; do
-        run_part "editor, time $repeat" python3 tests/run_unittest.py tests/command_line/test_editor.py \
-            tests/command_line/test_editor_views.py tests/command_line/test_editor_safety.py \
-            tests/command_line/test_editor_materials.py tests/command_line/test_editor_timeline.py
+        part_editor
     done
 }
 
 # shellcheck source=demo_project/install_godot.sh
 . demo_project/install_godot.sh
 run_lanes "layers scenes"
-# All that follows runs what this one builds. Builds use all cores, and no test may see half of one.
+# All parts below run the programs that this part builds. Nothing runs beside it: a test might use a half-built program.
 if is_requested build; then
     part_begin=$SECONDS
     run_check build scons -Q -j"$jobs" || finish
 fi
-run_lanes "docs engine" "godot_set_up embed command_line template" "demo bundle stability removal"
+run_lanes "docs engine embed template stability demo bundle" "godot_set_up command_line removal" "editor"
 # Only on request: the package is large.
 if [ ${#only[@]} -gt 0 ]; then
     run_lanes blender
